@@ -22,6 +22,7 @@ struct ContactRow {
                              // of its reach
   float bias;                // m/s, that it asks for
   float target;              // m/s, least normal speed
+  float slack;               // m/s, by which it may be missed
   float friction;
   float normal_impulse;        // N s, accumulated along the normal
   glm::vec3 friction_impulse;  // N s, accumulated across it
@@ -37,6 +38,11 @@ inline glm::vec3 relative_velocity(const ContactRow& row, Field<const float> v) 
   for (std::size_t k = 0; k < 4; ++k)
     if (row.mobility[k] != 0) velocity += row.weight[k] * read(v, row.slot[k]);
   return velocity;
+}
+
+/// Changes the velocities of its corners.
+inline void apply(const ContactRow& row, const glm::vec3& impulse, Field<float> v) {
+  for (std::size_t k = 0; k < 4; ++k) add(v, row.slot[k], row.mobility[k] * impulse);
 }
 
 /// Changes the velocities so that one row meets its target and friction its cone, and adds to the row's impulses: one

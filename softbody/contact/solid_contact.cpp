@@ -1,6 +1,7 @@
 #include "softbody/contact/solid_contact.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -11,7 +12,9 @@
 #include "softbody/contact/kernels.h"
 #include "softbody/contact/law.h"
 #include "softbody/contact/solid_overlap.h"
+#include "softbody/contact/solid_law.h"
 #include "softbody/contact/solid_placement.h"
+#include "softbody/contact/solid_shapes.h"
 #include "softbody/contact/surface_vectors.h"
 #include "softbody/state/kernels.h"
 
@@ -180,6 +183,46 @@ bool SolidContact::apply_to_particles(const Batch& b, float h, bool again) {
     if (!more) break;
   }
   return !own.near.empty();
+}
+
+void SolidContact::add_particle_rows(BodyId body, float travel, std::vector<ContactRow>& rows) const {
+  const Batch& b = state_.batch_of(body);
+  const auto lane = std::size_t(state_.body(body).lane);
+  const std::vector<SolidArguments>& near = of_batch_[b.index].near;
+  for (std::uint32_t i = 0; i < near.size(); ++i) {
+    const SolidArguments& s = near[i];
+    if (!(s.near >> lane & 1u) || s.moves[lane] == 0) continue;
+    const glm::vec3 place(s.place.x[lane], s.place.y[lane], s.place.z[lane]);
+    for (Index v = 0; v < b.particles(); ++v) {
+      const auto slot = std::uint32_t(state_.slot(body, v));
+      const glm::vec3 at = read(field(std::as_const(state_.x)), slot) - place;
+      const SurfaceAt<float> surface = std::visit(
+          [&](const auto& shape) { return body::surface_at(shape, body::Vec<float>{at.x, at.y, at.z}); }, s.shape);
+      if (surface.distance > travel) continue;
+      ContactRow& row = rows.emplace_back();
+      row.slot.fill(slot);
+      row.weight[0] = 1;
+      row.mobility[0] = 1 / s.mass;
+      row.mass = s.mass;
+      row.normal = {surface.normal.x, surface.normal.y, surface.normal.z};
+      row.friction = s.friction;
+      row.target = law::min_speed(surface.distance, 1 / s.h);
+      row.slack = infinite;  // what is left they do by themselves
+      row.feature = i;
+    }
+  }
+}
+
+void SolidContact::book(BodyId body, std::span<const ContactRow> rows) {
+  const Batch& b = state_.batch_of(body);
+  const auto lane = std::size_t(state_.body(body).lane);
+  OfBatch& own = of_batch_[b.index];
+  for (const ContactRow& row : rows) {
+    if (row.normal_impulse <= 0) continue;
+    softbody::add(impulse(b), lane, row.normal_impulse * row.normal);
+    own.returned[lane] += own.near[row.feature].restitution * row.normal_impulse;
+    std::atomic_ref(own.pushed).fetch_or(1u << lane, std::memory_order_relaxed);
+  }
 }
 
 }  // namespace softbody

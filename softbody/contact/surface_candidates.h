@@ -45,6 +45,7 @@ class SurfaceCandidates {
     bool overlap = false;     // some vertex may be inside the other body: see find_interior_vertices()
     bool separating = false;  // so deep, or so much in one place, that the bodies are moved apart as a whole
     std::uint32_t interior = 0, interior_end = 0;  // its interior vertices
+    bool closes = false, joins = false;            // see SurfaceContact::find_islands()
     int thread = 0;                                // that makes its rows, and where they are
     std::uint32_t first_row = 0, rows = 0;
   };
@@ -96,6 +97,7 @@ class SurfaceCandidates {
 
   const collide::surface::SurfaceSearch& search() const { return search_; }
   bool empty() const { return pairs_.empty(); }
+  std::size_t body_count() const { return bodies_.size(); }
   const std::vector<Pair>& pairs() const { return pairs_; }
   std::vector<Pair>& pairs() { return pairs_; }
   /// Returns the places of the pairs in pairs(), so that those of one colour share no body.

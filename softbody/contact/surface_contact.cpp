@@ -12,6 +12,7 @@ void SurfaceContact::make_rows(int thread, int threads, Field<const float> x, Fi
   const collide::Part part = collide::part_of(candidates_.pairs().size(), thread, threads);
   for (std::size_t i = part.begin; i < part.end; ++i) {
     candidates_.pairs()[i].thread = thread;
+    candidates_.pairs()[i].closes = candidates_.pairs()[i].joins = false;
     maker.add_rows(candidates_.pairs()[i]);
   }
 }

@@ -3,13 +3,15 @@
 // a row (surface_row_maker.h); the rows of a substep are solved by projected Gauss-Seidel with accumulated impulses,
 // started from those of the substep before (Catto 2005; many substeps of few iterations, Macklin et al. 2019), of rows
 // that push out from a part of them. Bodies' pairs are coloured, so that those of a colour share no body and the result
-// does not depend on threads.
+// does not depend on threads. What still closes too fast once solids have acted is solved together with these, island
+// by island (joint_solve.h).
 
 #include <functional>
 #include <span>
 #include <vector>
 
 #include "softbody/contact/contacts.h"
+#include "softbody/contact/joint_solve.h"
 #include "softbody/contact/surface_row_maker.h"
 
 namespace softbody {
@@ -27,9 +29,15 @@ class SurfaceContact {
   State save() const;
   void restore(const State& state);
 
-  static constexpr int iterations = 2;      // a substep
-  static constexpr int max_iterations = 8;  // see needs_more_iterations()
-  static constexpr int max_passes = 8;      // of resolve_after_solids(), which the solids take with it
+  static constexpr int iterations = 2;  // a substep
+
+  /// Pairs that are solved together with the solids that their bodies touch.
+  struct Island {
+    std::vector<std::uint32_t> pairs;  // their places
+    std::vector<Index> bodies;
+    float speed = 0;      // m/s, with which they may meet
+    bool closes = false;  // a contact closes too fast
+  };
 
   /// Takes the threads that will call. To be called before candidates are found.
   void set_threads(int threads) { thread_work_.resize(static_cast<std::size_t>(threads)); }
@@ -42,16 +50,16 @@ class SurfaceContact {
   /// Solves them on the velocities. On every thread, after a barrier; `barrier` is called by all threads alike.
   void solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
              const std::function<void()>& barrier);
-  /// Whether two bodies pass each other half as far as they may in a substep of h, or one lies on itself: what a solid
-  /// stops is then hit from behind by the body's other side.
-  bool needs_more_iterations(float h) const;
-  /// Solves once more the rows of fast pairs whose targets the solids, which act last, have violated. Returns false if
-  /// there are none. Call it on every thread, after a barrier.
-  bool resolve_after_solids(int thread, int threads, Field<float> v, float h, const std::function<void()>& barrier);
+  /// Finds the contacts that close too fast now that solids, which act after solve(), have pushed bodies back. Returns
+  /// false if there are none. On every thread, after a barrier; all must be in islands() before the next barrier.
+  bool find_islands(int thread, int threads, Field<const float> v, const std::function<void()>& barrier);
+  const std::vector<Island>& islands() const { return islands_; }
+  /// Solves the rows of an island together with those of solids. Each island on one thread; they share no body.
+  void solve_island(int thread, const Island& island, std::span<ContactRow> solids, Field<float> v);
 
-  /// Of the last substep, of h seconds: its candidates, and a half for each time that a contact may have been solved,
-  /// or a vertex moved with its whole body.
-  double work_of_substep(float h) const;
+  /// Returns the work of the last substep: its candidates, and a half for each time that a contact was solved or a
+  /// vertex moved with its whole body.
+  double work_of_substep() const;
 
   std::size_t rows() const;
   /// True if the last substep pushed overlapping surfaces apart or threw colliding ones back, and so added energy.
@@ -65,23 +73,27 @@ class SurfaceContact {
   struct alignas(64) ThreadWork {
     std::vector<ContactRow> rows;
     SurfaceRowMaker::Scratch scratch;
-    bool violated = false;  // resolve_after_solids() had something to do
+    JointSolver joint;
+    std::vector<ContactRow*> together;
+    double joint_work = 0;  // of the last substep: rows, each as often as it was solved
   };
 
   std::span<const ContactRow> rows_of(const Pair& pair) const {
     return std::span(thread_work_[static_cast<std::size_t>(pair.thread)].rows).subspan(pair.first_row, pair.rows);
   }
+  std::span<ContactRow> rows_of(const Pair& pair) {
+    return std::span(thread_work_[static_cast<std::size_t>(pair.thread)].rows).subspan(pair.first_row, pair.rows);
+  }
+  void keep(const ContactRow& row);
+  void join_islands();
   void separate(const Pair& pair, Field<const float> x, Field<float> v) const;
   bool few_rows() const { return rows() < 2000; }
-  static bool needs_more_iterations(const Pair& pair, float h) {
-    return h * pair.rate > 0.5f || (pair.range.a == pair.range.b && pair.rows > 0);
-  }
-  bool violates_target(const Pair& pair, Field<const float> v, float h) const;
   template <class Visit>
   void for_each_pair(int thread, int threads, const std::function<void()>& barrier, const Visit& visit);
 
   SurfaceCandidates candidates_;
   std::vector<ThreadWork> thread_work_;
+  std::vector<Island> islands_;
   float last_h_ = 0;  // s, of the last substep
 };
 

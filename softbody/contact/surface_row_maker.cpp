@@ -14,6 +14,7 @@ namespace {
 using collide::surface::Closest;
 using collide::surface::FeaturePair;
 
+constexpr float hair = 0.02f;      // of the distance, that may be used up unsolved
 constexpr float push_kept = 0.8f;  // of an impulse that pushes out is handed on to the next substep; by trial
 
 ContactRow corners_of(const Closest& c, std::size_t vertex_slot, float vertex_mobility,
@@ -198,8 +199,11 @@ void SurfaceRowMaker::edges_on_edges(Pair& pair) {
     if (!closed) {
       crossed = orient(cached, true, normal);
     } else if (glm::dot(cached.normal, normal) <= 0.5f) {  // else they are on the sides that they were on before
-      crossed = glm::dot(normal, outward(two, f.b) - outward(one, f.a)) < 0;
-      if (crossed && distance > pair.distance) {  // the far side of something thin
+      const float out_of_two = glm::dot(normal, outward(two, f.b)), out_of_one = glm::dot(normal, outward(one, f.a));
+      crossed = out_of_two < out_of_one;
+      // The one sees the other from within it, as a sphere pressed deep into a ball sees the ball's far side: what lies
+      // between them keeps them apart. Or it is the far side of something thin.
+      if (out_of_one * out_of_two > 0 || (crossed && distance > pair.distance)) {
         cached = {};
         return;
       }
@@ -247,6 +251,7 @@ void SurfaceRowMaker::add_row(const Pair& pair, const ContactRow& corners, const
   row.bias = -gap * turn / ((2 * spring_damping + turn) * step_.h);
   if (cached.normal_impulse == 0 && gap + step_.h * speed < 0)
     row.target = std::max(row.target, law::rebound(-speed, pair.restitution));
+  row.slack = hair * distance / step_.h;
   row.friction = pair.friction;
   // Bodies that stand in each other's way cannot all be pushed out as they ask for: handed on in full, their impulses
   // would grow with every substep_.

@@ -1,6 +1,7 @@
 // Surface contact: the impulses of a substep.
 
 #include <algorithm>
+#include <numeric>
 
 #include <glm/common.hpp>
 
@@ -9,14 +10,6 @@
 #include "softbody/contact/surface_vectors.h"
 
 namespace softbody {
-namespace {
-
-void apply(const ContactRow& row, const glm::vec3& impulse, Field<float> v) {
-  for (std::size_t k = 0; k < 4; ++k) add(v, row.slot[k], row.mobility[k] * impulse);
-}
-
-}  // namespace
-
 void solve_row(ContactRow& row, Field<float> v) {
   glm::vec3 velocity = relative_velocity(row, v);
   const float speed = glm::dot(velocity, row.normal);
@@ -65,10 +58,6 @@ void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<floa
     add(v, two.slot + i * two.stride, -impulse * b.inverse_mass * axis);
 }
 
-bool SurfaceContact::needs_more_iterations(float h) const {
-  return std::ranges::any_of(candidates_.pairs(), [&](const Pair& p) { return needs_more_iterations(p, h); });
-}
-
 /// visit(pair, its rows): colour by colour, each by one thread. A few rows are done by the first thread before all have
 /// met at every colour; the others do not wait for it.
 template <class Visit>
@@ -87,67 +76,95 @@ void SurfaceContact::for_each_pair(int thread, int threads, const std::function<
 
 void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
                            const std::function<void()>& barrier) {
-  const auto pass = [&](const auto& takes_part, const auto& visit, bool separating = false) {
+  const auto pass = [&](const auto& visit) {
     for_each_pair(thread, threads, barrier, [&](const Pair& p, std::span<ContactRow> rows) {
-      if (!takes_part(p)) return;
-      if (separating && p.separating) separate(p, x, v);
-      std::for_each(rows.begin(), rows.end(), visit);
+      if (p.separating) separate(p, x, v);
+      std::ranges::for_each(rows, visit);
     });
   };
-  const auto all = [](const Pair&) { return true; };
-  pass(all, [&](ContactRow& row) {
+  pass([&](ContactRow& row) {
     if (row.normal_impulse > 0) apply(row, row.normal_impulse * row.normal + row.friction_impulse, v);
   });
-  const auto round = [&](ContactRow& row) { solve_row(row, v); };
-  if (needs_more_iterations(h))
-    for (int i = iterations; i < max_iterations; ++i)
-      pass([&](const Pair& p) { return needs_more_iterations(p, h); }, round, true);
-  for (int i = 1; i < iterations; ++i) pass(all, round, true);
-  pass(
-      all,
-      [&](ContactRow& row) {
-        solve_row(row, v);
-        if (row.feature == uncached) return;
-        candidates_.cached(row.feature).normal_impulse = row.normal_impulse;
-        candidates_.cached(row.feature).friction_impulse = row.friction_impulse;
-      },
-      true);
+  for (int i = 1; i < iterations; ++i) pass([&](ContactRow& row) { solve_row(row, v); });
+  pass([&](ContactRow& row) {
+    solve_row(row, v);
+    keep(row);
+  });
+  thread_work_[static_cast<std::size_t>(thread)].joint_work = 0;
   if (thread == 0) last_h_ = h;
   if (few_rows()) barrier();
 }
 
-/// Whether a contact uses up of the distance what it has to leave.
-bool SurfaceContact::violates_target(const Pair& pair, Field<const float> v, float h) const {
-  constexpr float hair = 0.02f;  // of the distance
-  return std::ranges::any_of(rows_of(pair), [&](const ContactRow& row) {
-    return h * (row.target - glm::dot(relative_velocity(row, v), row.normal)) > hair * pair.distance;
-  });
+void SurfaceContact::keep(const ContactRow& row) {
+  if (row.feature == uncached) return;
+  candidates_.cached(row.feature).normal_impulse = row.normal_impulse;
+  candidates_.cached(row.feature).friction_impulse = row.friction_impulse;
 }
 
-bool SurfaceContact::resolve_after_solids(int thread, int threads, Field<float> v, float h,
-                                          const std::function<void()>& barrier) {
-  bool& mine = thread_work_[static_cast<std::size_t>(thread)].violated;
-  mine = false;
-  for_each_pair(thread, threads, barrier, [&](const Pair& p, std::span<ContactRow> rows) {
-    if (!needs_more_iterations(p, h) || !violates_target(p, v, h)) return;
-    mine = true;
-    for (ContactRow& row : rows) solve_row(row, v);
-  });
-  if (few_rows()) barrier();
-  return std::any_of(thread_work_.begin(), thread_work_.begin() + threads,
-                     [](const ThreadWork& t) { return t.violated; });
+bool SurfaceContact::find_islands(int thread, int threads, Field<const float> v, const std::function<void()>& barrier) {
+  std::vector<Pair>& pairs = candidates_.pairs();
+  const collide::Part part = collide::part_of(pairs.size(), thread, threads);
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    Pair& p = pairs[i];
+    p.closes = std::ranges::any_of(rows_of(p), [&](const ContactRow& row) { return misses_target(row, v); });
+    p.joins = p.joins || p.closes;
+  }
+  barrier();
+  if (std::ranges::none_of(pairs, &Pair::closes)) return false;
+  if (thread == 0) join_islands();
+  barrier();
+  return true;
 }
 
-double SurfaceContact::work_of_substep(float h) const {
+/// Pairs that have closed in this substep and share bodies are an island: it grows where a solve closes others.
+void SurfaceContact::join_islands() {
+  const std::vector<Pair>& pairs = candidates_.pairs();
+  std::vector<Index> joined(candidates_.body_count());
+  std::iota(joined.begin(), joined.end(), Index{0});
+  const auto root = [&](Index body) {
+    while (joined[body] != body) body = joined[body];
+    return body;
+  };
+  for (const Pair& p : pairs)
+    if (p.joins) joined[root(p.range.b)] = root(p.range.a);
+  islands_.clear();
+  std::vector<std::size_t> place(joined.size(), pairs.size());
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    if (!pairs[i].joins) continue;
+    std::size_t& at = place[root(pairs[i].range.a)];
+    if (at == pairs.size()) {
+      at = islands_.size();
+      islands_.emplace_back();
+    }
+    Island& island = islands_[at];
+    island.pairs.push_back(i);
+    island.speed = std::max(island.speed, pairs[i].speed);
+    island.closes = island.closes || pairs[i].closes;
+    for (const Index body : {pairs[i].range.a, pairs[i].range.b})
+      if (std::ranges::find(island.bodies, body) == island.bodies.end()) island.bodies.push_back(body);
+  }
+}
+
+void SurfaceContact::solve_island(int thread, const Island& island, std::span<ContactRow> solids, Field<float> v) {
+  ThreadWork& work = thread_work_[static_cast<std::size_t>(thread)];
+  work.together.clear();
+  for (const std::uint32_t i : island.pairs)
+    for (ContactRow& row : rows_of(candidates_.pairs()[i])) work.together.push_back(&row);
+  const auto own = std::ptrdiff_t(work.together.size());
+  for (ContactRow& row : solids) work.together.push_back(&row);
+  work.joint_work += double(work.joint.solve(work.together, v)) * double(work.together.size());
+  std::for_each(work.together.begin(), work.together.begin() + own, [&](const ContactRow* row) { keep(*row); });
+}
+
+double SurfaceContact::work_of_substep() const {
   auto work = double(candidates_.search().features().size());
   for (const Pair& p : candidates_.pairs()) {
     const Index whole = p.separating ? candidates_.side(p, false).surface->vertex_count() +
                                            candidates_.side(p, true).surface->vertex_count()
                                      : 0;
-    const int solves = needs_more_iterations(p, h) ? max_iterations : iterations,
-              extra_passes = needs_more_iterations(p, h) ? max_passes : 0;
-    work += 0.5 * (double(solves) * double(p.rows + whole) + double(extra_passes) * p.rows);
+    work += 0.5 * iterations * double(p.rows + whole);
   }
+  for (const ThreadWork& of_thread : thread_work_) work += 0.5 * of_thread.joint_work;
   return work;
 }
 

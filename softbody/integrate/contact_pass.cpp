@@ -79,17 +79,37 @@ double ContactPass::find(double left, double ahead, double least, std::size_t ma
 }
 
 void ContactPass::apply(const Worker& worker, float h, float since_start) {
+  constexpr int max_passes = 4;
   const auto solids = [&] {
     for (const Batch* batch : worker.batches()) solids_.apply(*batch, h);
   };
   apply_surfaces(worker, h, since_start);
   solids();
-  for (int pass = 0; pass < SurfaceContact::max_passes && has_surfaces_ && surfaces_.needs_more_iterations(h); ++pass) {
+  if (!has_surfaces_ || surfaces_.candidates().empty()) return;
+  for (int pass = 0; pass < max_passes; ++pass) {
     worker.barrier();
-    if (!surfaces_.resolve_after_solids(worker.index(), crew_.active(), field(state_.v), h, [&] { worker.barrier(); }))
+    if (!surfaces_.find_islands(worker.index(), crew_.active(), field(std::as_const(state_.v)),
+                                [&] { worker.barrier(); }))
       break;
+    const std::vector<SurfaceContact::Island>& islands = surfaces_.islands();
+    for (auto i = std::size_t(worker.index()); i < islands.size(); i += std::size_t(crew_.active()))
+      if (islands[i].closes) solve_island(worker.index(), islands[i], h);
+    worker.barrier();
     solids();
   }
+}
+
+/// Solves contacts of bodies together with those of the solids that they lie on, which apply() takes in turn.
+void ContactPass::solve_island(int thread, const SurfaceContact::Island& island, float h) {
+  std::vector<ContactRow> rows;
+  std::vector<std::size_t> end;
+  for (const Index body : island.bodies) {
+    if (state_.body(body).moves()) solids_.add_particle_rows(body, 2 * h * island.speed, rows);
+    end.push_back(rows.size());
+  }
+  surfaces_.solve_island(thread, island, rows, field(state_.v));
+  for (std::size_t i = 0, first = 0; i < end.size(); first = end[i++])
+    solids_.book(island.bodies[i], std::span(rows).subspan(first, end[i] - first));
 }
 
 void ContactPass::apply_surfaces(const Worker& worker, float h, float since_start) {

@@ -157,7 +157,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
     run(steps, static_cast<float>(h), frame.substeps == 0, after_substep);
     done += steps;
     frame.substeps += steps;
-    steps_.spend({.surface = candidates.empty() ? 0 : surface.work_of_substep(float(h)) * steps,
+    steps_.spend({.surface = candidates.empty() ? 0 : surface.work_of_substep() * steps,
                   .implicit = implicit_->take_work(),
                   .penalty = pairs * steps});
   };

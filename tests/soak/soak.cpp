@@ -100,7 +100,7 @@ class Soak {
         world.bodies().count(), world.bodies().vertex_count(), p.substeps,
         std::string(world.last_step().integrator->key).c_str(), p.seconds, p.detect_ms, p.solve_ms,
         double(surface.candidates().search().work()),
-        surface.work_of_substep(float(p.seconds / std::max(p.substeps, 1))));
+        surface.work_of_substep());
     std::fflush(stdout);
   }
 
