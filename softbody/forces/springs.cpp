@@ -46,9 +46,10 @@ template const std::vector<Spring>& springs<BendSprings>(const BodyModel&);
 template const std::vector<Spring>& springs<ShearSprings>(const BodyModel&);
 
 void for_each_spring(const BodyModel& model, const std::function<void(const Spring&)>& use) {
-  for (const auto* list :
-       {&springs<StructuralSprings>(model), &springs<BendSprings>(model), &springs<ShearSprings>(model)})
-    for (const Spring& s : *list) use(s);
+  for_each_force(Forces{}, [&]<class F>(Name<F>) {
+    if constexpr (std::is_base_of_v<Springs, F>)
+      for (const Spring& s : springs<F>(model)) use(s);
+  });
 }
 
 }  // namespace softbody
