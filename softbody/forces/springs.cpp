@@ -22,8 +22,7 @@ std::optional<Springs::Data> Springs::join(const BodyModel& p, const std::vector
     const double own = stiffness * std::min(1.0, 6.0 / std::max(meeting[i], meeting[j]));
     const double damping = 2 * damping_ratio * std::sqrt(own * p.particle_mass / 2);  // reduced mass m / 2
     const double rest = glm::distance(p.mesh.vertices[i], p.mesh.vertices[j]);
-    data.exact.push_back({i, j, rest, own, damping});
-    data.rounded.push_back({i, j, float(rest), float(own), float(damping)});
+    data.add({i, j, rest, own, damping});
   }
   return data;
 }
