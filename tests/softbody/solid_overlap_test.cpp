@@ -16,14 +16,6 @@ namespace {
 
 constexpr double g = 9.81;
 
-Material soft() {
-  Material m = rubber();
-  m[Material::internal_damping] = 10;
-  m[contact::rebound_speed] = 2;
-  m[contact::rolling_resistance] = 0.3;
-  return m;
-}
-
 /// Whether a body lies in one of the solids so that it is eased out.
 bool lies_in_solid(const World& world, BodyId id) {
   std::array<std::vector<float>, 3> at;
@@ -89,7 +81,7 @@ const Case cases[]{
 class StartInSolid : public testing::TestWithParam<std::tuple<Case, ContactSurface>> {
  protected:
   static Scene scene() {
-    Scene scene = ball_in_space(soft());
+    Scene scene = ball_in_space(damped(rubber()));
     scene.contact_surface = std::get<1>(GetParam());
     scene.gravity = {0, -g, 0};
     scene.sleep.speed = 0.05;
@@ -139,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(All, StartInSolid,
 
 TEST(SolidOverlap, ASolidThatIsMovedOntoASleeperWakesItAndEasesItOut) {
   for (const char* integrator : {"auto", "implicit", "xpbd"}) {
-    Scene scene = ball_in_space(soft());
+    Scene scene = ball_in_space(damped(rubber()));
     scene.gravity = {0, -g, 0};
     scene.sleep.speed = 0.05;
     scene.ground = Ground{};
@@ -206,7 +198,7 @@ TEST(OverlappingBodies, AreThoseInSolidsAndInEachOther) {
 }
 
 TEST(OverlappingBodies, OfOnePlacePartAtABoundedSpeed) {
-  Scene scene = ball_in_space(soft());
+  Scene scene = ball_in_space(damped(rubber()));
   for (int i = 1; i < 20; ++i) add_body(scene, glm::dvec3(0.0), glm::dvec3(0.0));
   scene.sleep.speed = 0.05;
   World world(scene, {});
