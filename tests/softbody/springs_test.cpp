@@ -50,28 +50,6 @@ TEST_P(SpringForces, OneSpringHasTheClosedFormInEachLane) {
   }
 }
 
-TEST_P(SpringForces, AStretchedSpringPullsAndASqueezedOnePushes) {
-  LaneField x(2), v(2), f(2);
-  for (int l = 0; l < lanes; ++l) x.set(1, l, {0.25 * (l + 1), 0, 0});
-  const std::vector<SpringOf<float>> spring{{0, 1, 1.0f, 8.0f, 0.0f}};
-  add(spring, x, v, f);
-  for (int l = 0; l < lanes; ++l)
-    EXPECT_NEAR(glm::distance(f.at(0, l), glm::dvec3(8 * (0.25 * (l + 1) - 1), 0, 0)), 0, 1e-5) << "lane " << l;
-}
-
-TEST_P(SpringForces, TheDamperActsOnTheRelativeSpeedAlongTheSpringOnly) {
-  LaneField x(2), v(2), f(2);
-  for (int l = 0; l < lanes; ++l) {
-    x.set(1, l, {0, 0, 2});
-    v.set(0, l, {5, 5, 1.0 * l});
-    v.set(1, l, {-7, 9, 4});
-  }
-  const std::vector<SpringOf<float>> damper{{0, 1, 2.0f, 50.0f, 3.0f}};  // at its rest length
-  add(damper, x, v, f);
-  for (int l = 0; l < lanes; ++l)
-    EXPECT_NEAR(glm::distance(f.at(0, l), glm::dvec3(0, 0, 3.0 * (4 - l))), 0, 1e-5) << "c (dv . dx) / |dx|";
-}
-
 TEST_P(SpringForces, OfLengthZeroPullsNowhere) {
   LaneField x(2), v(2), f(2);
   for (int l = 0; l < lanes; ++l) {
