@@ -75,7 +75,7 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
   std::array<double, lanes> gap;
   unsigned lanes_near = 0;
   for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
-    const glm::dvec3 lo(e.lo.x[l], e.lo.y[l], e.lo.z[l]), hi(e.hi.x[l], e.hi.y[l], e.hi.z[l]);
+    const glm::dvec3 lo(e.lo[l]), hi(e.hi[l]);
     boxes[l] = {state_.body(b.body[l]).origin + 0.5 * (lo + hi), 0.5 * (hi - lo)};
     gap[l] = gap_before(solid, boxes[l]);
     lanes_near |= unsigned(gap[l] <= max_travel(b, e, int(l), gravity, seconds)) << l;
@@ -98,8 +98,7 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
   s.shape = shape_of<float>(solid, thickness);
   for (int l = 0; l < b.used; ++l) {
     const glm::dvec3 origin = state_.body(b.body[std::size_t(l)]).origin;
-    const glm::dvec3 place = place_of(solid, thickness, origin) - origin;
-    s.place.x[l] = float(place.x), s.place.y[l] = float(place.y), s.place.z[l] = float(place.z);
+    s.place.set(std::size_t(l), glm::vec3(place_of(solid, thickness, origin) - origin));
   }
   s.near = lanes_near;
   s.moves = b.moves.data();
@@ -111,11 +110,9 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
   for (int l = 0; l < b.used; ++l) {
     if (b.moves[std::size_t(l)] == 0 || !(lanes_near >> l & 1u)) continue;
     const double travel = max_travel(b, e, l, gravity, seconds);
-    find_features(b, l, cores,
-                  {core_radius(solid) + thickness,
-                   travel / seconds,
-                   travel,
-                   {glm::vec3(e.lo.x[l], e.lo.y[l], e.lo.z[l]), glm::vec3(e.hi.x[l], e.hi.y[l], e.hi.z[l])}});
+    find_features(
+        b, l, cores,
+        {core_radius(solid) + thickness, travel / seconds, travel, {e.lo[std::size_t(l)], e.hi[std::size_t(l)]}});
   }
 }
 
@@ -132,7 +129,7 @@ void SolidContact::end_frame() {
   for (const Batch& b : state_.batches()) {
     const OfBatch& own = of_batch_[b.index];
     for (std::size_t l = 0; l < std::size_t(b.used); ++l)
-      pushes_[b.body[l]] = {{own.impulse.x[l], own.impulse.y[l], own.impulse.z[l]}, double(own.returned[l])};
+      pushes_[b.body[l]] = {glm::dvec3(own.impulse[l]), double(own.returned[l])};
   }
 }
 
@@ -151,10 +148,7 @@ void SolidContact::clear_velocities(const Batch& b) {
   state_kernels(b.width).clear(std::size_t(b.used), b.particles(), field(before_, b.base));
 }
 
-Field<float> SolidContact::impulse(const Batch& b) {
-  LaneVector& sum = of_batch_[b.index].impulse;
-  return {sum.x, sum.y, sum.z};
-}
+Field<float> SolidContact::impulse(const Batch& b) { return field(of_batch_[b.index].impulse); }
 
 /// Particles first, then what lies between them, which may push particles back.
 void SolidContact::apply(const Batch& b, float h) {

@@ -160,7 +160,7 @@ void SolidContact::add_row(const Batch& b, SolidFeature& f, float h) {
   f.free_travel = 0.5f * (glm::length(m.apart) - f.distance);  // half: single particles may be faster than was foreseen
   if (f.free_travel > f.speed * h || *std::max_element(m.weight.begin(), m.weight.end()) > on_vertex) return;
   const SolidArguments& s = own.near[f.solid];
-  const auto surface = gap_of(f, m, s.shape, {s.place.x[lane], s.place.y[lane], s.place.z[lane]});
+  const auto surface = gap_of(f, m, s.shape, s.place[lane]);
   if (!surface) return;
 
   float mobility = 0;

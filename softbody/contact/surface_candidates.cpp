@@ -39,11 +39,8 @@ void set_slack(collide::surface::SurfaceBody& body, float wanted) {
 bool faces_along(const Surface& own, const collide::VertexRun& own_at, Index vertex, const Surface& other,
                  const collide::VertexRun& other_at, Index face) {
   const auto normal = [](const Surface& surface, const collide::VertexRun& at, Index f) {
-    const auto corner = [&](std::size_t k) {
-      const Index v = surface.triangles()[f][k];
-      return glm::vec3(at.x[v], at.y[v], at.z[v]);
-    };
-    return normal_of(corner(0), corner(1), corner(2));
+    const auto& [a, b, c] = surface.triangles()[f];
+    return normal_of(at[a], at[b], at[c]);
   };
   glm::vec3 sum(0.0f);
   for (const Index f : own.triangles_at(vertex)) sum += normal(own, own_at, f);
@@ -56,7 +53,7 @@ bool near_each_other(const collide::VertexRun& a, const collide::VertexRun& b) {
 
 glm::vec3 middle_of(const collide::VertexRun& at) {
   glm::vec3 sum(0.0f);
-  for (Index i = 0; i < at.size; ++i) sum += glm::vec3(at.x[i], at.y[i], at.z[i]);
+  for (Index i = 0; i < at.size; ++i) sum += at[i];
   return sum / static_cast<float>(at.size);
 }
 
@@ -196,10 +193,7 @@ void SurfaceCandidates::carry_over() {
 
 /// Lists the vertices of two closed bodies that lie inside the other one, with the faces that they are closest to.
 void SurfaceCandidates::find_interior_vertices(Pair& pair, const collide::Frame& now, Shells& shells) {
-  const auto run = [&](Index body) {
-    const Index first = now.bodies->first[body];
-    return collide::VertexRun{&now.x[first], &now.y[first], &now.z[first], now.bodies->size(body)};
-  };
+  const auto run = [&](Index body) { return collide::vertices_of(now, body); };
   pair.interior = static_cast<std::uint32_t>(interior_.size());
   pair.interior_end = pair.interior;
   const bool both_closed = traits_[pair.range.a].surface->closed() && traits_[pair.range.b].surface->closed();
@@ -229,9 +223,8 @@ void SurfaceCandidates::find_interior_vertices(Pair& pair, const collide::Frame&
     const collide::VertexRun vertices = run(own);
     if (!near_each_other(vertices, run(other))) continue;
     for (Index v = 0; v < vertices.size; ++v) {
-      const glm::vec3 p(vertices.x[v], vertices.y[v], vertices.z[v]);
-      if (!shell(other).inside(p)) continue;
-      const collide::surface::ClosedShell::Nearest nearest = shell(other).nearest_face(p);
+      if (!shell(other).inside(vertices[v])) continue;
+      const collide::surface::ClosedShell::Nearest nearest = shell(other).nearest_face(vertices[v]);
       deepest = std::max(deepest, nearest.distance);
       along += faces_along(*traits_[own].surface, vertices, v, *traits_[other].surface, run(other), nearest.face);
       interior_.push_back({v, nearest.face, of_b});

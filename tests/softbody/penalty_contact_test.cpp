@@ -128,18 +128,12 @@ TEST(PenaltyContact, FrictionSpringsArePassedOnToTheSameContactAcrossItsNewNorma
   Pair pair({0, 0.05, 0}, 5);
   pair.force({0.2, 0, 0}, 0.1);
   PenaltyContact next;
-  for (const collide::Contact c : {collide::Contact{0, 0}, {0, 1}, {0, 2}})
-    next.pairs.push_back({.contact = c,
-                          .body_a = 0,
-                          .body_b = 1,
-                          .vertex_a = 0,
-                          .vertex_b = 1,
-                          .slot_a = 0,
-                          .slot_b = 1,
-                          .offset = {},
-                          .normal = glm::normalize(glm::vec3(1, 1, 0)),
-                          .stiffness = 100,
-                          .friction = 5});
+  for (const collide::Contact c : {collide::Contact{0, 0}, {0, 1}, {0, 2}}) {
+    PenaltyPair& same = next.pairs.emplace_back(pair.penalty.pairs[0]);
+    same.contact = c;
+    same.normal = glm::normalize(glm::vec3(1, 1, 0));
+    same.stretch = glm::vec3(0.0f);
+  }
   next.carry_over(pair.penalty.pairs);
   EXPECT_EQ(next.pairs[0].stretch, glm::vec3(0.0f));
   EXPECT_NEAR(glm::distance(next.pairs[1].stretch, glm::vec3(0.01f, -0.01f, 0)), 0, 1e-6);

@@ -308,17 +308,8 @@ TEST(SurfaceContact, ASheetCarriesMoreBallsThanThereAreColours) {
   for (BodyId ball = 1; ball <= 80; ++ball) EXPECT_GT(motion(world, ball).centre.y, 0.05) << ball;
 }
 
-/// What the scene files call rubber.
-Material damped_rubber() {
-  Material m = rubber();
-  m[Material::internal_damping] = 10;
-  m[contact::rebound_speed] = 2;
-  m[contact::rolling_resistance] = 0.3;
-  return m;
-}
-
 TEST(SurfaceContact, AStackInAWellStandsWithoutSinkingIn) {
-  Scene scene = ball_in_space(damped_rubber());
+  Scene scene = ball_in_space(damped(rubber()));
   scene.gravity = {0, -9.81, 0};
   scene.ground = Ground{0, 0.6};
   scene.bodies[0].position = {0.02, 0.6, 0.01};

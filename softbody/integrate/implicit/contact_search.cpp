@@ -13,8 +13,8 @@ namespace {
 
 /// Returns the surface of a solid as seen from x, in the frame of the body in a lane.
 SurfaceAt<double> surface_from(const SolidArguments& s, std::size_t lane, const glm::dvec3& x) {
-  const body::Vec<double> d{x.x - double(s.place.x[lane]), x.y - double(s.place.y[lane]),
-                            x.z - double(s.place.z[lane])};
+  const glm::dvec3 from = x - glm::dvec3(s.place[lane]);
+  const body::Vec<double> d{from.x, from.y, from.z};
   return std::visit([&](const auto& shape) { return body::surface_at(shape, d); }, s.shape);
 }
 
