@@ -14,9 +14,9 @@ class JointSolver {
   static constexpr int max_sweeps = 256;
 
   /// Changes velocities until no contact misses its target by more than its slack, by nonsmooth nonlinear conjugate
-  /// gradients (Silcowitz, Niebe and Erleben 2010). Contacts that are pushed out of an overlap can contradict each other
-  /// where surfaces have crossed; where that shows, overlaps are only kept from growing, which all contacts can do.
-  /// Returns the number of sweeps over all rows.
+  /// gradients (Silcowitz, Niebe and Erleben 2010). Contacts that are pushed out of an overlap can contradict each
+  /// other where surfaces have crossed; where that shows, overlaps are only kept from growing, which all contacts can
+  /// do. Returns the number of sweeps over all rows.
   int solve(std::span<ContactRow* const> rows, Field<float> v);
 
  private:

@@ -11,8 +11,8 @@
 
 #include "softbody/contact/kernels.h"
 #include "softbody/contact/law.h"
-#include "softbody/contact/solid_overlap.h"
 #include "softbody/contact/solid_law.h"
+#include "softbody/contact/solid_overlap.h"
 #include "softbody/contact/solid_placement.h"
 #include "softbody/contact/solid_shapes.h"
 #include "softbody/contact/surface_vectors.h"
@@ -84,9 +84,11 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
   const std::optional<SolidMiddle> middle = middle_of(solid);
   const double deep = std::min(shallow * b.model->mean_edge, middle ? middle->depth : infinite);
   for (int l = 0; l < b.used; ++l) {
-    if (b.moves[std::size_t(l)] == 0 || !(lanes_near >> l & 1u) || gap[std::size_t(l)] > -deep || !lies_in(b, l, solid))
+    if (b.moves[std::size_t(l)] == 0 || !state_.body(b.body[std::size_t(l)]).memory.may_lie_in_solid ||
+        gap[std::size_t(l)] > -deep || !lies_in(b, l, solid))
       continue;
     lanes_near &= ~(1u << l);
+    own.eased |= 1u << l;
     ease_out(b, l, way_out(boxes[std::size_t(l)]), gravity, seconds);
   }
   const double thickness = b.model->material[Material::thickness];
@@ -130,6 +132,8 @@ void SolidContact::end_frame() {
     const OfBatch& own = of_batch_[b.index];
     for (std::size_t l = 0; l < std::size_t(b.used); ++l)
       pushes_[b.body[l]] = {glm::dvec3(own.impulse[l]), double(own.returned[l])};
+    for (std::size_t l = 0; l < std::size_t(b.used); ++l)
+      if (b.moves[l] != 0) state_.memory(b.body[l]).may_lie_in_solid = own.eased >> l & 1u;
   }
 }
 
@@ -191,7 +195,10 @@ void SolidContact::add_particle_rows(BodyId body, float travel, std::vector<Cont
       const auto slot = std::uint32_t(state_.slot(body, v));
       const glm::vec3 at = read(field(std::as_const(state_.x)), slot) - place;
       const SurfaceAt<float> surface = std::visit(
-          [&](const auto& shape) { return body::surface_at(shape, body::Vec<float>{at.x, at.y, at.z}); }, s.shape);
+          [&](const auto& shape) {
+            return body::surface_at(shape, body::Vec<float>{at.x, at.y, at.z});
+          },
+          s.shape);
       if (surface.distance > travel) continue;
       ContactRow& row = rows.emplace_back();
       row.slot.fill(slot);

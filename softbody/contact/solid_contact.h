@@ -79,7 +79,7 @@ class SolidContact {
     std::vector<ContactRow> rows;         // of these, in the substep at hand
     LaneVector impulse{};                 // N s, along the normals
     std::array<float, lanes> returned{};  // N s, the part of it that restitution gives back
-    unsigned pushed = 0;
+    unsigned pushed = 0, eased = 0;       // bits: lanes
   };
 
   template <class Solid>

@@ -204,6 +204,7 @@ void World::set_particles(BodyId body, std::span<const Particle> particles) {
   Parts& s = *parts_;
   assert(particles.size() == s.bodies.size(body));
   s.solver.state().set_particles(body, particles);
+  s.solver.state().memory(body).may_lie_in_solid = true;
   s.wake_all();
   s.update_positions();
   s.detect();

@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Of, HeavyBall,
                                          HeavyCase{"HundredTimesInAWell", 100, {0.02, 1.7, 0}, true},
                                          HeavyCase{"ThreeHundredTimes", 300, {0, 1.6, 0}},
                                          HeavyCase{"ThreeHundredTimesInAWell", 300, {0.02, 1.7, 0.01}, true}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace
 }  // namespace softbody::test
