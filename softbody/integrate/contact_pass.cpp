@@ -75,7 +75,14 @@ double ContactPass::find(double left, double ahead, double least, std::size_t ma
   surfaces_.candidates().find(motion(now), std::move(traits), std::move(contacts),
                               {float(left), float(least), scene_.collision.self_collision, max_candidates},
                               float(ahead), crew_.workers());
+  keep_overlapping_awake();
   return double(surfaces_.candidates().search().work());
+}
+
+void ContactPass::keep_overlapping_awake() {
+  for (const SurfaceCandidates::Pair& pair : surfaces_.candidates().pairs())
+    if (pair.separating || !surfaces_.candidates().interior(pair).empty())
+      for (const Index body : {pair.range.a, pair.range.b}) state_.memory(body).calm_frames = 0;
 }
 
 void ContactPass::apply(const Worker& worker, float h, float since_start) {

@@ -363,6 +363,23 @@ TEST(SurfaceContact, AStarThatFallsOnAStarStaysOutside) {
 }
 
 /// Skins pressed into each other's way cannot all be pushed out: the impulses of such contacts must not pile up.
+TEST(SurfaceContact, KeepsBodiesAwakeThatLieInEachOther) {
+  Scene scene = ball_in_space(rubber());
+  scene.sleep = {.speed = 100, .frames = 3};
+  add_body(scene, {0.1, 0, 0}, glm::dvec3(0.0));
+  World world(scene, {});
+  Judge judge(world);
+  int overlapping = 0;  // frames
+  for (int i = 0; i < 90; ++i) {
+    world.step();
+    if (judge.look().penetrating_vertices == 0) continue;
+    ++overlapping;
+    EXPECT_FALSE(world.body(0).asleep || world.body(1).asleep) << frame_of(world);
+  }
+  EXPECT_GT(overlapping, 10);
+  EXPECT_TRUE(world.body(0).asleep && world.body(1).asleep);
+}
+
 TEST(SurfaceContact, HeavyBodiesThatCrushEachOtherGainNoEnergy) {
   Scene scene = find_scene("A", SBCOLLIDE_SCENES);
   scene.contact_surface = ContactSurface::surfaces;
