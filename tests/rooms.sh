@@ -53,7 +53,7 @@ contact/contacts contact/keys contact/law contact/solid contact/solid_surface
 forces/best_rotation forces/bound forces/coordinates forces/gas forces/grab forces/material_keys forces/pair_energy
 forces/shape_matching forces/springs
 scene/limits scene/scene scene/scene_write scene/solids scene/toml_table scene/toml_text
-integrate/integrators integrate/max_work integrate/plan
+integrate/integrators integrate/work integrate/plan
 world/measures world/body_model_set world/snapshot world/world
 "
 

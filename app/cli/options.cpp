@@ -10,7 +10,6 @@
 #include "app/base/parse_numbers.h"
 #include "app/cli/integer_option.h"
 #include "app/files/scene_folder.h"
-#include "softbody/integrate/max_work.h"
 #include "softbody/scene/limits.h"
 #include "softbody/world/world.h"
 
@@ -89,7 +88,7 @@ void add_scene_options(CLI::App& command, Options& options) {
       .add_option("--substeps", options.integrator.substeps,
                   "exactly N steps of the integrator a frame (default: as many as stability asks for)")
       ->type_name("N")
-      ->transform(integer_in_range(1, softbody::max_substeps));
+      ->transform(integer_in_range(1, softbody::max_fixed_substeps));
   command.add_flag_function(
       "--self,!--no-self", [&options](std::int64_t number) { options.self_collision = number > 0; },
       "whether pairs of one body count (default: the scene's)");

@@ -26,7 +26,7 @@ inline softbody::IntegratorChoice one_step(std::string_view key = softbody::defa
 /// frames.
 inline void require_whole_frame(const softbody::World& world) {
   if (world.last_step().seconds < world.frame_time())
-    throw softbody::SceneError("a frame would take more substeps than there may be");
+    throw softbody::SceneError("a frame would take more work than there may be");
 }
 
 }  // namespace app::report

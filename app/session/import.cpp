@@ -71,7 +71,7 @@ FileReader::Answer FileReader::answer(const Question& question, const std::stop_
     const auto& [path, threads, presets] = std::get<SceneToRead>(question);
     softbody::Scene scene = softbody::load_scene(path, presets);
     auto world = std::make_unique<softbody::World>(
-        scene, softbody::World::Options{.threads = threads, .max_work = softbody::work_of_a_window});
+        scene, softbody::World::Options{.threads = threads, .budget = softbody::window_budget});
     return World{path, std::move(scene), std::move(world)};
   } catch (const std::exception& error) {
     return std::string(error.what());

@@ -274,7 +274,7 @@ softbody::Scene scene_in_use(const Simulation& simulation) {
 std::unique_ptr<World> make_window_world(const softbody::Scene& scene, const softbody::IntegratorChoice& integrator,
                                          int threads) {
   return std::make_unique<World>(
-      scene, World::Options{.threads = threads, .integrator = integrator, .max_work = softbody::work_of_a_window});
+      scene, World::Options{.threads = threads, .integrator = integrator, .budget = softbody::window_budget});
 }
 
 }  // namespace app::session

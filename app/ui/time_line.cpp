@@ -46,7 +46,7 @@ void draw_state_text(Widgets& w, const Session& session) {
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().FramePadding.y);
   w.right_text(state_text(session));
   w.register_item("Progress", is_slowed(session.simulation.clock)
-                                  ? "The machine does not keep up, or frames take more substeps than allowed: the "
+                                  ? "The machine does not keep up, or frames take more work than is allowed: the "
                                     "simulation runs slower than real time."
                                   : "What the simulation does now.");
 }

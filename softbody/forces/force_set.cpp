@@ -61,7 +61,8 @@ ForceBound bound_of(const Batch& b, Field<const float> x, VectorArray& area) {
     for (auto& component : area) component.assign(b.values(), 0);
     SurfaceShape shapes[lanes];
     force_kernels(b.width).measure_surfaces({p, b.used, x, field(area)}, shapes);
-    for (int l = 0; l < b.used; ++l) stiffest = std::max(stiffest, stiffness_per_mass(p, shapes[l]));
+    for (std::size_t l = 0; l < std::size_t(b.used); ++l)
+      if (b.moves[l] > 0) stiffest = std::max(stiffest, stiffness_per_mass(p, shapes[l]));
   }
   return {stiffest, damping_bound(p) / p.particle_mass};
 }

@@ -37,7 +37,7 @@ class ForceSet {
   ForceMask taken_;
 };
 
-/// Returns the bound of the forces inside the bodies of a batch, whose particles are at x. area: scratch.
+/// Returns the bound of the forces inside those bodies of a batch that move. Its particles are at x. area: scratch.
 ForceBound bound_of(const Batch& batch, Field<const float> x, VectorArray& area);
 
 /// True if some force of a model acts on its bodies from outside.

@@ -1,6 +1,7 @@
 #include "softbody/forces/penalty_contact.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -92,6 +93,10 @@ void PenaltyContact::add_pairs(const DetectedContacts& detected, const State& st
     if (still(c)) continue;
     const BodyId a = vertex_body[c.a], b = vertex_body[c.b];
     const Index va = c.a - vertices.first[a], vb = c.b - vertices.first[b];
+    const auto damped_mass = [&](BodyId body, Index contact_vertex) {
+      return state.body(body).moves() ? state.model(body).particle_mass / double(contacts_of[contact_vertex])
+                                      : std::numeric_limits<double>::infinity();
+    };
     PenaltyPair& pair = pairs.emplace_back(PenaltyPair{
         .contact = c,
         .body_a = a,
@@ -103,7 +108,10 @@ void PenaltyContact::add_pairs(const DetectedContacts& detected, const State& st
         .offset = glm::vec3(state.body(a).origin - state.body(b).origin),
         .normal = {},
         .stiffness = float(std::min(stiffness[a], stiffness[b]) / double(std::max(contacts_of[c.a], contacts_of[c.b]))),
-        .friction = float(law::common_friction(friction[a], friction[b]))});
+        .friction = float(law::common_friction(friction[a], friction[b])),
+        .damped_mass = 0});
+    pair.damped_mass =
+        float(std::min(damped_mass(a, c.a), damped_mass(b, c.b)) / std::sqrt(1 + pair.friction * pair.friction));
     pair.normal = contact_normal(state, pair);
   }
 }
@@ -152,7 +160,7 @@ void PenaltyContact::add(const ForceBatch& b) const {
 
 template <class Real>
 PenaltyLaw<Real> PenaltyContact::law_of(const PenaltyPair& pair) const {
-  return {Real(pair.stiffness), Real(thickness), Real(pair.friction)};
+  return {Real(pair.stiffness), Real(thickness), Real(pair.friction), Real(damper_limit * pair.damped_mass)};
 }
 template PenaltyLaw<double> PenaltyContact::law_of(const PenaltyPair&) const;
 
@@ -166,7 +174,7 @@ void PenaltyContact::evaluate(collide::Part part, Field<const float> x, Field<co
       force[i] = p.stretch = glm::vec3(0.0f);
       continue;
     }
-    const float push = at_rest * pair_law.damping(m.u);
+    const float push = pair_law.push(at_rest, m.u);
     p.stretch += seconds * m.slip();
     const glm::vec3 asked = pair_law.drag(p.stretch, m.slip());
     const glm::vec3 drag = law::within_cone(asked, p.friction * push);
@@ -191,15 +199,6 @@ PenaltyContact::Slopes PenaltyContact::slopes(const PenaltyPair& p, Field<const 
   if (at_rest <= 0) return {};
   return {pair_law.slope_bound(m.s, m.d2(), m.u), pair_law.damper(at_rest) / seconds, p.stiffness,
           pair_law.sticking_damper() / seconds};
-}
-
-float PenaltyContact::predicted_damping(const PenaltyPair& p, Field<const float> x, Field<const float> v,
-                                        float seconds) const {
-  const PenaltyLaw pair_law = law_of<float>(p);
-  const Meeting m(p, x, v);
-  const float across = std::max(0.0f, glm::length(m.d - m.s * p.normal) - seconds * glm::length(m.slip()));
-  const float along = std::max(0.0f, m.s + seconds * std::min(m.u, 0.0f));
-  return pair_law.damping_bound(pair_law.push_at_rest(along, across * across + along * along));
 }
 
 double PenaltyContact::energy(const PenaltyPair& p, Field<const float> x) const {

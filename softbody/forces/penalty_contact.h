@@ -6,6 +6,7 @@
 // contact layer is not stiffer.
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct PenaltyPair {
   glm::vec3 normal;            // unit, from b to a
   float stiffness;             // N/m
   float friction;              // Coulomb
+  float damped_mass;           // kg, see PenaltyContact::max_damped
   glm::vec3 stretch{0.0f};     // of the friction spring, m: how far a has slipped along b
 };
 
@@ -55,7 +57,13 @@ struct PenaltyContact {
   /// Adds the forces that evaluate() has found.
   void add(const ForceBatch& batch) const;
 
-  float thickness = 0;  // of the contact layer, m
+  /// The largest share of a pair's relative velocity that a damper takes away in a substep, if the pair has the damped
+  /// mass: that of its lighter particle, over the number of contacts there. All dampers on a particle together add no
+  /// more than 2 gamma h = 4 max_damped to omega^2 h^2 + 2 gamma h <= 4, the condition of stable_step(). Of the 4, a
+  /// step of 0.8 times the stable length leaves 4 (1 - 0.8^2). So contacts ask for no shorter steps by their damping.
+  static constexpr float max_damped = 0.36f;
+  float damper_limit = std::numeric_limits<float>::infinity();  // 1/s, of a damper over the damped mass
+  float thickness = 0;                                          // of the contact layer, m
   std::vector<PenaltyPair> pairs;
   std::vector<glm::vec3> force;          // on a, of the current substep, N
   std::vector<PenaltyEnd> ends;          // grouped by batch
@@ -85,9 +93,6 @@ struct PenaltyContact {
   std::span<const PenaltyEnd> ends_of(const Batch& batch) const;
   /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up.
   void remove(BodyId body, Index first, Index count);
-
-  /// Returns an upper bound of the damping (N s/m) of a pair in the coming `seconds` if its speed stays.
-  float predicted_damping(const PenaltyPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
 
  private:
   void add_pairs(const DetectedContacts& detected, const State& state);

@@ -9,10 +9,12 @@
 // nobody has put in, as when solids push out what is in them.
 // h is the thickness of the contact layer, k its stiffness, u the speed at which the two separate: Hunt and Crossley's
 // damping (1975), under which nothing is thrown back faster than v. Friction across n is Cundall and Strack's (1979): a
-// spring of stiffness k that the slip stretches, with a damper, cut off at Coulomb's limit.
+// spring of stiffness k that the slip stretches, with a damper, cut off at Coulomb's limit. Both dampers can have a
+// limit, which leaves the push at rest alone.
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "softbody/contact/law.h"
 
@@ -20,9 +22,10 @@ namespace softbody {
 
 template <class Real>
 struct PenaltyLaw {
-  Real stiffness;     // k, N/m
-  Real thickness;     // h, m
-  Real friction = 0;  // Coulomb's coefficient
+  Real stiffness;                                           // k, N/m
+  Real thickness;                                           // h, m
+  Real friction = 0;                                        // Coulomb's coefficient
+  Real max_damper = std::numeric_limits<Real>::infinity();  // N s/m
 
   static constexpr Real rebound_speed = 2;   // v, m/s
   static constexpr Real approach_limit = 3;  // upper clamp of the damping factor
@@ -41,10 +44,14 @@ struct PenaltyLaw {
   }
   /// Returns the factor of F at u.
   static Real damping(Real u) { return std::clamp(1 - damper(1) * u, Real(0), approach_limit); }
-  /// Returns how fast F falls with u between the limits of that, in N s/m.
+  /// Returns F at u, from that at u = 0.
+  Real push(Real at_rest, Real u) const {
+    return at_rest + std::clamp(-std::min(damper(at_rest), max_damper) * u, -at_rest, (approach_limit - 1) * at_rest);
+  }
+  /// Returns how fast F falls with u between the limits of that if the damper has no limit, in N s/m.
   static Real damper(Real push_at_rest) { return law::damper(push_at_rest, rebound_speed); }
   /// Returns the damper (N s/m) across n of a contact that sticks.
-  Real sticking_damper() const { return Real(0.5) * damper(stiffness * thickness); }
+  Real sticking_damper() const { return std::min(Real(0.5) * damper(stiffness * thickness), max_damper); }
   /// Returns how large the force can be (N) with sliding friction, or its change: Coulomb's limit moves with the push.
   Real with_friction(Real push) const { return std::sqrt(1 + friction * friction) * push; }
   /// Returns the drag that friction asks for, in N. stretch: of its spring, m; slip: m/s.
@@ -68,15 +75,10 @@ struct PenaltyLaw {
   /// Returns an upper bound of how fast F falls with s (N/m): the weight falls, too, by 2 s / h^2 times a depth of
   /// h - s, together at most a half.
   Real slope_bound(Real s, Real d2, Real u) const { return stiffness * damping(u) * (weight(s, d2) + Real(0.5)); }
-  /// Returns the same in N s/m for how the force falls with the velocity.
-  Real damping_bound(Real push_at_rest) const {
-    return std::max(sticking_damper(), with_friction(damper(push_at_rest)));
-  }
 
   // Upper bounds wherever the pair is; k may be what all contacts of a particle share.
   /// In N/m. The push falls fastest at s = h/3, by 4/3 k; the friction spring adds k.
   static Real stiffness_bound(Real k) { return (Real(4) / 3 * approach_limit + 1) * k; }
-  Real damping_bound() const { return damping_bound(stiffness * thickness); }               // N s/m
   Real max_force() const { return with_friction(approach_limit * stiffness * thickness); }  // N
 };
 

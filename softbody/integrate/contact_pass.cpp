@@ -11,14 +11,14 @@ void ContactPass::set_plan(const Plan& plan) {
   if (!has_surfaces_) surfaces_ = {};
 }
 
-double ContactPass::wake_hit_sleepers(double seconds, std::size_t max_candidates) {
+double ContactPass::wake_hit_sleepers(double seconds) {
   bool moving = false, sleeping = false;
   for (BodyId id = 0; id < state_.body_count(); ++id) {
     moving = moving || state_.body(id).moves();
     sleeping = sleeping || state_.body(id).asleep;
   }
   if (!moving || !sleeping) return 0;
-  const double work = find(seconds, seconds, 0, max_candidates);
+  const double work = find(seconds, seconds, 0);
   for (const collide::surface::SurfacePair& pair : surfaces_.candidates().search().pairs())
     for (const auto& [sleeper, by] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)}) {
       if (!state_.body(sleeper).asleep || !state_.body(by).moves() ||
@@ -49,7 +49,7 @@ collide::surface::Motion ContactPass::motion(const collide::Frame& now) {
   return {now, velocity_[0], velocity_[1], velocity_[2]};
 }
 
-double ContactPass::find(double left, double ahead, double least, std::size_t max_candidates) {
+double ContactPass::find(double left, double ahead, double least) {
   const collide::Frame now = world_positions();
   const auto elapsed = float(found_ - left);
   if (found_ > 0 && surfaces_.candidates().check_valid(now, elapsed, float(ahead))) return 0;
@@ -72,9 +72,10 @@ double ContactPass::find(double left, double ahead, double least, std::size_t ma
                         body.moves() ? float(1 / p.particle_mass) : 0.0f, float(p.material[contact::friction]),
                         float(p.material[contact::restitution]), &p.shape->rest()});
   }
-  surfaces_.candidates().find(motion(now), std::move(traits), std::move(contacts),
-                              {float(left), float(least), scene_.collision.self_collision, max_candidates},
-                              float(ahead), crew_.workers());
+  surfaces_.candidates().find(
+      motion(now), std::move(traits), std::move(contacts),
+      {float(left), float(least), scene_.collision.self_collision, max_candidates_.of(state_.particle_count())},
+      float(ahead), crew_.workers());
   keep_overlapping_awake();
   return double(surfaces_.candidates().search().work());
 }

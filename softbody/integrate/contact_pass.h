@@ -9,6 +9,7 @@
 #include "softbody/contact/surface_contact.h"
 #include "softbody/integrate/crew.h"
 #include "softbody/integrate/plan.h"
+#include "softbody/integrate/work.h"
 #include "softbody/scene/scene.h"
 #include "softbody/state/state.h"
 
@@ -21,16 +22,18 @@ class ContactPass {
       : scene_(scene), state_(state), solids_(solids), crew_(crew) {}
 
   void set_plan(const Plan& plan);
+  /// Sets how many candidates there may be at one time. Searches that find more throw std::length_error.
+  void set_max_candidates(const MaxCandidates& max) { max_candidates_ = max; }
   /// Takes the world's list of bodies, which must outlive this.
   void set_vertices(const collide::Bodies& vertices) { vertices_ = &vertices; }
 
   void begin_frame() { found_ = 0; }
   /// Wakes sleepers that a body comes near within `seconds` which is faster than twice the speed of sleep: a body that
-  /// sleeps through a hit stands like a wall. Returns the work, as MaxWork::surface counts it.
-  double wake_hit_sleepers(double seconds, std::size_t max_candidates);
+  /// sleeps through a hit stands like a wall. Returns the work, see SurfaceSearch::work().
+  double wake_hit_sleepers(double seconds);
   /// Finds the candidates of surface contact, unless those at hand hold: for the seconds `ahead` at least, of those
   /// that are left of the frame; of bodies that are strained fast, for the seconds `least` only. Returns the work.
-  double find(double left, double ahead, double least, std::size_t max_candidates);
+  double find(double left, double ahead, double least);
   /// Returns for how many substeps of h seconds the candidates may be taken, if they hold: at least one.
   int predicted_substeps(double left, double h) const;
 
@@ -61,7 +64,8 @@ class ContactPass {
   SurfaceContact surfaces_;
   bool has_surfaces_ = false;
   std::vector<float> since_found_;  // s, as each thread counts them
-  double found_ = 0;                // s before the end of the frame, when the candidates were found; 0: not yet
+  MaxCandidates max_candidates_;
+  double found_ = 0;  // s before the end of the frame, when the candidates were found; 0: not yet
   const collide::Bodies* vertices_ = nullptr;
   std::array<std::vector<float>, 3> position_, velocity_;  // in the world, m and m/s
 };

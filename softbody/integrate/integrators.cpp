@@ -105,6 +105,7 @@ constexpr std::array all_integrators{
                .order = 2,
                .advance = implicit_step,
                .stable_step = unconditional,
+               .step_lengths = 1,  // each needs a matrix
                .scratch = 2,
                .implicit = true},
 };

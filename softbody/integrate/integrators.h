@@ -2,6 +2,7 @@
 // The one table of integrators. Each is a function that advances all bodies by one substep. It calls the operations of
 // Motion, so that all integrators share the same forces and contacts.
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,13 +29,16 @@ struct Integrator {
   /// one particle; infinity if every step is stable. See stable_step() in forces/bound.h.
   double (*stable_step)(double k_m, double c_m);
   int substeps_per_step = 1;    // that the method makes of each step asked for
+  int step_lengths = 8;         // in use between a length and its double, unless steps are fixed
   int scratch = 0;              // copies of a field over all particles that it needs
   bool implicit = false;        // solves with the matrices of implicit/matrix.h
-  bool automatic = false;       // chooses another integrator for each frame, see StepController::choose()
+  bool automatic = false;       // chooses another integrator for each frame, see StepController
   bool by_damping = false;      // is stable only if every oscillation is damped enough
   bool staggered = false;       // its velocities belong to the middle of the last substep
   bool projects = false;        // moves particles to where forces have them, see Plan::unprojected()
   bool conserves_spin = false;  // conserves a free body's angular momentum up to rounding; all conserve the linear one
+
+  bool stable_at_any_step() const { return std::isinf(stable_step(1, 0)); }
 };
 
 std::span<const Integrator> integrators();
@@ -43,6 +47,8 @@ const Integrator* find_integrator(std::string_view key);
 std::string integrator_keys();
 
 inline constexpr std::string_view default_integrator = "auto";
+
+inline constexpr int max_fixed_substeps = 4'000;  // of IntegratorChoice, for who takes it from users
 
 /// An integrator, and how many substeps it takes.
 struct IntegratorChoice {

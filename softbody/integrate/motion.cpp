@@ -1,8 +1,10 @@
 #include "softbody/integrate/motion.h"
 
+#include <limits>
 #include <utility>
 
 #include "softbody/integrate/force_stage.h"
+#include "softbody/integrate/integrators.h"
 #include "softbody/state/kernels.h"
 
 namespace softbody {
@@ -18,11 +20,17 @@ void Motion::set_plan(const Plan& plan) {
   forces_.set_plan(taken);
 }
 
-void Motion::begin_frame(int scratch, const glm::dvec3& gravity) {
+void Motion::begin_frame(const Integrator& integrator, const glm::dvec3& gravity) {
   gravity_ = gravity;
-  scratch_.resize(std::size_t(scratch));
+  scratch_.resize(std::size_t(integrator.scratch));
   for (auto& one : scratch_)
     for (auto& c : one) c.resize(parts_.state.x[0].size());
+}
+
+void Motion::begin_substeps(const Integrator& integrator, float h) {
+  h_ = h;
+  parts_.penalty.damper_limit =
+      integrator.implicit ? std::numeric_limits<float>::infinity() : PenaltyContact::max_damped / h;
 }
 
 void Motion::contact_forces(const Worker& worker, float h) {

@@ -13,6 +13,7 @@
 namespace softbody {
 
 class ImplicitSteps;
+struct Integrator;
 
 /// One vector for each particle, which integrators compute with.
 struct Quantity {
@@ -36,10 +37,10 @@ class Motion {
   explicit Motion(const MotionParts& parts) : parts_(parts), forces_({parts.penalty, parts.hand}) {}
 
   void set_plan(const Plan& plan);
-  /// Makes room for `scratch` vectors of each particle. gravity in m/s^2.
-  void begin_frame(int scratch, const glm::dvec3& gravity);
-  /// h: of the coming substeps, s.
-  void begin_substeps(float h) { h_ = h; }
+  /// gravity in m/s^2.
+  void begin_frame(const Integrator& integrator, const glm::dvec3& gravity);
+  /// h: of the coming substeps of this integrator, s.
+  void begin_substeps(const Integrator& integrator, float h);
 
   /// Evaluates the penalty contacts of the worker's part, for all_forces() of all batches. h: s, for which friction
   /// slips.

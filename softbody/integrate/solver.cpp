@@ -69,11 +69,9 @@ std::vector<PairEnergy> Solver::penalty_energies(const DetectedContacts& detecte
 
 glm::dvec3 Solver::gravity() const { return has_gravity_ ? scene_.gravity : glm::dvec3(0.0); }
 
-void Solver::begin_frame(double seconds) {
-  steps_.begin_frame(seconds, state_.particle_count());
+Solver::Frame Solver::begin_frame(double seconds) {
   contacts_.begin_frame();
-  if (contacts_.has_surfaces())
-    steps_.spend({.surface = contacts_.wake_hit_sleepers(seconds, steps_.max_candidates())});
+  const double searches = contacts_.has_surfaces() ? contacts_.wake_hit_sleepers(seconds) : 0;
   solids_.begin_frame();
   pushed_.assign(state_.batches().size(), 0);
   std::vector<const Batch*> moving;
@@ -88,36 +86,35 @@ void Solver::begin_frame(double seconds) {
                   [&](const PlacedBox& box) { return way_out(scene_, solid, box); });
     });
   }
+  const StepBound bound = bounds_.measure(steps_.bounds_of());
+  steps_.begin_frame(
+      {.seconds = seconds,
+       .particles = state_.particle_count(),
+       .moving = particles,
+       .penalty_pairs = penalty_.pairs.size(),
+       .near_solids = std::ranges::any_of(moving, [&](const Batch* b) { return !solids_.near(*b).empty(); }),
+       .surface_contact = contacts_.has_surfaces(),
+       .too_large = std::ranges::any_of(moving, [](const Batch* b) { return b->particles() > max_implicit_particles; }),
+       .rounding_velocity = steps_.automatic() ? bounds_.rounding_velocity(bound.stable) : 0,
+       .sleep_speed = scene_.sleep.speed},
+      bound);
+  steps_.spend(work::surface * searches);
   crew_.take(std::move(moving), particles);
-  if (steps_.automatic() && !crew_.moving().empty()) choose_integrator(seconds);
-  motion_.begin_frame(steps_.integrator().scratch, gravity());
+  motion_.begin_frame(*steps_.plan().integrator, gravity());
   for (const PenaltyPair& p : penalty_.pairs) mark_pushed(p.body_a), mark_pushed(p.body_b);
   if (hand_.grab()) mark_pushed(hand_.grab()->body);
   for (const Batch* b : crew_.moving())
     if (has_external_force(*b->model)) pushed_[b->index] = ~0u;
-}
-
-void Solver::choose_integrator(double seconds) {
-  const SubstepBound bound = bounds_.measure(*find_integrator("semi-implicit-euler"), seconds);
-  const auto& moving = crew_.moving();
-  steps_.choose(
-      bound,
-      {.near_solids = std::ranges::any_of(moving, [&](const Batch* b) { return !solids_.near(*b).empty(); }),
-       .penalty_pairs = !penalty_.pairs.empty(),
-       .surface_contact = contacts_.has_surfaces(),
-       .too_large = std::ranges::any_of(moving, [](const Batch* b) { return b->particles() > max_implicit_particles; }),
-       .rounding_velocity = bounds_.rounding_velocity(moving, bound.stable_step),
-       .sleep_speed = scene_.sleep.speed});
+  return {seconds, particles, bound};
 }
 
 FrameResult Solver::advance(double seconds, const std::function<void()>& after_substep) {
-  begin_frame(seconds);
-  Frame frame{seconds};
+  Frame frame = begin_frame(seconds);
   if (!crew_.moving().empty()) {
     do take_substeps(frame, after_substep);
-    while (frame.left > 0 && steps_.may_go_on(frame.substeps));
+    while (frame.left > 0 && steps_.may_go_on());
     for (const Batch* b : crew_.moving()) pushed_[b->index] |= solids_.pushed(*b);
-    frame.momenta.restore((seconds - frame.left) * gravity(), steps_.integrator().conserves_spin, pushed_);
+    frame.momenta.restore((seconds - frame.left) * gravity(), steps_.plan().integrator->conserves_spin, pushed_);
   } else {
     frame.left = 0;
   }
@@ -127,47 +124,48 @@ FrameResult Solver::advance(double seconds, const std::function<void()>& after_s
 
 /// Takes as many substeps as what bounds them may be trusted for.
 void Solver::take_substeps(Frame& frame, const std::function<void()>& after_substep) {
-  const bool fixed = steps_.fixed(), implicit = steps_.integrator().implicit, surfaces = contacts_.has_surfaces();
+  const bool fixed = steps_.fixed(), surfaces = contacts_.has_surfaces();
   const SurfaceContact& surface = contacts_.surfaces();
   const SurfaceCandidates& candidates = surface.candidates();
-  const auto pairs = double(penalty_.pairs.size());
-  const int most = steps_.max_substeps() - frame.substeps;
-  int stable = most;
-  if (!fixed) {
-    stable = steps_.stable_substeps(bounds_.measure(steps_.integrator(), frame.left), frame.left);
-    steps_.spend({.penalty = pairs});
+  if (frame.substeps > 0 && !fixed) {
+    frame.bound = bounds_.measure(steps_.bounds_of());
+    steps_.spend(work::bound * double(frame.particles));
   }
+  StepPlan plan = steps_.plan(frame.bound, frame.left);
+  bool surfaces_decide = false;
   if (surfaces) {
-    const double longest = frame.left / stable;
-    steps_.spend({.surface = contacts_.find(frame.left, longest, longest, steps_.max_candidates())});
+    const double longest = frame.left / plan.substeps;
+    steps_.spend(work::surface * contacts_.find(frame.left, longest, longest));
     for (const collide::surface::SurfacePair& p : candidates.search().pairs()) mark_pushed(p.a), mark_pushed(p.b);
+    frame.bound.passing = std::max(frame.bound.passing, double(candidates.substep_rate()));
+    const int without = plan.substeps;
+    plan = steps_.plan(frame.bound, frame.left);
+    surfaces_decide = plan.substeps > without;
   }
-  const int count = fixed ? stable : steps_.substeps(stable, double(candidates.substep_rate()), frame.left);
-  if (frame.substeps == 0 && !implicit && count >= many_substeps)
+  const bool implicit = plan.integrator->implicit;
+  if (frame.substeps == 0 && !implicit && plan.substeps >= many_substeps)
     for (const Batch* b : crew_.moving()) frame.momenta.note({*b, field(state_.x, b->base), field(state_.v, b->base)});
-  const double h = frame.left / count;
-  const auto trusted = [&] { return bounds_.trusted_substeps(crew_.moving(), h); };
-  int now = fixed ? count : std::clamp(trusted(), 1, count);
+  const double h = frame.left / plan.substeps;
+  int now = fixed ? plan.substeps : std::clamp(bounds_.trusted_substeps(h), 1, plan.substeps);
   // Then it is looked whether the candidates still hold: at once where their speed decides the count.
-  if (!candidates.empty()) now = std::min(now, fixed || count > stable ? 1 : 4);
+  if (!candidates.empty()) now = std::min(now, fixed || surfaces_decide ? 1 : 4);
   if (surfaces) now = std::min(now, contacts_.predicted_substeps(frame.left, h));
-  now = std::min(now, most);
   int done = 0;
   const auto go_on = [&](int steps) {
     run(steps, static_cast<float>(h), frame.substeps == 0, after_substep);
     done += steps;
     frame.substeps += steps;
-    steps_.spend({.surface = candidates.empty() ? 0 : surface.work_of_substep() * steps,
-                  .implicit = implicit_->take_work(),
-                  .penalty = pairs * steps});
+    steps_.spend(steps * ((implicit ? 0 : steps_.work_of_substep()) +
+                          (candidates.empty() ? 0 : work::surface * surface.work_of_substep())));
+    steps_.spend(work::implicit * implicit_->take_work());
   };
   if (frame.substeps == 0 && now > 1 && !fixed) {
     go_on(1);  // what pulls at bodies that were moved by hand, or let go, shows in their speed only then
-    now = std::min(now, 1 + trusted());
+    now = std::min(now, 1 + bounds_.trusted_substeps(h));
   }
   // One implicit step can be a large part of the work that there may be.
-  while (done < now && (done == 0 || steps_.may_go_on(frame.substeps))) go_on(implicit ? 1 : now - done);
-  frame.left = done == count ? 0 : frame.left - done * h;
+  while (done < now && (done == 0 || steps_.may_go_on())) go_on(implicit ? 1 : now - done);
+  frame.left = done == plan.substeps ? 0 : frame.left - done * h;
 }
 
 void Solver::prepare_implicit(float h) {
@@ -179,8 +177,8 @@ void Solver::prepare_implicit(float h) {
 
 void Solver::run(int count, float h, bool first, const std::function<void()>& after_substep) {
   last_substep_ = h;
-  motion_.begin_substeps(h);
-  const Integrator& integrator = steps_.integrator();
+  const Integrator& integrator = *steps_.plan().integrator;
+  motion_.begin_substeps(integrator, h);
   if (integrator.implicit) prepare_implicit(h);
   crew_.run([&](const Worker& worker) {
     for (int s = 0; s < count; ++s) {
@@ -202,12 +200,6 @@ void Solver::finish_frame(double seconds) {
                       seconds, state_.memory(id).impact);
     state_.recentre(id);
   }
-}
-
-int Solver::needed_substeps(double seconds) const {
-  PenaltyContact penalty = penalty_;
-  penalty.locate(state_);
-  return count_substeps(StepBounds(state_, penalty, solids_).measure(steps_.integrator(), seconds), seconds, 1);
 }
 
 SolverState Solver::save() const {

@@ -14,7 +14,6 @@
 #include "softbody/integrate/motion.h"
 #include "softbody/integrate/resistance.h"
 #include "softbody/integrate/step_bounds.h"
-#include "softbody/integrate/step_controller.h"
 #include "softbody/scene/scene.h"
 #include "softbody/state/state.h"
 
@@ -57,6 +56,7 @@ class Solver {
   /// Takes the world's list of bodies, which must outlive this and change with the state.
   void set_vertices(const collide::Bodies& vertices);
   void set_plan(const Plan& plan);
+  void set_max_candidates(const MaxCandidates& max) { contacts_.set_max_candidates(max); }
   /// Removes a body. The world's list of bodies must still contain it.
   void remove(BodyId body);
 
@@ -67,15 +67,13 @@ class Solver {
   /// Returns the energy (J) that each pair of these contacts would store if it acted now.
   std::vector<PairEnergy> penalty_energies(const DetectedContacts& detected, float thickness) const;
 
-  /// Advances by `seconds`, or by less if a limit of substeps or work is reached. Unless substeps are fixed, their
-  /// bound is measured anew as bodies move, since bodies that are crushed may need any number of substeps and have many
+  /// Advances by `seconds`, or by less if the budget of work is spent. Unless substeps are fixed, their bound is
+  /// measured anew as bodies move, since bodies that are crushed may need any number of substeps and have many
   /// contacts. after_substep: called by one thread while the others wait.
   FrameResult advance(double seconds, const std::function<void()>& after_substep = {});
   /// Ends a frame of `seconds`, after advance(): applies what resists the bodies' motion as a whole, and lets their
   /// origins follow.
   void finish_frame(double seconds);
-  /// Returns the substeps that the bounds ask for in the present state.
-  int needed_substeps(double seconds) const;
   double last_substep() const { return double(last_substep_); }  // s, how long it was
 
   SolverState save() const;
@@ -85,15 +83,16 @@ class Solver {
  private:
   /// A frame in progress.
   struct Frame {
-    double left;  // s
+    double left;            // s
+    std::size_t particles;  // that move
+    StepBound bound;        // as it was measured last
     int substeps = 0;
     MomentumRestorer momenta{};
   };
 
   glm::dvec3 gravity() const;
   void mark_pushed(BodyId body) { pushed_[state_.batch_of(body).index] |= 1u << state_.body(body).lane; }
-  void begin_frame(double seconds);
-  void choose_integrator(double seconds);
+  Frame begin_frame(double seconds);
   void take_substeps(Frame& frame, const std::function<void()>& after_substep);
   void prepare_implicit(float h);
   void run(int substeps, float h, bool first, const std::function<void()>& after_substep);

@@ -1,104 +1,97 @@
 #include "softbody/integrate/step_controller.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 
 namespace softbody {
 namespace {
 
-constexpr double unbounded_substeps = 1e9;  // far more than there may be: less of the frame is simulated
+constexpr double longest_step =
+    1.0 / 60;                        // s, of steps that are not fixed: forces are far from linear over longer ones
+constexpr double max_count = 5e8;    // far more than there may be: less of the frame is simulated
+constexpr double nearly = 1 - 1e-9;  // what is left of a frame takes what is left of its steps, but for rounding
 
 }  // namespace
 
-int count_substeps(const SubstepBound& b, double seconds, double at_least) {
-  return int(std::min(unbounded_substeps, std::ceil(std::max({b.min_substeps, seconds / b.stable_step, at_least}))));
+double on_ladder(double count, int lengths) {
+  const double whole = std::ceil(std::clamp(count, 1.0, max_count) * nearly);
+  const double unit = std::max(1.0, std::ldexp(1.0, std::ilogb(whole)) / lengths);
+  return std::ceil(whole / unit) * unit;
 }
 
-void StepController::set_integrator(const Integrator& integrator) {
-  chosen_ = integrator_ = &integrator;
-  why_ = {};
+void StepController::set_choice(const IntegratorChoice& choice) {
+  chosen_ = &choice.integrator();
+  fixed_steps_ = choice.substeps.value_or(0);
+  plan_ = {};
+  plan_.integrator = chosen_;
 }
 
-void StepController::begin_frame(double seconds, std::size_t particles) {
-  assert(chosen_ && seconds > 0);
-  seconds_ = seconds;
-  particles_ = particles;
-  work_ = {};
-  hysteresis_.advance(seconds);
+void StepController::begin_frame(const FrameConditions& c, const StepBound& bound) {
+  assert(chosen_ && c.seconds > 0);
+  seconds_ = c.seconds;
+  spent_ = 0;
+  most_ = budget_.of(c.particles);
+  work_of_substep_ = work::substep + double(c.moving) + work::penalty_pair * double(c.penalty_pairs);
+  hysteresis_.advance(c.seconds);
+  plan_.substeps = plan_.needed = 0;
+  if (automatic() && c.moving > 0) choose(bound, c);
 }
 
-/// No rate that is kept may cut the frame short.
-void StepController::raise_min_substep_rate(const SubstepBound& b) {
-  hysteresis_.raise(std::min(std::max(b.free_rate, b.deformation_rate), max_explicit_substeps() / seconds_));
+/// The rate that bodies have asked for lately counts, too, up to half of the budget: it must not cut the frame short.
+double StepController::explicit_rate(const StepBound& b) {
+  double rate = std::max({1 / longest_step, b.passing, b.stable, b.deformation});
+  if (fixed()) return rate;
+  hysteresis_.raise(std::min(std::max(b.stable, b.deformation), 0.5 * most_ / work_of_substep_ / seconds_));
+  return std::max(rate, hysteresis_.rate());
 }
 
-/// Takes the cheaper of the two by the counts of their work, whatever the machine: a step of the quasi-Newton solver is
-/// worth about as much as 150 explicit substeps of the same body in free flight, as 300 on solids, and in heaps, where
-/// all bodies of a batch take as long as the one that is pressed most, as 1,700 to 4,400. Both are as many as would be
-/// taken: the rate that is kept counts, or a body that oscillates would change its integrator with every swing. What
-/// might come to ask for more explicit substeps than there may be gets implicit steps, and what explicit substeps
-/// cannot bring to rest, or near enough to it to fall asleep; unless the fastest body asks for too many implicit ones.
-/// Where somebody waits for the frames of a large world, both are cut alike, so that the choice is the same.
-void StepController::choose(const SubstepBound& b, const FrameConditions& c) {
-  constexpr double in_flight = 150, on_solids = 300, most = softbody::max_substeps / 2;  // substeps
-  assert(automatic());
-  integrator_ = find_integrator("semi-implicit-euler");
-  const double steps = std::max(b.min_substeps, seconds_ * b.implicit_rate(seconds_));
-  const double worth = c.penalty_pairs ? most : std::min(most, (c.near_solids ? on_solids : in_flight) * steps);
-  if (!fixed()) raise_min_substep_rate(b);
-  const double kept = fixed() ? 0 : hysteresis_.rate();
-  const double needed = std::max(seconds_ / b.stable_step, seconds_ * std::max(b.deformation_rate, kept));
-  const bool cheaper = needed <= (fixed() ? double(*fixed_steps_) : worth) ||
-                       (!fixed() && b.min_substeps > max_implicit_steps && needed <= softbody::max_substeps);
+/// A body does not stay round if a step bends it by more than its radius. Stability needs no such steps, so there are
+/// at most 16 a frame.
+double StepController::implicit_rate(const StepBound& b) const {
+  return std::max({1 / longest_step, b.passing, std::min(0.1 * b.deformation, 16 / seconds_)});
+}
+
+/// Takes the cheaper of the two by their work, whatever the machine. What explicit substeps cannot bring to rest, or
+/// near enough to it to fall asleep, gets implicit ones.
+void StepController::choose(const StepBound& b, const FrameConditions& c) {
+  const double of_implicit = c.penalty_pairs > 0 ? work::implicit_in_contact
+                             : c.near_solids     ? work::implicit_on_solids
+                                                 : work::implicit_in_flight;
+  const double most = fixed() ? fixed_steps_ : of_implicit * std::max(1.0, seconds_ * implicit_rate(b));
+  const bool cheaper = seconds_ * explicit_rate(b) <= most;
   const double rest = std::max(1e-3, 0.2 * c.sleep_speed);  // m/s
+  plan_.integrator = find_integrator("semi-implicit-euler");
   if (cheaper && c.rounding_velocity <= rest) {
-    why_ = "explicit substeps are stable, and cheaper than implicit steps";
+    plan_.why = "explicit substeps are stable, and cheaper than implicit steps";
   } else if (c.surface_contact) {
-    why_ = "contact of the true surfaces wants short steps";
+    plan_.why = "contact of the true surfaces wants short steps";
   } else if (c.too_large) {
-    why_ = "a body has too many particles for implicit steps";
+    plan_.why = "a body has too many particles for implicit steps";
   } else {
-    integrator_ = find_integrator("implicit");
-    why_ = cheaper ? "so stiff that in explicit substeps rounding would keep bodies trembling"
-                   : "so stiff, or deforming so fast, that explicit substeps would cost more or might be too many";
+    plan_.integrator = find_integrator("implicit");
+    plan_.why = cheaper ? "so stiff that in explicit substeps rounding would keep bodies trembling"
+                        : "so stiff, or deforming so fast, that explicit substeps would cost more";
   }
 }
 
-int StepController::max_substeps() const {
-  if (fixed()) return *fixed_steps_ * integrator_->substeps_per_step;
-  return integrator_->implicit ? max_implicit_steps : max_explicit_substeps();
-}
-
-int StepController::stable_substeps(const SubstepBound& b, double left) {
-  constexpr double nearly = 1 - 1e-9;  // the rest of a frame takes what is left of its substeps, but for rounding
-  if (!std::isfinite(b.stable_step)) return count_substeps(b, left, left * b.implicit_rate(seconds_) * nearly);
-  raise_min_substep_rate(b);
-  return count_substeps(b, left, left * std::max(b.deformation_rate, hysteresis_.rate() * nearly));
-}
-
-int StepController::substeps(int stable, double contact_rate, double left) const {
-  int count = std::max(stable, int(std::min(unbounded_substeps, std::ceil(left * contact_rate))));
-  if (!integrator_->implicit) return count;
-  // A matrix belongs to a step length, of which there are to be few: halves, quarters, ... of a frame.
-  count = std::min(count, 1 << 20);  // far more than there may be, and lengths still divide what is left
-  double length = seconds_;
-  const auto fits = [&] { return std::abs(left / length - std::round(left / length)) < 1e-6; };
-  while (length > left * (1 + 1e-9) || left / length < count * (1 - 1e-9) || !fits()) length /= 2;
-  return int(std::lround(left / length));
-}
-
-void StepController::spend(const FrameWork& work) {
-  work_.surface += work.surface;
-  work_.implicit += work.implicit;
-  work_.penalty += work.penalty;
-}
-
-bool StepController::may_go_on(int substeps) const {
-  if (substeps >= max_substeps()) return false;
-  const double times = max_work_.times(particles_);
-  return fixed() || (work_.surface < times * max_work_.surface && work_.implicit < times * max_work_.implicit &&
-                     work_.penalty < times * max_work_.penalty);
+const StepPlan& StepController::plan(const StepBound& b, double left) {
+  const Integrator& integrator = *plan_.integrator;
+  const bool any_step = integrator.stable_at_any_step();
+  const double needed = seconds_ * std::max({1 / longest_step, b.passing, any_step ? 0 : b.stable});
+  const int whole = int(std::ceil(std::min(needed, max_count) * nearly));
+  plan_.needed = plan_.substeps > 0 ? std::min(plan_.needed, whole) : whole;
+  const double rate = any_step ? implicit_rate(b) : explicit_rate(b);
+  double count = left / seconds_;
+  if (fixed()) {
+    count *= fixed_steps_ * integrator.substeps_per_step;
+  } else {
+    count *= on_ladder(seconds_ * rate, integrator.step_lengths);
+    // Where the rest of a frame is no whole number of such steps, explicit ones become a little shorter.
+    while (integrator.implicit && std::abs(count - std::round(count)) > 1e-6 && count < max_count) count *= 2;
+  }
+  count = std::max(1.0, std::ceil(count * nearly));
+  plan_.substeps = int(count);
+  return plan_;
 }
 
 }  // namespace softbody

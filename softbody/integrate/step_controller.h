@@ -1,77 +1,109 @@
 #pragma once
-// Decides which integrator a frame gets, and how many substeps. It sees no bodies, only numbers that say how they are.
+// Decides which integrator moves the bodies in a frame, and in how many steps. It sees no bodies, only numbers that say
+// how they are.
 
-#include <optional>
+#include <algorithm>
+#include <cstddef>
 #include <string_view>
 
 #include "softbody/integrate/integrators.h"
-#include "softbody/integrate/max_work.h"
-#include "softbody/integrate/substeps.h"
+#include "softbody/integrate/work.h"
 
 namespace softbody {
 
-/// What else the choice of an integrator depends on.
+/// What bodies ask of their steps as they are now: the lowest rates (1/s) at which steps ...
+struct StepBound {
+  double stable = 0;       // ... are stable, of explicit integrators; 0 if all are
+  double deformation = 0;  // ... keep up with the body that changes its shape fastest
+  double passing = 0;      // ... keep up with the fastest body near a solid, and with surfaces that pass each other
+};
+
+/// What else a frame depends on.
 struct FrameConditions {
-  bool near_solids = false, penalty_pairs = false, surface_contact = false;
+  double seconds = 0;
+  std::size_t particles = 0, moving = 0;  // of all bodies, and of those that move
+  std::size_t penalty_pairs = 0;
+  bool near_solids = false, surface_contact = false;
   bool too_large = false;        // a body has too many particles for implicit steps
   double rounding_velocity = 0;  // m/s, see StepBounds::rounding_velocity()
   double sleep_speed = 0;        // m/s, below which bodies fall asleep
 };
 
-/// Work of a frame, each as MaxWork counts it.
-struct FrameWork {
-  double surface = 0, implicit = 0, penalty = 0;
+struct StepPlan {
+  const Integrator* integrator = nullptr;
+  std::string_view why;  // reason for the integrator; empty unless the controller chose it
+  int substeps = 0;      // into which what is left of the frame is to be divided
+  int needed = 0;        // substeps of a whole frame that its bounds ask for, the lowest of them
+};
+
+/// Lower bound of the substep rate that falls with a delay: the largest rate (1/s) of the last half second to one
+/// second. Steps of equal length keep the energy of an oscillation bounded. Steps that get longer and shorter with the
+/// oscillation feed it, however short they are (Skeel and Gear 1992, "Does variable step size ruin a symplectic
+/// integrator?").
+class SubstepHysteresis {
+ public:
+  void advance(double seconds) {
+    age_ += seconds;
+    if (age_ < half_second) return;
+    before_ = now_;
+    now_ = age_ = 0;
+  }
+  void raise(double rate) { now_ = std::max(now_, rate); }
+  double rate() const { return std::max(now_, before_); }  // 1/s
+
+ private:
+  static constexpr double half_second = 0.5;
+  double now_ = 0, before_ = 0;  // 1/s, the most in the half second that runs, and in the one before
+  double age_ = 0;               // s, of the one that runs
 };
 
 class StepController {
  public:
-  void set_integrator(const Integrator& integrator);
-  /// Fixes the number of the integrator's steps in a frame; nullopt: as many as the bounds ask for.
-  void set_fixed_steps(std::optional<int> steps) { fixed_steps_ = steps; }
-  void set_max_work(const MaxWork& max) { max_work_ = max; }
+  /// Takes the integrator, or `auto`, and the number of its steps in a frame if that is fixed.
+  void set_choice(const IntegratorChoice& choice);
+  void set_budget(const WorkBudget& budget) { budget_ = budget; }
 
-  /// particles: of all bodies.
-  void begin_frame(double seconds, std::size_t particles);
+  /// Begins a frame, and chooses its integrator if that is left to the controller. bound: at its start, of bounds_of().
+  void begin_frame(const FrameConditions& conditions, const StepBound& bound);
+  /// Plans the last `left` seconds of the frame for this bound. All steps are of few lengths, on a ladder.
+  const StepPlan& plan(const StepBound& bound, double left);
+  /// Returns the last plan. Before the first one of a frame it has its integrator only.
+  const StepPlan& plan() const { return plan_; }
+
+  /// Returns the integrator by which bounds are to be measured.
+  const Integrator& bounds_of() const { return *chosen_; }
   /// True if the controller chooses the integrator of each frame.
   bool automatic() const { return chosen_->automatic; }
-  /// Chooses the integrator of this frame. bound: of semi-implicit Euler.
-  void choose(const SubstepBound& bound, const FrameConditions& conditions);
-  /// Returns the integrator of this frame and why the controller chose it, which is empty if it did not.
-  const Integrator& integrator() const { return *integrator_; }
-  std::string_view why() const { return why_; }
+  /// True if the number of steps is fixed. Then no budget counts.
+  bool fixed() const { return fixed_steps_ > 0; }
 
-  bool fixed() const { return fixed_steps_.has_value(); }
-  /// Returns the largest number of substeps of this frame.
-  int max_substeps() const;
-  /// Returns into how many substeps the last `left` seconds of the frame are to be divided for these bounds.
-  int stable_substeps(const SubstepBound& bound, double left);
-  /// Returns the same if contacts ask for a rate of substeps (1/s), too.
-  int substeps(int stable, double contact_rate, double left) const;
   /// Adds to the work of this frame.
-  void spend(const FrameWork& work);
-  /// Returns false if the frame has had as many substeps, or as much work, as it may.
-  bool may_go_on(int substeps) const;
+  void spend(double work) { spent_ += work; }
+  double spent() const { return spent_; }
+  /// Returns the work of an explicit substep without contact of surfaces.
+  double work_of_substep() const { return work_of_substep_; }
+  /// Returns false if the frame has spent its budget.
+  bool may_go_on() const { return fixed() || spent_ < most_; }
 
-  /// Returns the most candidates of surface contact at one time.
-  std::size_t max_candidates() const { return max_work_.candidates(particles_); }
   const SubstepHysteresis& hysteresis() const { return hysteresis_; }
   void set_hysteresis(const SubstepHysteresis& hysteresis) { hysteresis_ = hysteresis; }
 
  private:
-  int max_explicit_substeps() const { return max_work_.scaled_substeps(softbody::max_substeps, particles_); }
-  void raise_min_substep_rate(const SubstepBound& bound);
+  void choose(const StepBound& bound, const FrameConditions& conditions);
+  double explicit_rate(const StepBound& bound);
+  double implicit_rate(const StepBound& bound) const;
 
-  const Integrator *chosen_ = nullptr, *integrator_ = nullptr;
-  std::string_view why_;
-  std::optional<int> fixed_steps_;
-  MaxWork max_work_;
+  const Integrator* chosen_ = nullptr;
+  int fixed_steps_ = 0;  // 0: not fixed
+  WorkBudget budget_;
   SubstepHysteresis hysteresis_;
   double seconds_ = 0;  // of this frame
-  std::size_t particles_ = 0;
-  FrameWork work_;
+  double work_of_substep_ = 0, spent_ = 0, most_ = 0;
+  StepPlan plan_;
 };
 
-/// Returns the substeps that a bound asks for within `seconds`, at least `at_least`.
-int count_substeps(const SubstepBound& bound, double seconds, double at_least);
+/// Returns the number of steps on the ladder that is not below `count`. Between 2^n and 2^(n+1) steps a frame it has
+/// `lengths` rungs.
+double on_ladder(double count, int lengths);
 
 }  // namespace softbody

@@ -1,10 +1,8 @@
 #pragma once
 // Arguments of the state's kernels. Narrow blocks use only the first values of arrays over lanes.
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 
 #include "softbody/state/lanes.h"
 
@@ -41,14 +39,10 @@ struct Extent {
   LaneVector lo, hi;     // corners of the bounding box of the first field's vectors
   float length2[lanes];  // squared length of the longest vector of the second field
 
-  double max_length() const { return std::sqrt(double(*std::max_element(std::begin(length2), std::end(length2)))); }
-  double max_diagonal() const {  // of the boxes
-    double most = 0;
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const glm::dvec3 diagonal(hi[l] - lo[l]);
-      most = std::max(most, std::hypot(diagonal.x, diagonal.y, diagonal.z));
-    }
-    return most;
+  double length(std::size_t lane) const { return std::sqrt(double(length2[lane])); }
+  double diagonal(std::size_t lane) const {  // of the box
+    const glm::dvec3 diagonal(hi[lane] - lo[lane]);
+    return std::hypot(diagonal.x, diagonal.y, diagonal.z);
   }
 };
 

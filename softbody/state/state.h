@@ -93,8 +93,6 @@ class State {
   }
   /// Returns the bounds of `boxed`, and the length of the longest vector of `measured`, for each body of a batch.
   Extent extent(const Batch& batch, const VectorArray& boxed, const VectorArray& measured) const;
-  /// Returns the largest speed (m/s) of a batch's particles.
-  double max_particle_speed(const Batch& batch) const { return extent(batch, x, v).max_length(); }
   std::size_t particle_count() const;  // of all bodies, whether they move or not
   Particle particle(BodyId body, Index vertex) const;
   /// Returns the largest speed of a body's particles in m/s; infinity if one is not finite.

@@ -2,10 +2,8 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
-#include "softbody/contact/keys.h"
 #include "softbody/integrate/force_stage.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/world_parts.h"
@@ -49,10 +47,11 @@ World::Parts::Parts(Scene s, const Options& o)
       solver(scene, Crew(workers, o.min_shared_particles)),
       sleep(scene.sleep),
       detector(method->make()) {
-  solver.steps().set_max_work(o.max_work);
+  solver.steps().set_budget(o.budget);
+  solver.set_max_candidates(o.max_candidates);
   solver.set_vertices(bodies);
   solver.set_plan(plan);
-  check_stability(models, plan);
+  check_sizes(models);
   set_integrator();
   if (scene.default_cell_size) settings.cell_size = rest_cell_size(models, settings);
   arrive();
@@ -60,54 +59,21 @@ World::Parts::Parts(Scene s, const Options& o)
   detect();
 }
 
-/// Returns the substeps that one frame needs for a contact layer of `thickness` (m).
-double World::Parts::needed_substeps(const BodyModel& p, float thickness) const {
-  double max_friction = 0;
-  for (const Material& m : scene.materials) max_friction = std::max(max_friction, m[contact::friction]);
-  return substeps_at_start(p, choice.integrator(), frame_time, thickness, max_friction);
-}
-
-/// True if the integrator may choose implicit steps, so that no material is too stiff.
-bool World::Parts::implicit_in_reserve(const BodyModelSet& all, const Plan& with) const {
-  return choice.integrator().automatic && !with.has(Stage::surface_contact) &&
-         std::all_of(all.all().begin(), all.all().end(),
-                     [](const auto& one) { return one->mesh.vertices.size() <= max_implicit_particles; });
-}
-
-/// Hands the integrator on to the solver, without a check of stability.
+/// Hands the integrator on to the solver, without a check.
 void World::Parts::set_integrator() {
   report.integrator = &choice.integrator();
   report.why = {};
-  solver.steps().set_integrator(*report.integrator);
-  solver.steps().set_fixed_steps(choice.substeps);
+  solver.steps().set_choice(choice);
 }
 
-/// Throws SceneError if, in a world with this plan, one of the models needs more substeps than max_substeps.
-void World::Parts::check_stability(const BodyModelSet& all, const Plan& with) const {
-  const bool reserve = implicit_in_reserve(all, with), contacts = with.has(stage_of<PenaltyContact>);
-  for (const auto& p : all.all()) check_stability(*p, reserve, contacts);
-}
-
-void World::Parts::check_stability(const BodyModel& p, bool implicit_in_reserve, bool contacts) const {
-  const auto particles = p.mesh.vertices.size();
-  if (choice.integrator().implicit && particles > max_implicit_particles)
-    throw SceneError("scene '" + scene.key + "': a body of " + std::to_string(particles) +
-                     " vertices has too large a matrix for implicit steps (at most " +
-                     std::to_string(max_implicit_particles) + " vertices); choose another integrator");
-  if (choice.substeps) return;
-  const double steps = needed_substeps(p, contacts ? penalty_thickness : 0);
-  if (steps <= max_substeps) return;
-  const bool wide = contacts && needed_substeps(p, 0) <= max_substeps;  // a smaller tolerance would be stable
-  if (!wide && implicit_in_reserve) return;
-  std::ostringstream text;
-  text << "scene '" << scene.key << "', material '" << p.material.name << "': ";
-  if (wide)
-    text << "a tolerance of " << penalty_thickness << " m damps contacts so strongly";
-  else
-    text << "so stiff for its mass";
-  text << " that a frame would take " << std::llround(std::min(steps, 1e15)) << " substeps (at most " << max_substeps
-       << "); lower the " << (wide ? "tolerance" : "stiffness or raise the mass");
-  throw SceneError(text.str());
+/// Throws SceneError if one of these models has too many particles for the integrator that is chosen.
+void World::Parts::check_sizes(const BodyModelSet& all) const {
+  if (!choice.integrator().implicit) return;
+  for (const auto& p : all.all())
+    if (const auto particles = p->mesh.vertices.size(); particles > max_implicit_particles)
+      throw SceneError("scene '" + scene.key + "': a body of " + std::to_string(particles) +
+                       " vertices has too large a matrix for implicit steps (at most " +
+                       std::to_string(max_implicit_particles) + " vertices); choose another integrator");
 }
 
 BodyId World::Parts::add(const BodySource& source, const glm::dvec3& position) {
@@ -180,10 +146,12 @@ void World::step(const std::function<void()>& after_substep) {
   s.solver.finish_frame(done.seconds);
   s.report.time += done.seconds;
   s.report.seconds = done.seconds;
+  const StepPlan& steps = s.solver.steps().plan();
   s.report.substeps = done.substeps;
+  s.report.needed = steps.needed;
   s.report.last_substep = s.solver.last_substep();
-  s.report.integrator = &s.solver.steps().integrator();
-  s.report.why = s.solver.steps().why();
+  s.report.integrator = steps.integrator;
+  s.report.why = steps.why;
   s.report.adds_energy = s.solver.surface_contact().adds_energy();
   const bool whole = done.seconds == s.frame_time;
   if (!whole)
@@ -232,7 +200,7 @@ void World::set_integrator(const IntegratorChoice& choice) {
   const IntegratorChoice before = s.choice;
   s.choice = choice;
   try {
-    s.check_stability(s.models, s.plan);
+    s.check_sizes(s.models);
   } catch (const SceneError&) {
     s.choice = before;
     throw;
@@ -256,15 +224,8 @@ void World::set_collision(const collide::Settings& settings, bool default_cell_s
 
 void World::set_contact_surface(ContactSurface surface) {
   Parts& s = *parts_;
-  const ContactSurface before = std::exchange(s.scene.contact_surface, surface);
+  s.scene.contact_surface = surface;
   s.update_plan();
-  try {  // for surfaces there are no implicit steps in reserve
-    s.check_stability(s.models, s.plan);
-  } catch (const SceneError&) {
-    s.scene.contact_surface = before;
-    s.update_plan();
-    throw;
-  }
   // Surface contact lets bodies closer than the tolerance. The contact layer grows from 0, or it would throw them
   // apart.
   if (surface == ContactSurface::surfaces && s.frame > 0) s.penalty_thickness = 0;
@@ -278,7 +239,6 @@ Particle World::particle(BodyId body, Index vertex) const { return parts_->solve
 const collide::Result& World::detection() const { return parts_->result; }
 const collide::Detector& World::detector() const { return *parts_->detector; }
 std::span<const BodyId> World::vertex_body() const { return parts_->vertex_body; }
-int World::needed_substeps() const { return parts_->solver.needed_substeps(parts_->frame_time); }
 std::uint64_t World::state_hash() const { return parts_->solver.state().hash(); }
 const StepReport& World::last_step() const { return parts_->report; }
 

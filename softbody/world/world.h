@@ -15,8 +15,8 @@
 #include "softbody/forces/grab.h"
 #include "softbody/forces/pair_energy.h"
 #include "softbody/integrate/integrators.h"
-#include "softbody/integrate/max_work.h"
 #include "softbody/integrate/plan.h"
+#include "softbody/integrate/work.h"
 #include "softbody/scene/scene.h"
 #include "softbody/state/body.h"
 
@@ -29,9 +29,10 @@ struct Snapshot;
 struct StepReport {
   double detect_ms = 0, solve_ms = 0, total_ms = 0;  // for display only: nothing in the simulation depends on a clock
   double time = 0;                                   // s, simulated since the start, this step included
-  /// Time simulated in this step in s: less than frame_time() if a whole frame would exceed the limits of work.
+  /// Time simulated in this step in s: less than frame_time() if a whole frame would exceed the budget of work.
   double seconds = 0;
   int substeps = 0;
+  int needed = 0;           // substeps that the stability bound asks for in a whole frame
   double last_substep = 0;  // s, its length
   /// The integrator that moved the bodies; the chosen one if no step was done since the choice.
   const Integrator* integrator = nullptr;
@@ -53,11 +54,11 @@ class World {
     IntegratorChoice integrator{};
     /// With fewer particles of moving bodies, one thread moves them all: it is done before other threads have woken up.
     std::size_t min_shared_particles = 20'000;
-    MaxWork max_work{};
+    WorkBudget budget{};
+    MaxCandidates max_candidates{};
   };
 
-  /// Throws SceneError if a frame would take more than max_substeps, because a material is too stiff for its mass or
-  /// the tolerance is too wide.
+  /// Throws SceneError if a body has too many particles for implicit steps, and these are chosen.
   World(Scene scene, const Options& options);
 
   /// Simulates one frame. Calls `after_substep` after each substep; it may read positions(), which are up to date, but
@@ -73,10 +74,11 @@ class World {
   /// Places the body's particles, wakes all bodies and detects. `particles`: finite, one for each vertex.
   void set_particles(BodyId body, std::span<const Particle> particles);
   /// Adds `count` bodies at the scene's dropper, or above its first body if it has none. Each appears above everything
-  /// that is in the way; several are spread more widely than one. Returns the last of them. Throws SceneError as the
-  /// constructor does, and then adds none.
+  /// that is in the way; several are spread more widely than one. Returns the last of them. Throws SceneError, and then
+  /// adds none, if the world would have more than max_particles.
   BodyId drop(int count = 1);
-  /// Adds a body now, and not held; the frames of the source are ignored. Throws SceneError as the constructor does.
+  /// Adds a body now, and not held; the frames of the source are ignored. Throws SceneError as the constructor and
+  /// drop() do.
   BodyId add(const BodySource& source);
   /// Throws a body of the kind that drop() adds. It appears at the first clear place of the flight that begins at
   /// `from` (m) with `velocity` (m/s, not 0). Returns nothing if there is no clear place.
@@ -93,11 +95,10 @@ class World {
   // Changes of the scene. They wake all bodies and make a new plan. Values must be within the limits of a scene file.
   void set_gravity(const glm::dvec3& gravity);  // m/s^2
   /// Changes a material of the scene. If `index` is the number of materials, adds one for later bodies; its name must
-  /// then be new. Bodies keep their positions, and new bodies start in the same shape as before the change. Throws
-  /// SceneError, and changes nothing, if the material is too stiff.
+  /// then be new. Bodies keep their positions, and new bodies start in the same shape as before the change.
   void set_material(std::size_t index, const Material& material);
-  void set_solids(const Scene& from);                // copies the solids of that scene, the ground included
-  void set_contact_surface(ContactSurface surface);  // throws SceneError as the constructor does
+  void set_solids(const Scene& from);  // copies the solids of that scene, the ground included
+  void set_contact_surface(ContactSurface surface);
   /// Throws SceneError as the constructor does. The choice's key must be known.
   void set_integrator(const IntegratorChoice& choice);
   void set_method(std::string_view key);  // of a known method
@@ -122,7 +123,6 @@ class World {
   const collide::Result& detection() const;   // at positions()
   const collide::Detector& detector() const;  // for its debug()
   bool all_at_rest() const;                   // all bodies are asleep, and none is still to come
-  int needed_substeps() const;                // substeps that the bounds ask for in a frame from the current state
   std::uint64_t state_hash() const;           // over the bits of positions and velocities, in the order of bodies
 
   // The last step.

@@ -29,14 +29,6 @@ void World::Parts::check_capacity(const BodyModel& p, std::size_t number) const 
                    std::to_string(max_particles) + "); take bodies out first");
 }
 
-/// Throws SceneError if a material would be too stiff with `number` more bodies. One body alone has no contacts; with
-/// two, the plan may get surface contact, and then `auto` cannot choose implicit steps for a stiff body.
-void World::Parts::check_stability_with(const BodyModelSet& all, std::size_t number) const {
-  AddedBodies more = added_bodies;
-  more.bodies += number;
-  check_stability(all, make_plan(scene, all.all(), more));
-}
-
 void World::Parts::bodies_added(std::size_t number) {
   added_bodies.bodies += number;
   update_plan();
@@ -127,7 +119,6 @@ std::vector<BodySource> body_sources(const World& world) {
 
 BodyId World::drop(int count) {
   Parts& s = *parts_;
-  s.check_stability_with(s.models, std::size_t(count));
   Dropper dropper = s.dropper();
   s.check_capacity(*s.models.of(dropper.body), std::size_t(count));
   // Many would pile up to a tower: they fall side by side.
@@ -141,7 +132,7 @@ BodyId World::add(const BodySource& source) {
   Parts& s = *parts_;
   BodyModelSet more = s.models;
   s.check_capacity(*more.add(source, s.scene.materials), 1);
-  s.check_stability_with(more, 1);
+  s.check_sizes(more);
   s.models = std::move(more);
   const BodyId id = s.spawn(source);
   s.bodies_added(1);
@@ -209,7 +200,6 @@ void World::set_material(std::size_t index, const Material& material) {
   }
   BodyModelSet changed = s.models;
   changed.set_material(int(index), material);
-  s.check_stability(changed, s.plan);
   for (std::size_t i = 0; i < changed.all().size(); ++i) {
     const auto &from = s.models.all()[i], &to = changed.all()[i];
     if (from != to) s.solver.state().replace(from, to);

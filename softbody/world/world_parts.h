@@ -52,12 +52,8 @@ struct World::Parts : WorldValues {
   void set_integrator();
   void wake_near(BodyId body);
   void update_plan();
-  bool implicit_in_reserve(const BodyModelSet& all, const Plan& with) const;
-  double needed_substeps(const BodyModel& p, float thickness) const;
   void check_capacity(const BodyModel& p, std::size_t number) const;
-  void check_stability(const BodyModelSet& all, const Plan& with) const;
-  void check_stability(const BodyModel& p, bool implicit_in_reserve, bool contacts) const;
-  void check_stability_with(const BodyModelSet& all, std::size_t number) const;
+  void check_sizes(const BodyModelSet& all) const;
   void bodies_added(std::size_t number);  // by hand
   Dropper dropper() const;                // the scene's, or one over its first body
   void drop(const Dropper& dropper);

@@ -101,7 +101,7 @@ TEST(ContactReport, GivesNoFiguresOfFramesThatAreCutShort) {
   const std::string ball = "[[body]]\nmesh = {kind = \"icosphere\", subdivisions = 2, radius = 0.02}\n";
   Row surface = rows_of(ball + "velocity = [1000, 0, 0]\n" + ball + "position = [5, 3, 0]\nvelocity = [-1000, 0, 0]\n")
                     .at("surface");
-  EXPECT_NE(surface["not_run"].find("more substeps than there may be"), std::string::npos) << surface["not_run"];
+  EXPECT_NE(surface["not_run"].find("more work than there may be"), std::string::npos) << surface["not_run"];
 }
 
 TEST(ContactReport, ListsASceneOverBudgetAndDoesNotRunIt) {

@@ -6,7 +6,6 @@
 
 #include "random_scene.h"
 #include "require.h"
-#include "softbody/integrate/max_work.h"
 #include "softbody/scene/limits.h"
 #include "softbody/scene/scene_write.h"
 #include "softbody/world/measures.h"
@@ -20,7 +19,7 @@ namespace {
 // An input ends at the first of them: one that takes many substeps has shown in few frames what it can.
 constexpr int most_frames = 12, most_substeps = 1000;
 // Far less than users may ask for: frames that take longer end sooner, and every input takes its turn.
-constexpr softbody::MaxWork work{.surface = 1e5, .implicit = 1e4};
+constexpr softbody::WorkBudget budget{.least = 3e5, .per_particle = 30};
 
 void require_one_line(const softbody::SceneError& error) {
   require(std::string_view(error.what()).find('\n') == std::string_view::npos, "a refusal of several lines");
@@ -111,7 +110,7 @@ void run(Bytes bytes) {
   const softbody::Scene scene = read_scene(bytes, file.path().stem().string());
   require(through_file(scene, file) == scene, "a scene does not read back as it was written");
   softbody::World::Options options;
-  options.max_work = work;
+  options.budget = budget;
   if (bytes.below(4) == 0) options.integrator.key = "implicit";
   options.frame_time = bytes.one_of({1.0 / 600, 1.0 / 600, 1.0 / 600, 1.0 / 60, 1.0 / 60, 0.0});
   if (options.frame_time == 0) options.frame_time = bytes.one_of({1e-6, 0.1, 1.0});

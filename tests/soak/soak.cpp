@@ -25,15 +25,12 @@ namespace {
 constexpr int frames_a_second = 60;
 constexpr int picture_every = 10;  // frames: where the CPU draws, most of the time goes into the scene's picture
 constexpr int warm_up_seconds = 60;
-constexpr int max_added_bodies = 45;           // with more the scene starts again, as frames would take too long
-constexpr int max_second_substeps = 20'000;    // with more the simulated second ends, and the scene starts again
-constexpr int implicit_substeps = 150;         // an implicit substep counts as so many
-constexpr int candidates_of_substep = 10'000;  // so many candidates of surface contact count as one substep more
-constexpr int cut_substeps = 2000;             // a frame that is simulated only in part counts as so many more
-constexpr std::size_t large_scene = 50'000;    // vertices; such a scene gets a sixtieth of the time
+constexpr int max_added_bodies = 45;         // with more the scene starts again, as frames would take too long
+constexpr double max_second_work = 2e8;      // with more the simulated second ends, and the scene starts again
+constexpr std::size_t large_scene = 50'000;  // vertices; such a scene gets a sixtieth of the time
 
 // Bounds of a frame's work; that of processor time is for work that nothing counts, and far above what frames take.
-constexpr int max_substeps = softbody::max_substeps;
+constexpr double max_budgets = 10;  // for what follows a search for contacts before it is looked whether to go on
 constexpr std::uint64_t max_pair_tests = 1'000'000'000;  // Session's own bound for the method that drives
 constexpr double max_seconds = 20;
 constexpr double slow_seconds = 1;  // a slower frame is reported if it is the slowest so far
@@ -51,19 +48,13 @@ class Soak {
     std::optional<Resources> warm;
     for (int second = 0; second < seconds; ++second) {
       act_at_random(scene);
-      int substeps = 0;
-      for (int i = 0; i < frames_a_second && substeps < max_second_substeps; ++i) {
+      double work = 0;
+      for (int i = 0; i < frames_a_second && work < max_second_work; ++i) {
         const int before = demo_.session.world().frame();
         frame(i % picture_every == 0);
-        const softbody::World& world = demo_.session.world();
-        if (world.frame() == before) continue;
-        const softbody::Solver& solver = softbody::WorldTestAccess::solver(world);
-        const auto candidates = int(solver.surface_contact().candidates().search().features().size());
-        const int weight = solver.steps().integrator().implicit ? implicit_substeps : 1;
-        substeps += world.last_step().substeps * (weight + candidates / candidates_of_substep);
-        if (world.last_step().seconds < world.frame_time()) substeps += cut_substeps;
+        if (demo_.session.world().frame() != before) work += steps().spent();
       }
-      if (substeps >= max_second_substeps) {
+      if (work >= max_second_work) {
         ++shortened_seconds_;
         start(scene);
       }
@@ -81,10 +72,15 @@ class Soak {
   int shortened_seconds() const { return shortened_seconds_; }
 
  private:
+  const softbody::StepController& steps() const {
+    return softbody::WorldTestAccess::solver(demo_.session.world()).steps();
+  }
+
   void print_progress(const std::string& scene, int seconds) const {
-    std::printf("%-10s %4d s, %llu frames so far: at most %d substeps, %llu pair tests, %.2f s of processor time; %s\n",
-                scene.c_str(), seconds, static_cast<unsigned long long>(frames_), substeps_,
-                static_cast<unsigned long long>(pair_tests_), slowest_, describe(resources()).c_str());
+    std::printf(
+        "%-10s %4d s, %llu frames so far: at most %.2g of the budget, %llu pair tests, %.2f s of processor time; %s\n",
+        scene.c_str(), seconds, static_cast<unsigned long long>(frames_), work_,
+        static_cast<unsigned long long>(pair_tests_), slowest_, describe(resources()).c_str());
     std::fflush(stdout);
   }
 
@@ -99,8 +95,7 @@ class Soak {
         world.scene().key.c_str(), static_cast<unsigned long long>(frames_), seconds, last_action_.c_str(),
         world.bodies().count(), world.bodies().vertex_count(), p.substeps,
         std::string(world.last_step().integrator->key).c_str(), p.seconds, p.detect_ms, p.solve_ms,
-        double(surface.candidates().search().work()),
-        surface.work_of_substep());
+        double(surface.candidates().search().work()), surface.work_of_substep());
     std::fflush(stdout);
   }
 
@@ -139,9 +134,10 @@ class Soak {
     const softbody::World& world = session.world();
     if (took > std::max(slowest_, slow_seconds)) print_slow_frame(took);
     slowest_ = std::max(slowest_, took);
-    substeps_ = std::max(substeps_, world.last_step().substeps);
+    const double budget = softbody::window_budget.of(world.bodies().vertex_count());
+    if (!steps().fixed()) work_ = std::max(work_, steps().spent() / budget);
     pair_tests_ = std::max(pair_tests_, world.detection().counters.pair_tests);
-    if (substeps_ > max_substeps) fail("a frame took " + std::to_string(substeps_) + " substeps");
+    if (work_ > max_budgets) fail("a frame took " + std::to_string(work_) + " times its budget of work");
     if (pair_tests_ > max_pair_tests) fail("a frame took " + std::to_string(pair_tests_) + " pair tests");
     if (slowest_ > max_seconds) fail("a frame took " + std::to_string(slowest_) + " s of processor time");
     if (const GLenum error = glGetError()) fail("OpenGL error " + std::to_string(error));
@@ -202,7 +198,8 @@ class Soak {
   Dice dice_{""};
   std::string last_action_ = "nothing";
   collide::Index bodies_ = 0;  // of the scene at its start
-  int substeps_ = 0, explosions_ = 0, explosions_by_itself_ = 0, shortened_seconds_ = 0;
+  double work_ = 0;            // of the frame with most, over its budget
+  int explosions_ = 0, explosions_by_itself_ = 0, shortened_seconds_ = 0;
   std::uint64_t frames_ = 0, pair_tests_ = 0;
   double slowest_ = 0;  // s of processor time
 };
@@ -224,8 +221,8 @@ int run(int seconds, std::vector<std::string> scenes) {
   std::printf(
       "nothing found; %d times there was more energy or speed than there could be, each time reported as a blow-up, %d "
       "of them "
-      "in steps that the program chose; %d seconds ended early, with %d substeps\n",
-      soak.explosions(), soak.explosions_by_itself(), soak.shortened_seconds(), max_second_substeps);
+      "in steps that the program chose; %d seconds ended early, with %.2g units of work\n",
+      soak.explosions(), soak.explosions_by_itself(), soak.shortened_seconds(), max_second_work);
   return 0;
 }
 

@@ -168,7 +168,8 @@ struct PairRig : BatchRig {
                        .offset = glm::vec3(0.0f),
                        .normal = glm::vec3(0, 1, 0),
                        .stiffness = 100,
-                       .friction = 0.5f};
+                       .friction = 0.5f,
+                       .damped_mass = 1};
       ends.push_back({pair.slot_a, std::uint32_t(penalty.pairs.size()), 1});
       penalty.pairs.push_back(pair);
     }

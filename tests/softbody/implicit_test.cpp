@@ -262,10 +262,12 @@ TEST(Auto, TakesMoreExplicitSubstepsInContactThanInFlight) {
   EXPECT_EQ(world.last_step().integrator->key, "semi-implicit-euler") << world.last_step().why;
 }
 
-/// Light balls that lie on each other: hundreds of explicit substeps are cheaper than a few implicit ones.
+/// Light balls with stiff contacts that lie on each other: hundreds of explicit substeps are cheaper than a few
+/// implicit ones.
 TEST(Auto, StaysExplicitInAHeap) {
   Scene scene = find_scene("A", SBCOLLIDE_SCENES);
   scene.materials[0][Material::mass] = 0.012;
+  scene.materials[0][contact::stiffness] *= 40;
   World world(scene, {});
   int most = 0;
   for (int frame = 0; frame < 60; ++frame) {
@@ -273,7 +275,7 @@ TEST(Auto, StaysExplicitInAHeap) {
     most = std::max(most, world.last_step().substeps);
     ASSERT_EQ(world.last_step().integrator->key, "semi-implicit-euler") << frame;
   }
-  EXPECT_GT(most, 600) << "a lone body on a solid would have been moved by implicit steps";
+  EXPECT_GT(most, 300) << "a lone body on a solid would have been moved by implicit steps";
 }
 
 TEST(Auto, StaysExplicitHoweverFarABodyFalls) {

@@ -166,16 +166,21 @@ TEST(Integrator, BelowItsBoundAnExplicitOneBlowsUp) {
 TEST(ExplicitEuler, CountsOnNoDampingButTheBodysOwn) {
   const World::Options options{.integrator = {"explicit-euler"}};
   Scene undamped = lone_body(gas_ball(100, 0));
-  EXPECT_THROW(World(undamped, options), SceneError);
-  add_body(undamped, {0, 0, 5}, {});
-  EXPECT_THROW(World(undamped, options), SceneError) << "contacts damp, but only where they are";
+  const auto needed = [&](const Scene& scene) {
+    World world(scene, options);
+    world.step();
+    return world.last_step().needed;
+  };
+  constexpr int hopeless = 100'000;
+  EXPECT_GT(needed(undamped), hopeless);
+  add_body(undamped, {0, 1.02, 0}, {});
+  EXPECT_GT(needed(undamped), hopeless) << "contacts damp, but only where they are";
 
   const Scene slack = lone_body(gas_ball(100, 0.2)), stiff = lone_body(gas_ball(1e4, 0.5));
   Scene both = slack;
   both.materials.push_back(stiff.materials[0]);
   add_body(both, {0, 0, 5}, {});
   both.bodies[1].material = 1;
-  const auto needed = [&](const Scene& scene) { return World(scene, options).needed_substeps(); };
   EXPECT_EQ(needed(both), std::max(needed(slack), needed(stiff))) << "each by its own damping";
 }
 

@@ -4,109 +4,210 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace softbody::test {
 namespace {
 
 constexpr double frame = 1.0 / 60;  // s
+constexpr FrameConditions ball{.seconds = frame, .particles = 1000, .moving = 1000};
 
-/// Bounds of a body that bears explicit steps of `stable_step` s, and deforms at `deformation_rate` 1/s.
-SubstepBound bound(double stable_step, double deformation_rate = 0) {
-  return {stable_step, 1, deformation_rate, 1 / stable_step};
-}
+/// The bound of bodies that need `count` explicit substeps a frame.
+StepBound stable(double count) { return {.stable = count / frame}; }
 
-StepController with(const char* integrator, std::size_t particles = 1000) {
+StepController with(const char* integrator, std::optional<int> substeps = {}) {
   StepController steps;
-  steps.set_integrator(*find_integrator(integrator));
-  steps.begin_frame(frame, particles);
+  steps.set_choice({integrator, substeps});
   return steps;
 }
 
+/// Returns the substeps of a frame that begins with this bound.
+int substeps(StepController& steps, const StepBound& bound, const FrameConditions& conditions = ball) {
+  steps.begin_frame(conditions, bound);
+  return steps.plan(bound, conditions.seconds).substeps;
+}
+
+int first_substeps(const char* integrator, const StepBound& bound) {
+  StepController steps = with(integrator);
+  return substeps(steps, bound);
+}
+
 TEST(StepController, DividesAFrameIntoStableSubsteps) {
-  StepController steps = with("semi-implicit-euler");
-  EXPECT_EQ(steps.stable_substeps(bound(frame / 7.5), frame), 8);
-  EXPECT_EQ(steps.stable_substeps(bound(frame / 7.5), frame / 2), 4) << "half of it is left";
-  EXPECT_EQ(steps.stable_substeps(bound(frame / 7.5, 20 / frame), frame), 20) << "it deforms fast";
-  EXPECT_EQ(steps.substeps(8, 30 / frame, frame), 30) << "contacts ask for more";
+  for (const char* integrator : {"semi-implicit-euler", "rk4", "auto"}) {
+    EXPECT_EQ(first_substeps(integrator, stable(0.1)), 1);
+    EXPECT_EQ(first_substeps(integrator, stable(7.5)), 8);
+    EXPECT_EQ(first_substeps(integrator, {.stable = 7.5 / frame, .deformation = 20 / frame}), 20) << "it deforms fast";
+    EXPECT_EQ(first_substeps(integrator, {.stable = 7.5 / frame, .passing = 30 / frame}), 30) << "it passes fast";
+  }
+}
+
+TEST(StepController, TakesFewLengths) {
+  for (const Integrator& i : integrators()) {
+    std::set<int> taken;
+    int last = 0;
+    for (double count = 16.5; count <= 1024; count += 0.5) {
+      const int now = first_substeps(i.key.data(), {.stable = 0, .passing = count / frame});
+      EXPECT_GE(now, count);
+      EXPECT_LT(now, count + count / i.step_lengths + 1);
+      EXPECT_GE(now, last);
+      taken.insert(last = now);
+    }
+    EXPECT_EQ(taken.size(), 6u * unsigned(i.step_lengths)) << i.key;
+  }
+}
+
+TEST(StepController, DividesTheRestOfAFrame) {
+  const auto rest = [](const char* integrator, double passing, double left) {
+    const StepBound bound{.passing = passing / frame};
+    StepController steps = with(integrator);
+    steps.begin_frame(ball, bound);
+    return steps.plan(bound, left * frame).substeps;
+  };
+  for (const char* integrator : {"semi-implicit-euler", "implicit"}) {
+    EXPECT_EQ(rest(integrator, 4, 0.75), 3);
+    EXPECT_EQ(rest(integrator, 1, 0.25), 1);
+    EXPECT_EQ(rest(integrator, 8, 0.625), 5);
+  }
+  EXPECT_EQ(rest("semi-implicit-euler", 5, 0.75), 4);
+  EXPECT_EQ(rest("implicit", 5, 0.75), 6) << "eighths of a frame";
+  EXPECT_EQ(rest("semi-implicit-euler", 2, 0.625), 2);
+  EXPECT_EQ(rest("implicit", 2, 0.625), 5) << "eighths do not make up halves";
+}
+
+TEST(StepController, PlansTheSameForTheSameBound) {
+  StepController steps = with("auto");
+  const int before = substeps(steps, stable(21));
+  EXPECT_EQ(steps.plan(stable(21), frame).substeps, before);
+  EXPECT_EQ(steps.plan(stable(21), frame / 2).substeps, before / 2);
 }
 
 TEST(StepController, KeepsTheRateForAWhile) {
   StepController steps = with("semi-implicit-euler");
-  EXPECT_EQ(steps.stable_substeps(bound(frame / 100), frame), 100);
-  double after = 0;  // s, for which 100 substeps are kept although 10 are stable
-  for (; after < 3; after += frame) {
-    steps.begin_frame(frame, 1000);
-    if (steps.stable_substeps(bound(frame / 10), frame) < 100) break;
-  }
+  const int before = substeps(steps, stable(100));
+  double after = 0;  // s, for which the substeps are kept although fewer are stable
+  while (after < 3 && substeps(steps, stable(10)) == before) after += frame;
   EXPECT_GE(after, 0.5 - frame);
   EXPECT_LE(after, 1 + frame);
 }
 
-TEST(StepController, TakesImplicitStepsOfFewLengths) {
-  StepController steps = with("implicit");
-  for (const int stable : {1, 3, 5, 9, 100}) {
-    const int count = steps.substeps(stable, 0, frame);
-    EXPECT_GE(count, stable);
-    EXPECT_EQ(count & (count - 1), 0) << "a power of two";
-  }
-  EXPECT_EQ(steps.substeps(3, 0, 0.75 * frame), 3) << "three quarters are left: quarters of a frame";
+/// One that no number of substeps carries must not have the next frames cut short, too.
+TEST(StepController, KeepsNoRateThatIsBeyondTheBudget) {
+  StepController steps = with("semi-implicit-euler");
+  substeps(steps, stable(1e9));
+  const int kept = substeps(steps, stable(10));
+  EXPECT_LE(kept * steps.work_of_substep(), 1.2 * WorkBudget{}.of(ball.particles));
 }
 
 TEST(StepController, ChoosesTheCheaperIntegrator) {
-  StepController steps = with("auto");
-  ASSERT_TRUE(steps.automatic());
-  steps.choose(bound(frame / 100), {});
-  EXPECT_FALSE(steps.integrator().implicit);
-  EXPECT_FALSE(steps.why().empty());
-  steps = with("auto");
-  steps.choose(bound(frame / 200), {});
-  EXPECT_TRUE(steps.integrator().implicit) << "in free flight a step is worth 150 substeps";
-  steps = with("auto");
-  steps.choose(bound(frame / 200), {.near_solids = true});
-  EXPECT_FALSE(steps.integrator().implicit) << "on solids it is worth 300";
-  steps = with("auto");
-  steps.choose(bound(frame / 1500), {.near_solids = true, .penalty_pairs = true});
-  EXPECT_FALSE(steps.integrator().implicit) << "in a heap, more";
-  steps = with("auto");
-  steps.choose(bound(frame / 100), {.rounding_velocity = 0.1, .sleep_speed = 0.05});
-  EXPECT_TRUE(steps.integrator().implicit) << "rounding would keep it trembling";
-}
-
-TEST(StepController, TakesNoImplicitStepsWhereThereCanBeNone) {
-  for (const FrameConditions& c : {FrameConditions{.surface_contact = true}, FrameConditions{.too_large = true}}) {
+  const auto implicit = [](double count, const FrameConditions& conditions, double deformation = 0) {
     StepController steps = with("auto");
-    steps.choose(bound(frame / 3000), c);
-    EXPECT_FALSE(steps.integrator().implicit);
+    const StepBound bound{.stable = count / frame, .deformation = deformation / frame};
+    steps.begin_frame(conditions, bound);
+    EXPECT_FALSE(steps.plan(bound, frame).why.empty());
+    return steps.plan().integrator->implicit;
+  };
+  FrameConditions c = ball;
+  EXPECT_FALSE(implicit(100, c));
+  EXPECT_TRUE(implicit(200, c)) << "in free flight a step is worth 150 substeps";
+  EXPECT_FALSE(implicit(200, c, 15)) << "two of them more";
+  c.near_solids = true;
+  EXPECT_FALSE(implicit(200, c)) << "on solids it is worth 300";
+  EXPECT_TRUE(implicit(400, c));
+  c.penalty_pairs = 1;
+  EXPECT_FALSE(implicit(1500, c)) << "in a heap, more";
+  EXPECT_TRUE(implicit(1e12, c)) << "whatever explicit substeps would take";
+  c = ball;
+  c.rounding_velocity = 0.1, c.sleep_speed = 0.05;
+  EXPECT_TRUE(implicit(100, c)) << "rounding would keep it trembling";
+  for (bool FrameConditions::*none : {&FrameConditions::surface_contact, &FrameConditions::too_large}) {
+    c = ball;
+    c.*none = true;
+    EXPECT_FALSE(implicit(1e12, c));
   }
 }
 
-TEST(StepController, EndsAFrameWhoseWorkIsSpent) {
-  StepController steps = with("semi-implicit-euler");
-  EXPECT_TRUE(steps.may_go_on(10));
-  EXPECT_FALSE(steps.may_go_on(steps.max_substeps()));
-  for (const FrameWork& work : {FrameWork{.surface = 2e7}, FrameWork{.implicit = 4e6}, FrameWork{.penalty = 1e7}}) {
-    steps.begin_frame(frame, 1000);
-    ASSERT_TRUE(steps.may_go_on(10));
-    steps.spend(work);
-    EXPECT_FALSE(steps.may_go_on(10));
-    steps.begin_frame(frame, 100'000);
-    steps.spend(work);
-    EXPECT_TRUE(steps.may_go_on(10)) << "a larger world may do more";
+TEST(StepController, ChoosesImplicitStepsIfTheFixedOnesWouldBeUnstable) {
+  for (const int count : {10, 1000}) {
+    StepController steps = with("auto", count);
+    EXPECT_EQ(substeps(steps, stable(100)), count);
+    EXPECT_EQ(steps.plan().integrator->implicit, count < 100);
   }
+}
+
+TEST(StepController, ChoosesNothingWhileNothingMoves) {
+  StepController steps = with("auto");
+  steps.begin_frame({.seconds = frame, .particles = 1000}, {});
+  EXPECT_TRUE(steps.plan().integrator->automatic);
+  EXPECT_EQ(steps.plan().needed, 0);
+}
+
+TEST(StepController, SaysHowManyTheBoundsAskFor) {
+  StepController steps = with("semi-implicit-euler");
+  substeps(steps, stable(100));
+  EXPECT_EQ(steps.plan().needed, 100);
+  substeps(steps, stable(10));
+  EXPECT_EQ(steps.plan().needed, 10) << "not those of the kept rate";
+  steps.plan(stable(50), frame / 2);
+  EXPECT_EQ(steps.plan().needed, 10) << "the lowest within the frame";
+  steps = with("implicit");
+  substeps(steps, {.stable = 100 / frame, .passing = 3 / frame});
+  EXPECT_EQ(steps.plan().needed, 3);
+}
+
+TEST(StepController, EndsAFrameThatHasSpentItsBudget) {
+  StepController steps = with("semi-implicit-euler");
+  const double budget = WorkBudget{}.of(ball.particles);
+  substeps(steps, stable(10));
+  EXPECT_TRUE(steps.may_go_on());
+  steps.spend(0.9 * budget);
+  EXPECT_TRUE(steps.may_go_on());
+  steps.spend(0.2 * budget);
+  EXPECT_FALSE(steps.may_go_on());
+  substeps(steps, stable(10));
+  EXPECT_TRUE(steps.may_go_on()) << "the next frame has its own";
+  steps.set_budget({.least = 10});
+  steps.begin_frame(ball, stable(10));
+  steps.spend(20);
+  EXPECT_TRUE(steps.may_go_on()) << "a larger world may do more";
 }
 
 TEST(StepController, DoesWhatIsFixedWhateverItCosts) {
-  StepController steps = with("xpbd");
-  steps.set_fixed_steps(3);
-  EXPECT_EQ(steps.max_substeps(), 60) << "20 substeps a step";
-  steps.spend({.surface = 1e12, .implicit = 1e12, .penalty = 1e12});
-  EXPECT_TRUE(steps.may_go_on(59));
-  EXPECT_FALSE(steps.may_go_on(60));
+  for (const Integrator& i : integrators()) {
+    StepController steps = with(i.key.data(), 3);
+    EXPECT_EQ(substeps(steps, stable(2)), 3 * i.substeps_per_step) << i.key;
+    EXPECT_EQ(substeps(steps, {1e300, 1e300, 1e300}), 3 * steps.plan().integrator->substeps_per_step) << i.key;
+    EXPECT_EQ(steps.plan({1e300, 1e300, 1e300}, frame / 3).substeps, steps.plan().integrator->substeps_per_step);
+    steps.spend(1e300);
+    EXPECT_TRUE(steps.may_go_on());
+  }
 }
 
-TEST(CountSubsteps, CountsSomeEvenForBoundsOutOfReach) {
-  EXPECT_EQ(count_substeps(bound(std::numeric_limits<double>::infinity()), frame, 1), 1);
-  EXPECT_EQ(count_substeps(bound(1e-300), frame, 1), 1'000'000'000);
+TEST(StepController, PlansSomeStepsEvenForBoundsOutOfReach) {
+  constexpr double infinite = std::numeric_limits<double>::infinity(), none = std::nan("");
+  for (const Integrator& i : integrators())
+    for (const double rate : {1e300, infinite, none}) {
+      StepController steps = with(i.key.data());
+      const StepBound bound{rate, rate, rate};
+      EXPECT_GT(substeps(steps, bound), 0) << i.key;
+      EXPECT_GT(steps.plan(bound, frame / 3).substeps, 0) << i.key;
+      EXPECT_GE(steps.plan().needed, 1);
+    }
+}
+
+TEST(WorkBudget, GrowsWithTheWorldAndIsSmallerInAWindow) {
+  const WorkBudget budget;
+  EXPECT_EQ(budget.of(1), budget.of(1000));
+  EXPECT_DOUBLE_EQ(budget.of(2'000'000), 2 * budget.of(1'000'000));
+  for (const std::size_t particles : {1u, 10'000u, 100'000u, 4'000'000u})
+    EXPECT_LT(window_budget.of(particles), budget.of(particles));
+}
+
+/// Of 96 bytes each: what a world may hold must not grow beyond what a machine does.
+TEST(MaxCandidates, AreMoreInLargerWorldsUpToALimit) {
+  const MaxCandidates max;
+  EXPECT_EQ(max.of(1000), std::size_t{1} << 24);
+  EXPECT_EQ(max.of(400'000), 64u * 400'000);
+  EXPECT_EQ(max.of(4'000'000), std::size_t{1} << 25);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include "app/report/solver/results.h"
 #include "app/report/solver/trial.h"
 #include "app/report/steps.h"
-#include "softbody/integrate/max_work.h"
 #include "softbody/state/lanes.h"
 
 namespace app::report {

@@ -65,8 +65,10 @@ double error_of(const std::vector<reference::BodyState>& a, const std::vector<re
 
 /// Returns the outcome of the world's own rk4 in floats, for scenes that ReferenceBody does not model.
 SolverReference world_reference(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps) {
-  World world = make_world(scene, run, rk4(), 1, 1);
-  int substeps = world.needed_substeps();
+  const World world = make_world(scene, run, rk4(), 1, 1);
+  World trial = make_world(scene, run, rk4(), 1, 1);
+  trial.step();
+  int substeps = trial.last_step().needed;
   const auto outcome = [&](const SolverScene& s, int n) {
     World w = make_world(s, run, rk4(), n, 1);
     return advance(w, run.frames);

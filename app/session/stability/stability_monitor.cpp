@@ -21,34 +21,31 @@ softbody::Energy energy_at_start(const softbody::World& world) {
   return sum;
 }
 
-StepMargin::Bound kind_of(const softbody::Integrator& integrator) {
-  if (std::isinf(integrator.stable_step(1, 0))) return StepMargin::Bound::unconditional;
-  return integrator.by_damping ? StepMargin::Bound::by_damping : StepMargin::Bound::stable;
+StepMargin margin_of(const softbody::World& world) {
+  const softbody::StepReport& last = world.last_step();
+  if (last.substeps == 0) return {};
+  return {.taken = last.substeps,
+          .needed = last.needed,
+          .substep = last.seconds / last.substeps,
+          .bound = world.frame_time() / last.needed,
+          .kind = last.integrator->stable_at_any_step() ? StepMargin::Bound::unconditional
+                  : last.integrator->by_damping         ? StepMargin::Bound::by_damping
+                                                        : StepMargin::Bound::stable,
+          .share = last.seconds / world.frame_time()};
 }
 
 }  // namespace
 
 void StabilityMonitor::before_step(const softbody::World& world) {
   if (recovery_checks_ == 0) rewind_.keep(world);
-  needed_before_ = world.needed_substeps();
 }
 
 void StabilityMonitor::after_step(const softbody::World& world, bool monitored) {
-  const double frame = world.frame_time();
-  // The bound changes within a frame as bodies move; the step is compared with the wider bound of both ends.
-  const softbody::StepReport& last = world.last_step();
-  const int taken = last.substeps, needed = std::min(needed_before_, world.needed_substeps());
-  margin_ = {};
-  if (taken > 0)
-    margin_ = {.taken = taken,
-               .needed = needed,
-               .substep = last.seconds / taken,
-               .bound = frame / needed,
-               .kind = kind_of(*last.integrator),
-               .share = last.seconds / frame};
+  margin_ = margin_of(world);
   const auto every = static_cast<int>(1 + world.bodies().vertex_count() / vertices_a_frame);
   if (world.frame() % every != 0) return;
-  const bool staggered = taken > 0 && last.integrator->staggered;
+  const softbody::StepReport& last = world.last_step();
+  const bool staggered = last.substeps > 0 && last.integrator->staggered;
   const auto bodies = softbody::measure_bodies(world, staggered ? last.last_substep : 0);
   record(world, bodies);
   if (!monitored) blow_up_monitor_.restart();

@@ -14,8 +14,8 @@ struct StabilityHistory {
   TimeSeries strain, speed;                          // largest strain; largest speed, m/s
 };
 
-/// The substeps of the last frame beside those that the stability bound requires. All are 0 if nothing moves, or if no
-/// step was taken since the world went back.
+/// The substeps of the last frame beside those that the step controller's bound required. All are 0 if nothing moves,
+/// or if no step was taken since the world went back.
 struct StepMargin {
   /// What the bound means for the integrator in use.
   enum class Bound {
@@ -28,7 +28,7 @@ struct StepMargin {
   int taken = 0, needed = 0;
   double substep = 0, bound = 0;  // s; bound: less the reserve
   Bound kind = Bound::stable;
-  double share = 1;  // simulated share of the frame; below 1 if the frame would take more substeps than are allowed
+  double share = 1;  // simulated share of the frame; below 1 if the whole frame would exceed the budget of work
 };
 
 class StabilityMonitor {
@@ -69,7 +69,6 @@ class StabilityMonitor {
   int good_frame_ = 0;
   StabilityHistory history_;
   StepMargin margin_;
-  int needed_before_ = 0;  // substeps that the bound required before the step
 };
 
 }  // namespace app::session

@@ -10,7 +10,6 @@
 #include "app/ui/panel/integrators.h"
 #include "app/ui/panel/panel.h"
 #include "app/ui/views/status.h"
-#include "softbody/integrate/max_work.h"
 
 namespace app::ui {
 namespace {
@@ -30,7 +29,7 @@ void draw_integrator(Widgets& w, Session& session) {
   const softbody::StepReport& last = world.last_step();
   softbody::IntegratorChoice choice = world.integrator_choice();
   const int needed = std::max(session.simulation.stability().margin().needed, last.substeps);
-  const int proposed = std::min(needed, softbody::max_substeps);
+  const int proposed = std::min(needed, softbody::max_fixed_substeps);
   if (draw_integrator_choice(w, "", choice, proposed)) session.settings.set_integrator(choice);
   const bool chosen = !last.integrator->automatic;  // not before the first step
   const std::string why = world.integrator_choice().integrator().automatic
@@ -72,7 +71,7 @@ StatusLight status_light(const session::StepMargin& margin) {
   using Bound = session::StepMargin::Bound;
   if (margin.share < 1)
     return {render::status_amber, "Amber", "Slow motion",
-            "A frame needs more substeps than are allowed, so only a part of it is simulated."};
+            "A frame needs more work than is allowed, so only a part of it is simulated."};
   const bool within = margin.taken >= margin.needed;
   if (margin.kind == Bound::unconditional && !within)
     return {render::status_amber, "Amber", "Step long",
