@@ -51,8 +51,9 @@ void SolidContact::ease_out(const Batch& b, int lane, const glm::dvec3& way, con
   for (std::size_t i = 0; i < b.particles(); ++i) mean += glm::dvec3(read(v, slot(i))) / double(b.particles());
   const glm::vec3 change(law::max_separation_speed * way - 0.5 * seconds * gravity - mean);
   for (std::size_t i = 0; i < b.particles(); ++i) softbody::add(v, slot(i), change);
-  BodyField{impulse(b), std::size_t(lane), 1}.add(0,
-                                                  double(b.particles()) * b.model->particle_mass * glm::dvec3(change));
+  const glm::dvec3 given = double(b.particles()) * b.model->particle_mass * glm::dvec3(change);  // N s
+  BodyField{impulse(b), std::size_t(lane), 1}.add(0, given);
+  state_.ledger.book(WorkBy::easing, glm::dot(given, mean + 0.5 * glm::dvec3(change)));
   of_batch_[b.index].pushed |= 1u << lane;
   state_.memory(b.body[std::size_t(lane)]).calm_frames = 0;
 }
@@ -102,6 +103,7 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
   s.moves = b.moves.data();
   s.impulse = impulse(b);
   s.returned = returned(b);
+  s.work = work(b);
   if (has_restitution_) s.before = field(std::as_const(before_), b.base);
   if (!has_features_) return;
   const std::vector<SolidCore> cores = cores_of(solid);
@@ -128,8 +130,10 @@ void SolidContact::end_frame() {
   pushes_.assign(state_.body_count(), {});
   for (const Batch& b : state_.batches()) {
     const OfBatch& own = of_batch_[b.index];
-    for (std::size_t l = 0; l < std::size_t(b.used); ++l)
+    for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
       pushes_[b.body[l]] = {{own.impulse.x[l], own.impulse.y[l], own.impulse.z[l]}, double(own.returned[l])};
+      state_.ledger.book(WorkBy::solids, double(own.work[l]));
+    }
   }
 }
 

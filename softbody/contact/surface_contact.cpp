@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <glm/common.hpp>
 
@@ -293,11 +294,10 @@ std::size_t SurfaceContact::rows() const {
   return sum;
 }
 
-bool SurfaceContact::adds_energy() const {
-  return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& p) {
-    const auto first = thread_work_[static_cast<std::size_t>(p.thread)].rows.begin() + p.first_row;
-    return p.separating || std::any_of(first, first + p.rows, [](const ContactRow& row) { return row.target > 0; });
-  });
+double SurfaceContact::take_work() {
+  double sum = 0;
+  for (Pair& p : pairs_) sum += std::exchange(p.work, 0.0);
+  return sum;
 }
 
 std::vector<collide::surface::ItemPair> SurfaceContact::interactions() const {

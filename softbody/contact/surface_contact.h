@@ -56,6 +56,7 @@ struct ContactRow {
                              // of its reach
   float bias;                // m/s, that it asks for
   float target;              // m/s, least normal speed
+  float push;                // m/s, at most so fast it pushes apart
   float friction;
   float normal_impulse;        // N s, accumulated along the normal
   glm::vec3 friction_impulse;  // N s, accumulated across it
@@ -116,8 +117,8 @@ class SurfaceContact {
   /// Returns the pairs of bodies, a < b, of which features may touch in this frame.
   std::vector<collide::surface::ItemPair> interactions() const;
   std::size_t rows() const;
-  /// True if the last substep pushed overlapping surfaces apart or threw colliding ones back, and so added energy.
-  bool adds_energy() const;
+  /// Returns the energy (J) that pushing apart has given to bodies since the last call.
+  double take_work();
   /// `vertices`: those of the bodies that find() was given, and perhaps of more. While all bodies sleep it is the last
   /// substep before.
   std::vector<SurfaceContactPoint> contact_points(const collide::Bodies& vertices) const;
@@ -137,6 +138,7 @@ class SurfaceContact {
     std::uint32_t interior = 0, interior_end = 0;
     int thread = 0;
     std::uint32_t first_row = 0, rows = 0;
+    double work = 0;  // J, see take_work()
   };
   /// What is remembered of a candidate.
   struct CachedContact {
@@ -197,7 +199,7 @@ class SurfaceContact {
   void vertex_on_faces(Step& step, const Side& vertex_side, const Side& face_side, bool oriented);
   void add_interior_vertices(Step& step);
   void edges_on_edges(Step& step);
-  void separate(const Pair& pair, Field<const float> x, Field<float> v) const;
+  void separate(Pair& pair, Field<const float> x, Field<float> v) const;
   bool orient(CachedContact& cached, bool inner, glm::vec3& normal) const;
   bool few_rows() const { return rows() < 2000; }
   static bool needs_more_iterations(const Pair& pair, float h) {

@@ -256,6 +256,7 @@ void SurfaceContact::add_row(Step& step, const ContactRow& corners, const glm::v
   const float turn = step.h * std::min(spring_frequency, 0.25f * 2 * glm::pi<float>() / step.h);
   row.relative_stiffness = gap < 0 ? turn * (2 * spring_damping + turn) : 0;
   row.bias = -gap * turn / ((2 * spring_damping + turn) * step.h);
+  row.push = std::max({0.0f, row.target, gap < 0 ? row.bias : 0.0f});
   if (cached.normal_impulse == 0 && gap + step.h * speed < 0)
     row.target = std::max(row.target, law::rebound(-speed, step.pair.restitution));
   row.friction = step.pair.friction;

@@ -16,13 +16,13 @@ void apply(const ContactRow& row, const glm::vec3& impulse, Field<float> v) {
 
 }  // namespace
 
-void solve_row(ContactRow& row, Field<float> v) {
+float solve_row(ContactRow& row, Field<float> v) {
   glm::vec3 velocity = relative_velocity(row, v);
   const float speed = glm::dot(velocity, row.normal);
   const float held =
       row.relative_stiffness / (1 + row.relative_stiffness) * (row.normal_impulse + row.mass * (row.bias - speed));
   const float normal_impulse = std::max({0.0f, held, row.normal_impulse + row.mass * (row.target - speed)});
-  if (normal_impulse == 0 && row.normal_impulse == 0) return;
+  if (normal_impulse == 0 && row.normal_impulse == 0) return 0;
   const float push = normal_impulse - row.normal_impulse;
   row.normal_impulse = normal_impulse;
   velocity += (push / row.mass) * row.normal;
@@ -31,11 +31,12 @@ void solve_row(ContactRow& row, Field<float> v) {
       law::within_cone(row.friction_impulse - row.mass * slip, row.friction * normal_impulse);
   apply(row, push * row.normal + (friction_impulse - row.friction_impulse), v);
   row.friction_impulse = friction_impulse;
+  return normal_impulse * std::clamp(speed + push / row.mass, 0.0f, row.push);
 }
 
 /// Two bodies far inside each other move apart along the line of their centres, each as a whole: their shapes, momentum
 /// and angular momentum stay.
-void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<float> v) const {
+void SurfaceContact::separate(Pair& pair, Field<const float> x, Field<float> v) const {
   struct Whole {
     glm::vec3 centre{0.0f}, velocity{0.0f};
     float inverse_mass = 0;
@@ -58,6 +59,7 @@ void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<floa
   const float missing = float(law::max_separation_speed) - glm::dot(a.velocity - b.velocity, axis);
   if (missing <= 0) return;
   const float impulse = missing / (a.inverse_mass + b.inverse_mass);
+  pair.work += double(impulse * (float(law::max_separation_speed) - 0.5f * missing));
   for (Index i = 0; i < one.surface->vertex_count(); ++i)
     add(v, one.slot + i * one.stride, impulse * a.inverse_mass * axis);
   for (Index i = 0; i < two.surface->vertex_count(); ++i)
@@ -77,7 +79,7 @@ void SurfaceContact::for_each_pair(int thread, int threads, const std::function<
     const collide::Part part =
         alone ? collide::Part{0, thread == 0 ? colour.size() : 0} : collide::part_of(colour.size(), thread, threads);
     for (std::size_t i = part.begin; i < part.end; ++i) {
-      const Pair& p = pairs_[colour[i]];
+      Pair& p = pairs_[colour[i]];
       visit(p, std::span(thread_work_[static_cast<std::size_t>(p.thread)].rows).subspan(p.first_row, p.rows));
     }
     if (!alone) barrier();
@@ -87,25 +89,25 @@ void SurfaceContact::for_each_pair(int thread, int threads, const std::function<
 void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
                            const std::function<void()>& barrier) {
   const auto pass = [&](const auto& takes_part, const auto& visit, bool separating = false) {
-    for_each_pair(thread, threads, barrier, [&](const Pair& p, std::span<ContactRow> rows) {
+    for_each_pair(thread, threads, barrier, [&](Pair& p, std::span<ContactRow> rows) {
       if (!takes_part(p)) return;
       if (separating && p.separating) separate(p, x, v);
-      std::for_each(rows.begin(), rows.end(), visit);
+      for (ContactRow& row : rows) visit(p, row);
     });
   };
   const auto all = [](const Pair&) { return true; };
-  pass(all, [&](ContactRow& row) {
+  pass(all, [&](Pair&, ContactRow& row) {
     if (row.normal_impulse > 0) apply(row, row.normal_impulse * row.normal + row.friction_impulse, v);
   });
-  const auto round = [&](ContactRow& row) { solve_row(row, v); };
+  const auto round = [&](Pair&, ContactRow& row) { solve_row(row, v); };
   if (needs_more_iterations(h))
     for (int i = iterations; i < max_iterations; ++i)
       pass([&](const Pair& p) { return needs_more_iterations(p, h); }, round, true);
   for (int i = 1; i < iterations; ++i) pass(all, round, true);
   pass(
       all,
-      [&](ContactRow& row) {
-        solve_row(row, v);
+      [&](Pair& pair, ContactRow& row) {
+        pair.work += double(solve_row(row, v));
         if (row.feature == uncached) return;
         cached_[row.feature].normal_impulse = row.normal_impulse;
         cached_[row.feature].friction_impulse = row.friction_impulse;
@@ -129,10 +131,13 @@ bool SurfaceContact::resolve_after_solids(int thread, int threads, Field<float> 
                                           const std::function<void()>& barrier) {
   bool& mine = thread_work_[static_cast<std::size_t>(thread)].violated;
   mine = false;
-  for_each_pair(thread, threads, barrier, [&](const Pair& p, std::span<ContactRow> rows) {
+  for_each_pair(thread, threads, barrier, [&](Pair& p, std::span<ContactRow> rows) {
     if (!needs_more_iterations(p, h) || !violates_target(p, v, h)) return;
     mine = true;
-    for (ContactRow& row : rows) solve_row(row, v);
+    for (ContactRow& row : rows) {
+      const float before = row.normal_impulse, work = solve_row(row, v);
+      if (work > 0) p.work += double(work * (1 - before / row.normal_impulse));  // of what is new
+    }
   });
   if (few_rows()) barrier();
   return std::any_of(thread_work_.begin(), thread_work_.begin() + threads,

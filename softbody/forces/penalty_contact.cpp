@@ -1,6 +1,7 @@
 #include "softbody/forces/penalty_contact.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -210,16 +211,22 @@ double PenaltyContact::energy(const PenaltyPair& p, Field<const float> x) const 
   return k / (h * h) * std::max(0.0, push) + k / 2 * glm::dot(stretch, stretch);
 }
 
-double total(std::span<const PairEnergy> pairs) {
+double PenaltyContact::energy(Field<const float> x) const {
   double sum = 0;
-  for (const PairEnergy& p : pairs) sum += p.joules;
+  for (const PenaltyPair& p : pairs) sum += energy(p, x);
   return sum;
 }
 
-std::vector<PairEnergy> PenaltyContact::energies(Field<const float> x) const {
-  std::vector<PairEnergy> list;
-  for (const PenaltyPair& p : pairs) list.push_back({p.contact, energy(p, x)});
-  return list;
+void PenaltyContact::note_energies(Field<const float> x) {
+  held_.clear();
+  for (const PenaltyPair& p : pairs) held_.push_back(energy(p, x));
+}
+
+double PenaltyContact::released(Field<const float> x) const {
+  assert(held_.size() == pairs.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) sum += std::max(0.0, held_[i] - energy(pairs[i], x));
+  return sum;
 }
 
 void PenaltyContact::carry_over(std::span<const PenaltyPair> before) {

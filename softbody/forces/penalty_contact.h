@@ -23,7 +23,6 @@
 
 #include "collide/core/detector.h"
 #include "softbody/forces/force.h"
-#include "softbody/forces/pair_energy.h"
 
 namespace softbody {
 
@@ -74,7 +73,12 @@ struct PenaltyContact {
   void evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds);
   /// J: the work of the undamped push along n until the pair is out of sight, and what its friction spring holds.
   double energy(const PenaltyPair& pair, Field<const float> x) const;
-  std::vector<PairEnergy> energies(Field<const float> x) const;  // of all, in the order of pairs
+  double energy(Field<const float> x) const;  // J, of all pairs
+  /// Notes what each pair holds when a frame begins.
+  void note_energies(Field<const float> x);
+  /// Returns the energy (J) that pairs have given to bodies since, but nothing for those that hold more now: they may
+  /// also hold what nobody gave them, where one particle slid behind the other.
+  double released(Field<const float> x) const;
   /// How fast the force on a falls with the motion of a in the coming `seconds`, at least: N/m along and across n.
   struct Slopes {
     float spring, damper;                // along n
@@ -108,6 +112,8 @@ struct PenaltyContact {
  private:
   void add_pairs(const DetectedContacts& detected, const State& state);
   void group(const State& state);
+
+  std::vector<double> held_;  // J, of each pair when the frame began
 
   static constexpr float sticking_damping = 0.5f;  // across n, over k h / v
   /// Of a contact as deep as can be, over k h / v: 1 along n, and Coulomb's limit, which that moves, across n.

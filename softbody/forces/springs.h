@@ -25,7 +25,10 @@ struct SpringOf {
   HWY_INLINE T pull(T length) const {
     return stiffness * (length - rest);
   }
-  Real stored(Real length) const { return stiffness / 2 * (length - rest) * (length - rest); }
+  template <class T>
+  HWY_INLINE T stored(T length) const {
+    return stiffness / 2 * (length - rest) * (length - rest);
+  }
 };
 using Spring = SpringOf<double>;
 

@@ -95,7 +95,8 @@ constexpr std::array all_integrators{
         .advance = xpbd,
         .stable_step = unconditional,
         .substeps_per_step = 20,
-        .scratch = 1},
+        .scratch = 1,
+        .projects = true},
     Integrator{.key = "implicit",
                .name = "Implicit",
                .summary =

@@ -33,6 +33,7 @@ struct Integrator {
   bool automatic = false;       // chooses another integrator for each frame, see StepController::choose()
   bool by_damping = false;      // is stable only if every oscillation is damped enough
   bool staggered = false;       // its velocities belong to the middle of the last substep
+  bool projects = false;        // to shapes that depend on the step, so that what bodies store may grow
   bool conserves_spin = false;  // conserves a free body's angular momentum up to rounding; all conserve the linear one
 };
 

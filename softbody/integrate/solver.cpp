@@ -55,18 +55,6 @@ void Solver::set_contacts(const DetectedContacts& detected, float thickness) {
   penalty_.find(detected, state_, thickness);
 }
 
-std::vector<PairEnergy> Solver::penalty_energies() const {
-  PenaltyContact last = penalty_;
-  last.locate(state_);
-  return last.energies(field(state_.x));
-}
-
-std::vector<PairEnergy> Solver::penalty_energies(const DetectedContacts& detected, float thickness) const {
-  PenaltyContact coming = penalty_;
-  coming.find(detected, state_, thickness);
-  return coming.energies(field(state_.x));
-}
-
 glm::dvec3 Solver::gravity() const { return has_gravity_ ? scene_.gravity : glm::dvec3(0.0); }
 
 void Solver::begin_frame(double seconds) {
@@ -112,6 +100,7 @@ void Solver::choose_integrator(double seconds) {
 
 FrameResult Solver::advance(double seconds, const std::function<void()>& after_substep) {
   begin_frame(seconds);
+  penalty_.note_energies(field(state_.x));
   Frame frame{seconds};
   if (!crew_.moving().empty()) {
     do take_substeps(frame, after_substep);
@@ -122,6 +111,7 @@ FrameResult Solver::advance(double seconds, const std::function<void()>& after_s
     frame.left = 0;
   }
   solids_.end_frame();
+  state_.ledger.book(WorkBy::penalty, penalty_.released(field(state_.x)));
   return {frame.substeps, seconds - frame.left};
 }
 
@@ -154,6 +144,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   int done = 0;
   const auto go_on = [&](int steps) {
     run(steps, static_cast<float>(h), frame.substeps == 0, after_substep);
+    state_.ledger.book(WorkBy::surfaces, contacts_.surfaces().take_work());
     done += steps;
     frame.substeps += steps;
     steps_.spend({.surface = surface.empty() ? 0 : surface.work_of_substep(float(h)) * steps,
@@ -181,10 +172,16 @@ void Solver::run(int count, float h, bool first, const std::function<void()>& af
   motion_.begin_substeps(h);
   const Integrator& integrator = steps_.integrator();
   if (integrator.implicit) prepare_implicit(h);
+  const auto holds_body = [&](const Batch* b) {
+    return hand_.grab() && state_.body(hand_.grab()->body).batch == b->index;
+  };
   crew_.run([&](const Worker& worker) {
     for (int s = 0; s < count; ++s) {
       for (const Batch* b : worker.batches()) solids_.note_velocities(*b);
+      const bool holds = std::ranges::any_of(worker.batches(), holds_body);
+      if (holds) hand_.note_point(state_);
       integrator.advance(motion_, worker, {h, first && s == 0});
+      if (holds) hand_.book_work(state_, double(h));
       contacts_.advance(worker, h);
       if (!after_substep) continue;
       worker.barrier();

@@ -53,6 +53,7 @@ class Solver {
   const StepController& steps() const { return steps_; }
   const SurfaceContact& surface_contact() const { return contacts_.surfaces(); }
   const SolidContact& solid_contact() const { return solids_; }
+  const PenaltyContact& penalty_contact() const { return penalty_; }
 
   /// Takes the world's list of bodies, which must outlive this and change with the state.
   void set_vertices(const collide::Bodies& vertices);
@@ -62,10 +63,6 @@ class Solver {
 
   /// Takes the contacts for the coming frame. thickness: of the contact layer, m.
   void set_contacts(const DetectedContacts& detected, float thickness);
-  /// Returns the stored energy (J) of each pair of the last frame now.
-  std::vector<PairEnergy> penalty_energies() const;
-  /// Returns the energy (J) that each pair of these contacts would store if it acted now.
-  std::vector<PairEnergy> penalty_energies(const DetectedContacts& detected, float thickness) const;
 
   /// Advances by `seconds`, or by less if a limit of substeps or work is reached. Unless substeps are fixed, their
   /// bound is measured anew as bodies move, since bodies that are crushed may need any number of substeps and have many

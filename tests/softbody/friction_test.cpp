@@ -85,13 +85,14 @@ class SolidKernels : public tests::OnEveryTarget {
                      .place = {},
                      .moves = moves,
                      .impulse = {impulse.x, impulse.y, impulse.z},
-                     .returned = returned};
+                     .returned = returned,
+                     .work = work};
     s.h = 0.01f;
     return s;
   }
   void act(const SolidArguments& s) { act_by_solid(lanes, lanes, s, std::as_const(x).field(), v.field()); }
 
-  float moves[lanes], returned[lanes]{};
+  float moves[lanes], returned[lanes]{}, work[lanes]{};
   LaneVector impulse{};
   LaneField x{1}, v{1};
 };

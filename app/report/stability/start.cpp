@@ -77,10 +77,7 @@ reference::StabilityLimits limits_of(const World& world, const StabilityStart& s
   const softbody::Measures m = softbody::measure(world);
   double min_radius = infinite;
   for (const StabilityStart::Member& member : start.members) min_radius = std::min(min_radius, member.radius);
-  return {.energy = m.energy + softbody::total(world.pair_energies().next),
-          .seconds = start.first_frame + seconds,
-          .radius = min_radius,
-          .begins_inside = m.deepest_penetration > 0};
+  return {.seconds = start.first_frame + seconds, .radius = min_radius, .begins_inside = m.deepest_penetration > 0};
 }
 
 /// True if shape and volume agree.
