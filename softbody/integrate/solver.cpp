@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "softbody/forces/body_measures.h"
 #include "softbody/integrate/force_stage.h"
 #include "softbody/integrate/implicit/steps.h"
 #include "softbody/scene/solids.h"
@@ -160,6 +161,25 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   frame.left = done == count ? 0 : frame.left - done * h;
 }
 
+/// Before substeps of h, the first of the frame or later ones: sets which energy they conserve, and books what the
+/// change to that gives. Fixed ones that are too long to be stable conserve none; then the plain one is not to grow.
+void Solver::set_staggering(double h, bool first) {
+  constexpr double reserve = 0.8, close = 0.05;  // of stable steps; of h
+  const Integrator& integrator = steps_.integrator();
+  double& now = state_.ledger.staggering;
+  const double before = now;
+  now = integrator.staggered ? h : 0;
+  if (now > 0 && steps_.fixed())
+    now = !first ? before : reserve * h * bounds_.measure(integrator, h).free_rate > 1 ? 0 : h;
+  if (std::abs(now - before) <= close * std::max(now, before)) {
+    now = before;
+    return;
+  }
+  double power = 0;
+  for (const BodyMeasures& b : measure_bodies(state_, gravity())) power += b.power;
+  state_.ledger.book(WorkBy::steps, (now - before) / 2 * power);
+}
+
 void Solver::prepare_implicit(float h) {
   implicit_->retain([this](const BodyModel& model) {
     return std::ranges::any_of(state_.batches(), [&](const Batch& b) { return b.model.get() == &model; });
@@ -169,6 +189,7 @@ void Solver::prepare_implicit(float h) {
 
 void Solver::run(int count, float h, bool first, const std::function<void()>& after_substep) {
   last_substep_ = h;
+  set_staggering(double(h), first);
   motion_.begin_substeps(h);
   const Integrator& integrator = steps_.integrator();
   if (integrator.implicit) prepare_implicit(h);

@@ -92,6 +92,7 @@ class Solver {
   void begin_frame(double seconds);
   void choose_integrator(double seconds);
   void take_substeps(Frame& frame, const std::function<void()>& after_substep);
+  void set_staggering(double h, bool first);
   void prepare_implicit(float h);
   void run(int substeps, float h, bool first, const std::function<void()>& after_substep);
 

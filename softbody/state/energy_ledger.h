@@ -17,13 +17,18 @@ enum class WorkBy {
   surfaces,  // of bodies push each other apart
   penalty,   // contact: gives what its pairs held when they were found
   hand,
-  user,  // changes between frames; bodies that come and go
+  steps,  // that become longer or shorter, see EnergyLedger::staggering
+  user,   // changes between frames; bodies that come and go
 };
-inline constexpr std::size_t ledger_accounts = 6;
+inline constexpr std::size_t ledger_accounts = 7;
 
 /// The work (J) that was booked since the start of a world. Different threads may book on different accounts.
 class EnergyLedger {
  public:
+  /// s. Integrators whose velocities belong to the middle of the last substep conserve the energy and what forces do in
+  /// half a substep of this length, see BodyMeasures::conserved(). 0: the energy itself.
+  double staggering = 0;
+
   void book(WorkBy by, double joules) { accounts_[std::size_t(by)] += joules; }
   double booked(WorkBy by) const { return accounts_[std::size_t(by)]; }
   double total() const { return std::accumulate(accounts_.begin(), accounts_.end(), 0.0); }

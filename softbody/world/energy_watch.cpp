@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "softbody/model/body_model.h"
@@ -27,17 +28,13 @@ double active_energy(const World& world, const Measured& bodies) {
   return sum;
 }
 
-double conserved(const Measured& bodies, double staggered) {
-  double sum = 0;
-  for (const BodyMeasures& b : bodies) sum += b.conserved(staggered);
-  return sum;
-}
-
 double deformation(const Measured& bodies) {
   double sum = 0;
   for (const BodyMeasures& b : bodies) sum += b.energy.deformation();
   return sum;
 }
+
+double sum(const std::vector<double>& list) { return std::accumulate(list.begin(), list.end(), 0.0); }
 
 double rounding_energy(const World& world) {
   constexpr double speed = 1e-3;  // m/s: where nothing moves, rounding moves bodies far more slowly
@@ -50,23 +47,23 @@ double rounding_energy(const World& world) {
 
 std::optional<EnergyChange> EnergyWatch::look(const World& world, const Measured& bodies) {
   assert(bodies.size() == world.bodies().count());
-  Look now{{}, bodies, booked_work(world), active_energy(world, bodies)};
-  for (BodyId id = 0; id < bodies.size(); ++id) now.numbers.push_back(world.body(id).number);
-  const std::optional<Look> before = std::exchange(last_, std::move(now));
+  Look now{{}, {}, deformation(bodies), ledger(world).total(), active_energy(world, bodies)};
+  for (BodyId id = 0; id < bodies.size(); ++id) {
+    now.numbers.push_back(world.body(id).number);
+    now.energies.push_back(bodies[id].conserved(ledger(world).staggering));
+  }
+  const std::optional<Look> before = std::exchange(last_, now);
   if (!before) return {};
-  const double h = staggered_substep(world);
-  EnergyChange change{.gain = conserved(bodies, h) - conserved(before->bodies, h) - (last_->booked - before->booked),
-                      .active = std::max(before->active, last_->active),
+  EnergyChange change{.gain = sum(now.energies) - sum(before->energies) - (now.booked - before->booked),
+                      .active = std::max(before->active, now.active),
                       .rounding = rounding_energy(world),
                       .body = 0};
-  if (world.last_step().integrator->projects)
-    change.gain -= std::max(0.0, deformation(bodies) - deformation(before->bodies));
+  if (world.last_step().integrator->projects) change.gain -= std::max(0.0, now.stored - before->stored);
   double largest = -std::numeric_limits<double>::infinity();
   for (BodyId id = 0; id < bodies.size(); ++id) {
-    const auto old = std::ranges::lower_bound(before->numbers, last_->numbers[id]);
-    if (old == before->numbers.end() || *old != last_->numbers[id]) continue;
-    const double gain =
-        bodies[id].conserved(h) - before->bodies[std::size_t(old - before->numbers.begin())].conserved(h);
+    const auto old = std::ranges::lower_bound(before->numbers, now.numbers[id]);
+    if (old == before->numbers.end() || *old != now.numbers[id]) continue;
+    const double gain = now.energies[id] - before->energies[std::size_t(old - before->numbers.begin())];
     if (gain > largest) largest = gain, change.body = id;
   }
   return change;

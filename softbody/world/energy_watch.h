@@ -22,7 +22,7 @@ struct EnergyChange {
 class EnergyWatch {
  public:
   /// Returns what has happened since the last look; nothing at the first one. `bodies` are measured in the world. The
-  /// energy is the one that the integrator of the last step conserves.
+  /// energy is the one that the ledger is about.
   std::optional<EnergyChange> look(const World& world, const std::vector<BodyMeasures>& bodies);
   /// Starts anew with the next look: the world goes back.
   void restart() { last_.reset(); }
@@ -30,8 +30,8 @@ class EnergyWatch {
  private:
   struct Look {
     std::vector<std::uint32_t> numbers;  // of the bodies, see BodyState; ascending
-    std::vector<BodyMeasures> bodies;
-    double booked, active;  // J
+    std::vector<double> energies;        // J, theirs
+    double stored, booked, active;       // J, of all: by springs and gas; work; of motion and deformation
   };
   std::optional<Look> last_;
 };

@@ -81,16 +81,7 @@ std::vector<BodyMeasures> measure_bodies(const World& world) {
   return measure_bodies(world.state(), world.scene().gravity);
 }
 
-double booked_work(const World& world) { return world.state().ledger.total(); }
-
-double staggered_substep(const World& world) {
-  constexpr double reserve = 0.8;  // of the bounds
-  const StepReport& last = world.last_step();
-  if (!last.integrator->staggered) return 0;
-  const bool fixed = world.integrator_choice().substeps.has_value();
-  if (fixed && reserve * last.last_substep * world.needed_substeps() > world.frame_time()) return 0;
-  return last.last_substep;
-}
+const EnergyLedger& ledger(const World& world) { return world.state().ledger; }
 
 std::vector<BodyId> overlapping_bodies(const World& world) {
   const collide::Frame now = world.positions();

@@ -12,6 +12,8 @@ std::vector<BodyMeasures> measure_bodies(const World& world);
 /// Returns the deformation energy of a body's starting shape. It is the minimum if the body starts in equilibrium.
 Energy starting_energy(const BodyModel& model);
 
+class EnergyLedger;
+
 struct Measures {
   double energy = 0;                                  // J: the total of `energies`
   Energy energies;                                    // of all bodies
@@ -29,13 +31,8 @@ Measures measure(const World& world);
 /// Returns the sum of the measures of bodies, without their depth in solids.
 Measures total(std::span<const BodyMeasures> bodies);
 
-/// Returns the work (J) booked since the start of the world, see EnergyLedger.
-double booked_work(const World& world);
-/// Returns what BodyMeasures::conserved() wants for the integrator of the last step: the length of its last substep (s)
-/// if that integrator is staggered, else 0; also 0 for fixed substeps that are too long to be stable: what they conserve
-/// is no energy.
-double staggered_substep(const World& world);
-
+/// Returns the ledger of the work that is done on bodies.
+const EnergyLedger& ledger(const World& world);
 /// Returns the bodies that lie in a solid or in another body, which are eased out; ascending.
 std::vector<BodyId> overlapping_bodies(const World& world);
 

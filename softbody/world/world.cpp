@@ -111,7 +111,8 @@ BodyId World::Parts::add(const BodySource& source, const glm::dvec3& position) {
   const BodyId id = solver.state().add(model, position, source.velocity);
   bodies.add(model->shape);
   vertex_body.resize(bodies.vertex_count(), id);
-  solver.state().ledger.book(WorkBy::user, measure(solver.state(), id, scene.gravity).energy.total());
+  EnergyLedger& ledger = solver.state().ledger;
+  ledger.book(WorkBy::user, measure(solver.state(), id, scene.gravity).conserved(ledger.staggering));
   return id;
 }
 

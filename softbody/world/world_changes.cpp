@@ -196,7 +196,8 @@ const std::optional<Grab>& World::grabbed() const { return parts_->solver.hand()
 
 double World::Parts::energy() const {
   double sum = 0;
-  for (const BodyMeasures& m : measure_bodies(solver.state(), scene.gravity)) sum += m.energy.total();
+  for (const BodyMeasures& m : measure_bodies(solver.state(), scene.gravity))
+    sum += m.conserved(solver.state().ledger.staggering);
   return sum;
 }
 

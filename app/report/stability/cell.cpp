@@ -51,7 +51,7 @@ class Run {
     if (frame_ == 0) available_ = softbody::measure(world).energy;
     energy_.restart();
     energy_.look(world, softbody::measure_bodies(world));
-    booked_ = softbody::booked_work(world);
+    booked_ = softbody::ledger(world).total();
     return world;
   }
 
@@ -83,8 +83,8 @@ class Run {
 
  private:
   void count_excess(const World& world) {
-    available_ += softbody::booked_work(world) - booked_;
-    booked_ = softbody::booked_work(world);
+    available_ += softbody::ledger(world).total() - booked_;
+    booked_ = softbody::ledger(world).total();
     excess_ = std::max(0.0, excess_ + energy_.look(world, softbody::measure_bodies(world))->gain);
   }
 
