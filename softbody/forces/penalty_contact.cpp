@@ -1,7 +1,6 @@
 #include "softbody/forces/penalty_contact.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -214,18 +213,6 @@ double PenaltyContact::energy(const PenaltyPair& p, Field<const float> x) const 
 double PenaltyContact::energy(Field<const float> x) const {
   double sum = 0;
   for (const PenaltyPair& p : pairs) sum += energy(p, x);
-  return sum;
-}
-
-void PenaltyContact::note_energies(Field<const float> x) {
-  held_.clear();
-  for (const PenaltyPair& p : pairs) held_.push_back(energy(p, x));
-}
-
-double PenaltyContact::released(Field<const float> x) const {
-  assert(held_.size() == pairs.size());
-  double sum = 0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) sum += std::max(0.0, held_[i] - energy(pairs[i], x));
   return sum;
 }
 

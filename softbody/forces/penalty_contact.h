@@ -74,11 +74,6 @@ struct PenaltyContact {
   /// J: the work of the undamped push along n until the pair is out of sight, and what its friction spring holds.
   double energy(const PenaltyPair& pair, Field<const float> x) const;
   double energy(Field<const float> x) const;  // J, of all pairs
-  /// Notes what each pair holds when a frame begins.
-  void note_energies(Field<const float> x);
-  /// Returns the energy (J) that pairs have given to bodies since, but nothing for those that hold more now: they may
-  /// also hold what nobody gave them, where one particle slid behind the other.
-  double released(Field<const float> x) const;
   /// How fast the force on a falls with the motion of a in the coming `seconds`, at least: N/m along and across n.
   struct Slopes {
     float spring, damper;                // along n
@@ -112,8 +107,6 @@ struct PenaltyContact {
  private:
   void add_pairs(const DetectedContacts& detected, const State& state);
   void group(const State& state);
-
-  std::vector<double> held_;  // J, of each pair when the frame began
 
   static constexpr float sticking_damping = 0.5f;  // across n, over k h / v
   /// Of a contact as deep as can be, over k h / v: 1 along n, and Coulomb's limit, which that moves, across n.

@@ -27,14 +27,14 @@ struct Integrator {
   /// Returns 0.8 times the largest stable step in s, for the sums of stiffness/mass (1/s^2) and damping/mass (1/s) at
   /// one particle; infinity if every step is stable. See stable_step() in forces/bound.h.
   double (*stable_step)(double k_m, double c_m);
-  int substeps_per_step = 1;    // that the method makes of each step asked for
-  int scratch = 0;              // copies of a field over all particles that it needs
-  bool implicit = false;        // solves with the matrices of implicit/matrix.h
-  bool automatic = false;       // chooses another integrator for each frame, see StepController::choose()
-  bool by_damping = false;      // is stable only if every oscillation is damped enough
-  bool staggered = false;       // its velocities belong to the middle of the last substep
-  bool projects = false;        // to shapes that depend on the step, so that what bodies store may grow
-  bool conserves_spin = false;  // conserves a free body's angular momentum up to rounding; all conserve the linear one
+  int substeps_per_step = 1;     // that the method makes of each step asked for
+  int scratch = 0;               // copies of a field over all particles that it needs
+  bool implicit = false;         // solves with the matrices of implicit/matrix.h
+  bool automatic = false;        // chooses another integrator for each frame, see StepController::choose()
+  bool by_damping = false;       // is stable only if every oscillation is damped enough
+  bool staggered = false;        // its velocities belong to the middle of the last substep
+  bool conserves_energy = true;  // as steps get short; else it moves bodies to shapes of its own, by its steps
+  bool conserves_spin = false;   // conserves a free body's angular momentum up to rounding; all conserve the linear one
 };
 
 std::span<const Integrator> integrators();

@@ -101,7 +101,7 @@ void Solver::choose_integrator(double seconds) {
 
 FrameResult Solver::advance(double seconds, const std::function<void()>& after_substep) {
   begin_frame(seconds);
-  penalty_.note_energies(field(state_.x));
+  const double held = penalty_.energy(field(state_.x));
   Frame frame{seconds};
   if (!crew_.moving().empty()) {
     do take_substeps(frame, after_substep);
@@ -112,7 +112,7 @@ FrameResult Solver::advance(double seconds, const std::function<void()>& after_s
     frame.left = 0;
   }
   solids_.end_frame();
-  state_.ledger.book(WorkBy::penalty, penalty_.released(field(state_.x)));
+  state_.ledger.book(WorkBy::penalty, held - penalty_.energy(field(state_.x)));
   return {frame.substeps, seconds - frame.left};
 }
 
@@ -164,7 +164,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
 /// Before substeps of h, the first of the frame or later ones: sets which energy they conserve, and books what the
 /// change to that gives. Fixed ones that are too long to be stable conserve none; then the plain one is not to grow.
 void Solver::set_staggering(double h, bool first) {
-  constexpr double reserve = 0.8, close = 0.05;  // of stable steps; of h
+  constexpr double reserve = 0.8, close = 0.2;  // of stable steps; of h
   const Integrator& integrator = steps_.integrator();
   double& now = state_.ledger.staggering;
   const double before = now;

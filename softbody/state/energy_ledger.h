@@ -15,7 +15,7 @@ enum class WorkBy {
   solids,    // push bodies out
   easing,    // moves bodies as a whole out of solids that they started in
   surfaces,  // of bodies push each other apart
-  penalty,   // contact: gives what its pairs held when they were found
+  penalty,   // contact: what its pairs hold less at the end of a frame than when they were found
   hand,
   steps,  // that become longer or shorter, see EnergyLedger::staggering
   user,   // changes between frames; bodies that come and go

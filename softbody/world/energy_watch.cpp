@@ -28,12 +28,6 @@ double active_energy(const World& world, const Measured& bodies) {
   return sum;
 }
 
-double deformation(const Measured& bodies) {
-  double sum = 0;
-  for (const BodyMeasures& b : bodies) sum += b.energy.deformation();
-  return sum;
-}
-
 double sum(const std::vector<double>& list) { return std::accumulate(list.begin(), list.end(), 0.0); }
 
 double rounding_energy(const World& world) {
@@ -47,7 +41,7 @@ double rounding_energy(const World& world) {
 
 std::optional<EnergyChange> EnergyWatch::look(const World& world, const Measured& bodies) {
   assert(bodies.size() == world.bodies().count());
-  Look now{{}, {}, deformation(bodies), ledger(world).total(), active_energy(world, bodies)};
+  Look now{{}, {}, ledger(world).total(), active_energy(world, bodies)};
   for (BodyId id = 0; id < bodies.size(); ++id) {
     now.numbers.push_back(world.body(id).number);
     now.energies.push_back(bodies[id].conserved(ledger(world).staggering));
@@ -57,8 +51,8 @@ std::optional<EnergyChange> EnergyWatch::look(const World& world, const Measured
   EnergyChange change{.gain = sum(now.energies) - sum(before->energies) - (now.booked - before->booked),
                       .active = std::max(before->active, now.active),
                       .rounding = rounding_energy(world),
-                      .body = 0};
-  if (world.last_step().integrator->projects) change.gain -= std::max(0.0, now.stored - before->stored);
+                      .body = 0,
+                      .conserved = world.last_step().integrator->conserves_energy};
   double largest = -std::numeric_limits<double>::infinity();
   for (BodyId id = 0; id < bodies.size(); ++id) {
     const auto old = std::ranges::lower_bound(before->numbers, now.numbers[id]);

@@ -16,7 +16,8 @@ struct EnergyChange {
   double active;    // J, of motion and deformation
   double rounding;  // J
   BodyId body;      // the one that gained most
-  bool from_nowhere() const { return softbody::from_nowhere(gain, active, rounding); }
+  bool conserved;   // by the integrator; else a gain says nothing
+  bool from_nowhere() const { return conserved && softbody::from_nowhere(gain, active, rounding); }
 };
 
 class EnergyWatch {
@@ -31,7 +32,7 @@ class EnergyWatch {
   struct Look {
     std::vector<std::uint32_t> numbers;  // of the bodies, see BodyState; ascending
     std::vector<double> energies;        // J, theirs
-    double stored, booked, active;       // J, of all: by springs and gas; work; of motion and deformation
+    double booked, active;               // J; the latter of motion and deformation
   };
   std::optional<Look> last_;
 };

@@ -23,7 +23,7 @@ struct BatchRig {
   PenaltyContact penalty;
   std::vector<SolidArguments> solids{1};
   LaneVector impulse{};
-  std::array<float, lanes> returned{}, work{};
+  std::array<float, lanes> returned{}, given{};
 
   BatchRig() {
     solids[0].moves = moves.data();
@@ -64,7 +64,7 @@ struct BatchRig {
             [](BodyId id) { return id < 2; }};
   }
   ImplicitResult result() {
-    return {mean.field(), rest.field(), {impulse.x, impulse.y, impulse.z}, returned.data(), work.data()};
+    return {mean.field(), rest.field(), {impulse.x, impulse.y, impulse.z}, returned.data(), given.data()};
   }
   /// m/s, of a lane's ball as a whole.
   glm::dvec3 velocity(const LaneField& f, int lane) const {

@@ -156,13 +156,14 @@ Trace trace(std::int64_t target) {
   BodyModel holds_gas;
   holds_gas.mesh = mesh;
   holds_gas = with_force<GasPressure>(holds_gas, {.amount = 20, .ambient = 30, .rest_volume = 0.5});
-  float moves[lanes], returned[lanes]{};
+  float moves[lanes], returned[lanes]{}, work[lanes]{};
   for (int l = 0; l < lanes; ++l) moves[l] = l % 5 == 2 ? 0.0f : 1.0f;
   const SolidShape<float> shapes[]{
       SphereShape<float>{0.4f}, PlaneShape<float>{{0, 1, 0}},
       BoxShape<float>{{{0.6f, 0.8f, 0}, {-0.8f, 0.6f, 0}, {0, 0, 1}}, {0.5f, 0.2f, 1}, 0.01f},
       CapsuleShape<float>{{1, 0, 0.25f}, 0.2f}};
-  SolidArguments solid{n, 0.02f, 0.5f, 0.25f, {}, {}, moves, {t.impulse.x, t.impulse.y, t.impulse.z}, returned, 0.01f};
+  SolidArguments solid{n,        0.02f, 0.5f, 0.25f, {}, {}, moves, {t.impulse.x, t.impulse.y, t.impulse.z},
+                       returned, work,  0.01f};
   for (int l = 0; l < lanes; ++l) solid.place.y[l] = -0.45f + 0.01f * float(l);
   const auto constant = [](const LaneField& f) { return f.field(); };
   for (int step = 0; step < 5; ++step) {
