@@ -25,8 +25,8 @@ inline glm::vec3 relative_velocity(const ContactRow& row, Field<const float> v) 
 }
 
 /// Changes the velocities so that one row meets its target and friction its cone, and adds to the row's impulses: one
-/// step of projected Gauss-Seidel. Returns the energy (J) that the row's whole impulse gives by pushing apart: an impact
-/// gets no more back than it had.
+/// step of projected Gauss-Seidel. Returns the energy (J) that the row's whole impulse gives by pushing apart: an
+/// impact gets no more back than it had.
 float solve_row(ContactRow& row, Field<float> v);
 
 /// v, or `otherwise` if it has no length to speak of; of unit length.

@@ -16,7 +16,8 @@ HeldBody held_body(State& s, BodyId id) {
 }  // namespace
 
 void Hand::add(const ForceBatch& b) const {
-  if (grab_ && b.state.body(grab_->body).batch == b.batch.index) add_force(held_body(b.state, grab_->body), b.h, b.gravity);
+  if (grab_ && b.state.body(grab_->body).batch == b.batch.index)
+    add_force(held_body(b.state, grab_->body), b.h, b.gravity);
 }
 
 void Hand::kick(const ForceBatch& b) const {

@@ -60,8 +60,7 @@ TEST(StabilityCriteria, FailAFigureThatIsNotANumber) {
             "not finite;gave up at 0.0167 s;");
   EXPECT_EQ(fault([&](reference::StabilitySample& s) { s.reachable_extent = nan; }), "not finite;gave up at 0.0167 s;");
   EXPECT_EQ(fault([&](reference::StabilitySample& s) { s.depth = nan; }), "not finite;gave up at 0.0167 s;");
-  EXPECT_EQ(fault([](reference::StabilitySample& s) { s.excess = 0, s.scale = 0; }),
-            "not finite;gave up at 0.0167 s;");
+  EXPECT_EQ(fault([](reference::StabilitySample& s) { s.excess = 0, s.scale = 0; }), "not finite;gave up at 0.0167 s;");
 }
 
 TEST(StabilityCriteria, AllowAShareOfTheScaleFromNowhere) {

@@ -47,8 +47,8 @@ class Run {
     if (frame_ == 0) {
       passages_.observe(world);
       while (bodies_ < world.bodies().count()) add_body();
+      available_ = softbody::measure(world).energy;
     }
-    if (frame_ == 0) available_ = softbody::measure(world).energy;
     energy_.restart();
     energy_.look(world, softbody::measure_bodies(world));
     booked_ = softbody::ledger(world).total();

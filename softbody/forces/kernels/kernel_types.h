@@ -60,12 +60,12 @@ struct MovingBodies {
 
 /// Sums over the particles of the body in each lane, and what the forces inside it store.
 struct MotionSums {
-  DoubleLaneVector place, velocity;                   // m, m/s
-  double square[lanes], fastest2[lanes];              // (m/s)^2, the sum and the largest of the squared speeds
-  double volume[lanes];                               // m^3, of closed meshes
-  double elastic[lanes], gas[lanes];                  // J
-  double growth[lanes];                               // W, how fast these two grow
-  double strain[lanes];                               // the largest, of a spring
+  DoubleLaneVector place, velocity;       // m, m/s
+  double square[lanes], fastest2[lanes];  // (m/s)^2, the sum and the largest of the squared speeds
+  double volume[lanes];                   // m^3, of closed meshes
+  double elastic[lanes], gas[lanes];      // J
+  double growth[lanes];                   // W, how fast these two grow
+  double strain[lanes];                   // the largest, of a spring
 };
 
 /// What a force of a coordinate finds once from all particles: the poses of the shapes that offsets are from.
