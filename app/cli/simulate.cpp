@@ -80,12 +80,21 @@ Json to_json(const FrameRow& r) {
   return row;
 }
 
-Json to_json(const softbody::Plan& plan) {
-  Json stages = Json::array(), left_out = Json::array();
-  for (const softbody::Stage s : plan.stages) stages.push_back(softbody::stage_key(s));
+Json to_json(const std::vector<softbody::Stage>& stages) {
+  Json keys = Json::array();
+  for (const softbody::Stage s : stages) keys.push_back(softbody::stage_key(s));
+  return keys;
+}
+
+Json plan_json(const softbody::World& world) {
+  const softbody::Plan& plan = world.plan();
+  Json left_out = Json::array();
   for (const softbody::LeftOut& l : plan.left_out)
     left_out.push_back({{"stage", softbody::stage_key(l.stage)}, {"why", l.why}});
-  return {{"stages", stages}, {"left_out", left_out}};
+  Json json{{"stages", to_json(plan.stages)}, {"left_out", left_out}};
+  const softbody::Integrator& integrator = world.integrator_choice().integrator();
+  if (integrator.projects) json["as_forces"] = to_json(plan.unprojected(integrator));
+  return json;
 }
 
 /// Returns the integrator asked for, the one that the last frame used and, if this was chosen automatically, why.
@@ -102,7 +111,7 @@ Json document_json(const softbody::World& world, std::optional<Json> frames) {
   Json document{{"scene", world.scene().key},
                 {"method", world.method().key},
                 {"integrator", integrator_json(world)},
-                {"plan", to_json(world.plan())},
+                {"plan", plan_json(world)},
                 {"warnings", warnings(world.method(), world.collision())}};
   if (frames) document["frames"] = std::move(*frames);
   document["state_hash"] = hex(world.state_hash());
@@ -146,6 +155,8 @@ void print_table(const softbody::World& world, const std::vector<FrameRow>& rows
   }
   std::cout << "integrator: " << world.last_step().integrator->name;
   if (const auto why = world.last_step().why; !why.empty()) std::cout << ", for " << why;
+  for (const softbody::Stage s : world.plan().unprojected(world.integrator_choice().integrator()))
+    std::cout << "\n  " << softbody::stage_key(s) << " acts as a force";
   std::cout << "\nstages left out:" << (world.plan().left_out.empty() ? " none" : "") << '\n';
   for (const softbody::LeftOut& l : world.plan().left_out)
     std::cout << "  " << softbody::stage_key(l.stage) << ": " << l.why << '\n';

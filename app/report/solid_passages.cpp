@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <glm/geometric.hpp>
 
@@ -14,6 +15,10 @@ namespace {
 bool inside(const softbody::World& world, const glm::dvec3& p) {
   return softbody::solid_depth(world.scene(), p).depth > 0;
 }
+
+/// Cosine of the angle from which on two normals of a solid count as those of opposite sides: adjacent faces of a box
+/// have 0.
+constexpr float opposite = -0.2f;
 
 }  // namespace
 
@@ -28,9 +33,14 @@ glm::dvec3 middle_of(const softbody::World& world, collide::Index body) {
 bool SolidPassages::passed(const softbody::World& world, const glm::dvec3& from, const glm::dvec3& to,
                            double radius) const {
   const int parts = 1 + static_cast<int>(std::min(16 * glm::distance(from, to) / radius, 4000.0));
-  for (int i = 1; i < parts; ++i)
-    if (inside(world, glm::mix(from, to, double(i) / parts))) return true;
-  return false;
+  std::optional<glm::vec3> in, out;  // normals of the solid where the line goes in and comes out
+  for (int i = 1; i < parts; ++i) {
+    const softbody::SolidDepth at = softbody::solid_depth(world.scene(), glm::mix(from, to, double(i) / parts));
+    if (at.depth <= 0) continue;
+    if (!in) in = at.normal;
+    out = at.normal;
+  }
+  return in && glm::dot(*in, *out) < opposite;
 }
 
 bool SolidPassages::observe(const softbody::World& world) {

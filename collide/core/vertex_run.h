@@ -9,6 +9,8 @@ namespace collide {
 struct VertexRun {
   const float *x, *y, *z;
   Index size;  // > 0
+
+  glm::vec3 operator[](std::size_t vertex) const { return {x[vertex], y[vertex], z[vertex]}; }
 };
 
 /// Returns the vertices of a body, which must have some.

@@ -53,6 +53,13 @@ HWY_INLINE V rebound(V approach, T restitution) {
   return body::select(approach > V(T(impact_speed)), restitution * approach, none);
 }
 
+/// Returns the damper (N s/m) that a contact of this force (N) acts with, after Hunt and Crossley (1975): nothing is
+/// thrown back faster than `rebound_speed`.
+template <class T>
+T damper(T force, T rebound_speed) {
+  return force / rebound_speed;
+}
+
 /// Returns `drag`, shortened to `limit` where it is longer (Coulomb's cone): to nothing where the limit is 0.
 template <class Vector, class V>
 HWY_INLINE Vector within_cone(const Vector& drag, V limit) {

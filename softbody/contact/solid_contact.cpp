@@ -1,6 +1,7 @@
 #include "softbody/contact/solid_contact.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -10,8 +11,10 @@
 
 #include "softbody/contact/kernels.h"
 #include "softbody/contact/law.h"
+#include "softbody/contact/solid_law.h"
 #include "softbody/contact/solid_overlap.h"
 #include "softbody/contact/solid_placement.h"
+#include "softbody/contact/solid_shapes.h"
 #include "softbody/contact/surface_vectors.h"
 #include "softbody/state/kernels.h"
 
@@ -73,7 +76,7 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
   std::array<double, lanes> gap;
   unsigned lanes_near = 0;
   for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
-    const glm::dvec3 lo(e.lo.x[l], e.lo.y[l], e.lo.z[l]), hi(e.hi.x[l], e.hi.y[l], e.hi.z[l]);
+    const glm::dvec3 lo(e.lo[l]), hi(e.hi[l]);
     boxes[l] = {state_.body(b.body[l]).origin + 0.5 * (lo + hi), 0.5 * (hi - lo)};
     gap[l] = gap_before(solid, boxes[l]);
     lanes_near |= unsigned(gap[l] <= max_travel(b, e, int(l), gravity, seconds)) << l;
@@ -82,9 +85,11 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
   const std::optional<SolidMiddle> middle = middle_of(solid);
   const double deep = std::min(shallow * b.model->mean_edge, middle ? middle->depth : infinite);
   for (int l = 0; l < b.used; ++l) {
-    if (b.moves[std::size_t(l)] == 0 || !(lanes_near >> l & 1u) || gap[std::size_t(l)] > -deep || !lies_in(b, l, solid))
+    if (b.moves[std::size_t(l)] == 0 || !state_.body(b.body[std::size_t(l)]).memory.may_lie_in_solid ||
+        gap[std::size_t(l)] > -deep || !lies_in(b, l, solid))
       continue;
     lanes_near &= ~(1u << l);
+    own.eased |= 1u << l;
     ease_out(b, l, way_out(boxes[std::size_t(l)]), gravity, seconds);
   }
   const double thickness = b.model->material[Material::thickness];
@@ -96,8 +101,7 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
   s.shape = shape_of<float>(solid, thickness);
   for (int l = 0; l < b.used; ++l) {
     const glm::dvec3 origin = state_.body(b.body[std::size_t(l)]).origin;
-    const glm::dvec3 place = place_of(solid, thickness, origin) - origin;
-    s.place.x[l] = float(place.x), s.place.y[l] = float(place.y), s.place.z[l] = float(place.z);
+    s.place.set(std::size_t(l), glm::vec3(place_of(solid, thickness, origin) - origin));
   }
   s.near = lanes_near;
   s.moves = b.moves.data();
@@ -110,11 +114,9 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
   for (int l = 0; l < b.used; ++l) {
     if (b.moves[std::size_t(l)] == 0 || !(lanes_near >> l & 1u)) continue;
     const double travel = max_travel(b, e, l, gravity, seconds);
-    find_features(b, l, cores,
-                  {core_radius(solid) + thickness,
-                   travel / seconds,
-                   travel,
-                   {glm::vec3(e.lo.x[l], e.lo.y[l], e.lo.z[l]), glm::vec3(e.hi.x[l], e.hi.y[l], e.hi.z[l])}});
+    find_features(
+        b, l, cores,
+        {core_radius(solid) + thickness, travel / seconds, travel, {e.lo[std::size_t(l)], e.hi[std::size_t(l)]}});
   }
 }
 
@@ -131,8 +133,9 @@ void SolidContact::end_frame() {
   for (const Batch& b : state_.batches()) {
     const OfBatch& own = of_batch_[b.index];
     for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
-      pushes_[b.body[l]] = {{own.impulse.x[l], own.impulse.y[l], own.impulse.z[l]}, double(own.returned[l])};
+      pushes_[b.body[l]] = {glm::dvec3(own.impulse[l]), double(own.returned[l])};
       state_.ledger.book(WorkBy::solids, double(own.work[l]));
+      if (b.moves[l] != 0) state_.memory(b.body[l]).may_lie_in_solid = own.eased >> l & 1u;
     }
   }
 }
@@ -152,10 +155,7 @@ void SolidContact::clear_velocities(const Batch& b) {
   state_kernels(b.width).clear(std::size_t(b.used), b.particles(), field(before_, b.base));
 }
 
-Field<float> SolidContact::impulse(const Batch& b) {
-  LaneVector& sum = of_batch_[b.index].impulse;
-  return {sum.x, sum.y, sum.z};
-}
+Field<float> SolidContact::impulse(const Batch& b) { return field(of_batch_[b.index].impulse); }
 
 /// Particles first, then what lies between them, which may push particles back.
 void SolidContact::apply(const Batch& b, float h) {
@@ -184,6 +184,51 @@ bool SolidContact::apply_to_particles(const Batch& b, float h, bool again) {
     if (!more) break;
   }
   return !own.near.empty();
+}
+
+void SolidContact::add_particle_rows(BodyId body, float travel, std::vector<ContactRow>& rows) const {
+  const Batch& b = state_.batch_of(body);
+  const auto lane = std::size_t(state_.body(body).lane);
+  const std::vector<SolidArguments>& near = of_batch_[b.index].near;
+  for (std::uint32_t i = 0; i < near.size(); ++i) {
+    const SolidArguments& s = near[i];
+    if (!(s.near >> lane & 1u) || s.moves[lane] == 0) continue;
+    const glm::vec3 place(s.place.x[lane], s.place.y[lane], s.place.z[lane]);
+    for (Index v = 0; v < b.particles(); ++v) {
+      const auto slot = std::uint32_t(state_.slot(body, v));
+      const glm::vec3 at = read(field(std::as_const(state_.x)), slot) - place;
+      const SurfaceAt<float> surface = std::visit(
+          [&](const auto& shape) {
+            return body::surface_at(shape, body::Vec<float>{at.x, at.y, at.z});
+          },
+          s.shape);
+      if (surface.distance > travel) continue;
+      ContactRow& row = rows.emplace_back();
+      row.slot.fill(slot);
+      row.weight[0] = 1;
+      row.mobility[0] = 1 / s.mass;
+      row.mass = s.mass;
+      row.normal = {surface.normal.x, surface.normal.y, surface.normal.z};
+      row.friction = s.friction;
+      row.target = law::min_speed(surface.distance, 1 / s.h);
+      row.push = std::max(0.0f, row.target);
+      row.slack = infinite;  // what is left they do by themselves
+      row.feature = i;
+    }
+  }
+}
+
+void SolidContact::book(BodyId body, std::span<const ContactRow> rows) {
+  const Batch& b = state_.batch_of(body);
+  const auto lane = std::size_t(state_.body(body).lane);
+  OfBatch& own = of_batch_[b.index];
+  for (const ContactRow& row : rows) {
+    if (row.normal_impulse <= 0) continue;
+    softbody::add(impulse(b), lane, row.normal_impulse * row.normal);
+    own.returned[lane] += own.near[row.feature].restitution * row.normal_impulse;
+    own.work[lane] += row.work;
+    std::atomic_ref(own.pushed).fetch_or(1u << lane, std::memory_order_relaxed);
+  }
 }
 
 }  // namespace softbody

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "softbody/contact/contact_row.h"
 #include "softbody/contact/solid_arguments.h"
 #include "softbody/contact/solid_features.h"
 #include "softbody/contact/solid_surface.h"
-#include "softbody/contact/surface_contact.h"
 #include "softbody/state/state.h"
 
 namespace softbody {
@@ -48,6 +48,10 @@ class SolidContact {
   void clear_velocities(const Batch& batch);
   /// Changes the velocities of a batch so that in a step of h seconds no particle enters a solid.
   void apply(const Batch& batch, float h);
+  /// Adds a row for each particle of a body that a solid may stop in this substep if it comes `travel` (m) nearer.
+  void add_particle_rows(BodyId body, float travel, std::vector<ContactRow>& rows) const;
+  /// Books the impulses of these rows as those of the solids. Threads may call it at once for different bodies.
+  void book(BodyId body, std::span<const ContactRow> rows);
   /// Returns where the solids' impulses along their normals (N s) are summed for each lane of a batch.
   Field<float> impulse(const Batch& batch);
   /// Returns where the part of these impulses is summed that restitution gives back.
@@ -78,7 +82,7 @@ class SolidContact {
     LaneVector impulse{};                 // N s, along the normals
     std::array<float, lanes> returned{};  // N s, the part of it that restitution gives back
     std::array<float, lanes> work{};      // J, given by pushing out
-    unsigned pushed = 0;
+    unsigned pushed = 0, eased = 0;       // bits: lanes
   };
 
   template <class Solid>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "collide/surface/closest_features.h"
 #include "softbody/contact/solid_contact.h"
@@ -139,7 +140,7 @@ void SolidContact::apply_to_features(const Batch& b, float h) {
     const SolidFeature& f = own.features[row.feature];
     softbody::add(impulse(b), std::size_t(f.lane), row.normal_impulse * row.normal);
     own.returned[std::size_t(f.lane)] += own.near[f.solid].restitution * row.normal_impulse;
-    own.work[std::size_t(f.lane)] += row.normal_impulse * row.push;
+    own.work[std::size_t(f.lane)] += row.work;
     own.pushed |= 1u << f.lane;
   }
 }
@@ -160,7 +161,7 @@ void SolidContact::add_row(const Batch& b, SolidFeature& f, float h) {
   f.free_travel = 0.5f * (glm::length(m.apart) - f.distance);  // half: single particles may be faster than was foreseen
   if (f.free_travel > f.speed * h || *std::max_element(m.weight.begin(), m.weight.end()) > on_vertex) return;
   const SolidArguments& s = own.near[f.solid];
-  const auto surface = gap_of(f, m, s.shape, {s.place.x[lane], s.place.y[lane], s.place.z[lane]});
+  const auto surface = gap_of(f, m, s.shape, s.place[lane]);
   if (!surface) return;
 
   float mobility = 0;

@@ -29,7 +29,7 @@ bool lies_in(const PlacedBody& body, const PlacedBody& other) {
   const collide::surface::ClosedShell shell(other.surface, other.at);
   glm::vec3 middle(0.0f);
   for (collide::Index i = 0; i < body.at.size; ++i) {
-    const glm::vec3 p(body.at.x[i], body.at.y[i], body.at.z[i]);
+    const glm::vec3 p = body.at[i];
     if (shell.inside(p) && double(shell.nearest_face(p).distance) > shallow * other.mean_edge) return true;
     middle += p / float(body.at.size);
   }
@@ -68,7 +68,7 @@ bool holds(const PlacedBody& body, const SolidMiddle& middle) {
   const glm::dvec3 centre = middle.centre - body.origin;
   if (body.surface.closed() && collide::surface::ClosedShell(body.surface, body.at).inside(glm::vec3(centre)))
     return true;
-  const auto vertex = [&](collide::Index v) { return glm::dvec3(body.at.x[v], body.at.y[v], body.at.z[v]); };
+  const auto vertex = [&](collide::Index v) { return glm::dvec3(body.at[v]); };
   const auto& [u, v] = middle.sides;
   const std::array<glm::dvec3, 4> corner{centre - u - v, centre + u - v, centre + u + v, centre - u + v};
   const auto through_face = [&](const collide::surface::Triangle& face) {

@@ -49,7 +49,7 @@ bool holds(const PlacedBody& body, const SolidMiddle& middle);
 template <class Solid>
 bool overlap(const PlacedBody& body, const Solid& solid, bool between) {
   for (collide::Index i = 0; i < body.at.size; ++i) {
-    const glm::dvec3 x(body.at.x[i], body.at.y[i], body.at.z[i]);
+    const glm::dvec3 x(body.at[i]);
     if (surface_at(solid, body.origin + x).distance < -shallow * body.mean_edge) return true;
   }
   const std::optional<SolidMiddle> middle = middle_of(solid);

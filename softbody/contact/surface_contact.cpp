@@ -1,336 +1,65 @@
 #include "softbody/contact/surface_contact.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <limits>
-#include <utility>
-
-#include <glm/common.hpp>
-
-#include "softbody/contact/law.h"
-#include "softbody/contact/surface_vectors.h"
 
 namespace softbody {
-namespace {
 
-using collide::surface::Closest;
-using collide::surface::FeaturePair;
-using collide::surface::Surface;
-using collide::surface::SurfaceSearch;
-
-constexpr float step_share = 0.15f;  // of the shorter mean edge: how far two bodies may pass each other in a substep
-constexpr float patience = 2;        // a motion is foreseen for so many times as long as the last one has lasted
-constexpr float separation_depth = 0.25f;  // of the shorter mean edge: deeper bodies are parted as a whole
-
-/// m: how far a body may stray, if it strayed so far before.
-float slack_after(float stray, const collide::surface::SurfaceBody& before) {
-  return std::max(2 * stray, before.slack / 2);
-}
-
-/// The calmer a body is, the fewer candidates it needs.
-void set_slack(collide::surface::SurfaceBody& body, float wanted) {
-  const float slack = std::clamp(wanted, 0.015f * body.mean_edge, 0.1f * body.mean_edge);
-  body.skin += slack - body.slack;
-  body.slack = slack;
-}
-
-/// Whether a vertex faces the same way as the face of another body that it is closest to: surfaces that have met face
-/// each other, but those of bodies in one place do not.
-bool faces_along(const Surface& own, const collide::VertexRun& own_at, Index vertex, const Surface& other,
-                 const collide::VertexRun& other_at, Index face) {
-  const auto normal = [](const Surface& surface, const collide::VertexRun& at, Index f) {
-    const auto corner = [&](std::size_t k) {
-      const Index v = surface.triangles()[f][k];
-      return glm::vec3(at.x[v], at.y[v], at.z[v]);
-    };
-    return normal_of(corner(0), corner(1), corner(2));
-  };
-  glm::vec3 sum(0.0f);
-  for (const Index f : own.triangles_at(vertex)) sum += normal(own, own_at, f);
-  return glm::dot(sum, normal(other, other_at, face)) > 0;
-}
-
-bool near_each_other(const collide::VertexRun& a, const collide::VertexRun& b) {
-  return collide::near(collide::measure_bounds(a).box, collide::measure_bounds(b).box, 0.0f);
-}
-
-glm::vec3 middle_of(const collide::VertexRun& at) {
-  glm::vec3 sum(0.0f);
-  for (Index i = 0; i < at.size; ++i) sum += glm::vec3(at.x[i], at.y[i], at.z[i]);
-  return sum / static_cast<float>(at.size);
-}
-
-}  // namespace
-
-void SurfaceContact::clear() {
-  last_h_ = 0;
-  search_.clear();
-  bodies_.clear();
-  pairs_.clear();
-  cached_.clear();
-  interior_.clear();
-  colours_.clear();
-  rate_ = 0;
-}
-
-void SurfaceContact::find(const collide::surface::Motion& motion, std::vector<collide::surface::SurfaceBody> traits,
-                          std::vector<ContactBody> bodies, const collide::surface::SurfaceQuery& query, float ahead,
-                          collide::Workers& workers) {
-  std::swap(traits, traits_);
-  std::swap(bodies, bodies_);
-  for (Index body = 0; body < traits_.size(); ++body) {
-    const bool known = body < bodies.size() && bodies[body].inverse_mass > 0;  // a new one is no calm one
-    if (!known) {
-      set_slack(traits_[body], traits_[body].mean_edge);
-      continue;
-    }
-    const SurfaceSearch::History history = search_.history(body);
-    set_slack(traits_[body], slack_after(history.deviation, traits[body]));
-    traits_[body].horizon = std::max(ahead, patience * history.duration);
+void SurfaceContact::make_rows(int thread, int threads, Field<const float> x, Field<const float> v, float elapsed,
+                               float h) {
+  ThreadWork& work = thread_work_[static_cast<std::size_t>(thread)];
+  work.rows.clear();
+  SurfaceRowMaker maker(candidates_, {x, v, h, elapsed + h, last_h_ > 0 ? h / last_h_ : 0}, work.scratch, work.rows);
+  const collide::Part part = collide::part_of(candidates_.pairs().size(), thread, threads);
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    candidates_.pairs()[i].thread = thread;
+    candidates_.pairs()[i].closes = candidates_.pairs()[i].joins = false;
+    maker.add_rows(candidates_.pairs()[i]);
   }
-  thread_work_.resize(static_cast<std::size_t>(workers.threads()));
-  search(motion.positions, [&] { search_.find(motion, traits_, query, workers); });
-}
-
-void SurfaceContact::update(const collide::surface::Motion& motion, float elapsed, float ahead,
-                            collide::Workers& workers) {
-  for (Index body = 0; body < traits_.size(); ++body) {
-    const collide::surface::SweptBody& swept = search_.body(body);
-    if (!swept.expired()) continue;
-    traits_[body].horizon = std::max(ahead, patience * (elapsed - swept.begin()));
-    if (swept.exceeds_slack()) set_slack(traits_[body], slack_after(swept.deviation(), traits_[body]));
-  }
-  search(motion.positions, [&] { search_.update(motion, traits_, elapsed, ahead, workers); });
-}
-
-/// What is remembered belongs to the features that were found last: to none, if too many are near each other.
-template <class Search>
-void SurfaceContact::search(const collide::Frame& now, const Search& search) {
-  try {
-    search();
-  } catch (...) {
-    *this = SurfaceContact();
-    throw;
-  }
-  take_candidates(now);
-}
-
-void SurfaceContact::take_candidates(const collide::Frame& now) {
-  std::swap(pairs_, pairs_before_);
-  std::swap(cached_, cached_before_);
-  pairs_.clear();
-  for (const collide::surface::SurfacePair& range : search_.pairs()) pairs_.push_back(make_pair(range));
-  cached_.assign(search_.features().size(), {});
-  max_gap_.assign(search_.features().size(), std::numeric_limits<float>::max());
-  carry_over();
-  for (const Pair& p : pairs_)
-    if (p.range.a == p.range.b) limit_gaps_at_rest(p);
-  interior_.clear();
-  Shells shells;
-  for (Pair& p : pairs_)
-    if (p.overlap) find_interior_vertices(p, now, shells);
-  predict_speeds();
-  colour();
-}
-
-/// Within a body, what is closer at rest than the distance that surfaces keep is not pushed apart.
-void SurfaceContact::limit_gaps_at_rest(const Pair& pair) {
-  constexpr float share = 0.9f;
-  const Surface& surface = *traits_[pair.range.a].surface;
-  const std::vector<glm::vec3>& rest = *bodies_[pair.range.a].rest;
-  const auto max_gap = [&](const Closest& c) { return std::min(pair.distance, share * glm::length(c.separation)); };
-  for (std::uint32_t i = pair.range.vertex_face; i < pair.range.end; ++i) {
-    const FeaturePair& f = search_.features()[i];
-    if (i < pair.range.edge_edge) {
-      const auto& [a, b, c] = surface.triangles()[f.b];
-      max_gap_[i] = max_gap(collide::surface::closest_vertex_face(rest[f.a], rest[a], rest[b], rest[c]));
-    } else {
-      const collide::surface::Edge &one = surface.edges()[f.a], &two = surface.edges()[f.b];
-      max_gap_[i] = max_gap(collide::surface::closest_edges(rest[one[0]], rest[one[1]], rest[two[0]], rest[two[1]]));
-    }
-  }
-}
-
-/// A pair may be hit through its neighbours within one substep: it is looked at as far as either body's fastest pair
-/// goes.
-void SurfaceContact::predict_speeds() {
-  std::vector<float> fastest(bodies_.size(), 0);
-  rate_ = 0;
-  for (const Pair& p : pairs_) {
-    const float speed = search_.max_relative_speed(p.range),
-                edge = std::min(traits_[p.range.a].mean_edge, traits_[p.range.b].mean_edge);
-    for (const Index body : {p.range.a, p.range.b}) fastest[body] = std::max(fastest[body], speed);
-    rate_ = std::max(rate_, speed / (step_share * edge));
-  }
-  for (Pair& p : pairs_) {
-    p.speed = std::max(fastest[p.range.a], fastest[p.range.b]);
-    p.rate = p.speed / (step_share * std::min(traits_[p.range.a].mean_edge, traits_[p.range.b].mean_edge));
-  }
-}
-
-SurfaceContact::Pair SurfaceContact::make_pair(const collide::surface::SurfacePair& range) const {
-  const ContactBody &a = bodies_[range.a], &b = bodies_[range.b];
-  const auto margin = [&](Index body) { return traits_[body].skin - traits_[body].slack; };
-  return {.range = range,
-          .offset = glm::vec3(b.origin - a.origin),
-          .distance = margin(range.a) + margin(range.b),
-          .friction = law::common_friction(a.friction, b.friction),
-          .restitution = law::common_restitution(a.restitution, b.restitution),
-          .inverse_a = a.inverse_mass,
-          .inverse_b = b.inverse_mass,
-          .slot_a = a.first_slot,
-          .slot_b = b.first_slot,
-          .overlap = range.a != range.b && (traits_[range.a].surface->closed() || traits_[range.b].surface->closed())};
-}
-
-/// Hands on what is remembered of the same features. Pairs that were near before know whether they overlap.
-void SurfaceContact::carry_over() {
-  auto old = pairs_before_.begin();
-  const std::vector<FeaturePair>& old_features = search_.previous_features();
-  const auto hand_on = [&](std::uint32_t from, std::uint32_t from_end, std::uint32_t to, std::uint32_t to_end) {
-    for (; to < to_end; ++to) {
-      while (from < from_end && old_features[from].key() < search_.features()[to].key()) ++from;
-      if (from == from_end) return;
-      if (old_features[from].key() == search_.features()[to].key()) cached_[to] = cached_before_[from];
-    }
-  };
-  for (Pair& p : pairs_) {
-    while (old != pairs_before_.end() && old->range.bodies() < p.range.bodies()) ++old;
-    if (old == pairs_before_.end()) return;
-    if (p.range.bodies() < old->range.bodies()) continue;
-    const collide::surface::SurfacePair &from = old->range, &to = p.range;
-    p.overlap = old->overlap;
-    hand_on(from.vertex_face, from.face_vertex, to.vertex_face, to.face_vertex);
-    hand_on(from.face_vertex, from.edge_edge, to.face_vertex, to.edge_edge);
-    hand_on(from.edge_edge, from.end, to.edge_edge, to.end);
-  }
-}
-
-/// Lists the vertices of two closed bodies that lie inside the other one, with the faces that they are closest to.
-void SurfaceContact::find_interior_vertices(Pair& pair, const collide::Frame& now, Shells& shells) {
-  const auto run = [&](Index body) {
-    const Index first = now.bodies->first[body];
-    return collide::VertexRun{&now.x[first], &now.y[first], &now.z[first], now.bodies->size(body)};
-  };
-  pair.interior = static_cast<std::uint32_t>(interior_.size());
-  pair.interior_end = pair.interior;
-  const bool both_closed = traits_[pair.range.a].surface->closed() && traits_[pair.range.b].surface->closed();
-  const float deep = separation_depth * std::min(traits_[pair.range.a].mean_edge, traits_[pair.range.b].mean_edge);
-  const auto shell = [&](Index body) -> const collide::surface::ClosedShell& {
-    shells.resize(bodies_.size());
-    if (!shells[body]) shells[body].emplace(*traits_[body].surface, run(body));
-    return *shells[body];
-  };
-  const auto deep_in = [&](Index body, const glm::vec3& point) {
-    return shell(body).inside(point) && shell(body).nearest_face(point).distance > deep;
-  };
-  if (both_closed && near_each_other(run(pair.range.a), run(pair.range.b))) {
-    for (const Index body : {pair.range.a, pair.range.b}) {
-      const glm::vec3 middle = middle_of(run(body));
-      if (deep_in(pair.range.a, middle) && deep_in(pair.range.b, middle)) {
-        pair.overlap = pair.separating = true;
-        return;
-      }
-    }
-  }
-  float deepest = 0;
-  std::uint32_t along = 0;
-  for (const bool of_b : {false, true}) {
-    const Index own = of_b ? pair.range.b : pair.range.a, other = of_b ? pair.range.a : pair.range.b;
-    if (!traits_[other].surface->closed()) continue;
-    const collide::VertexRun vertices = run(own);
-    if (!near_each_other(vertices, run(other))) continue;
-    for (Index v = 0; v < vertices.size; ++v) {
-      const glm::vec3 p(vertices.x[v], vertices.y[v], vertices.z[v]);
-      if (!shell(other).inside(p)) continue;
-      const collide::surface::ClosedShell::Nearest nearest = shell(other).nearest_face(p);
-      deepest = std::max(deepest, nearest.distance);
-      along += faces_along(*traits_[own].surface, vertices, v, *traits_[other].surface, run(other), nearest.face);
-      interior_.push_back({v, nearest.face, of_b});
-    }
-  }
-  pair.overlap = interior_.size() > pair.interior;
-  // Vertex by vertex, bodies far inside each other would only be pressed into nested cups, and those in one place, of
-  // which no vertex is deep, be pulled both ways for ever.
-  pair.separating = both_closed && (deepest > deep || 2 * along > interior_.size() - pair.interior);
-  if (pair.separating) interior_.resize(pair.interior);
-  pair.interior_end = static_cast<std::uint32_t>(interior_.size());
-}
-
-/// Greedily, in order: pairs of one colour share no body. Those for which no colour is left come last, one by one.
-void SurfaceContact::colour() {
-  constexpr std::size_t most = 64;
-  std::vector<std::uint64_t> taken(bodies_.size(), 0);
-  for (auto& colour : colours_) colour.clear();
-  std::size_t used = 0;
-  std::vector<std::uint32_t> rest;
-  for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
-    std::uint64_t &a = taken[pairs_[i].range.a], &b = taken[pairs_[i].range.b];
-    const auto free = static_cast<std::size_t>(std::countr_one(a | b));
-    if (free == most) {
-      rest.push_back(i);
-      continue;
-    }
-    a |= std::uint64_t{1} << free;
-    b |= std::uint64_t{1} << free;
-    used = std::max(used, free + 1);
-    if (colours_.size() < used) colours_.resize(used);
-    colours_[free].push_back(i);
-  }
-  colours_.resize(used);
-  for (const std::uint32_t i : rest) colours_.push_back({i});
-}
-
-SurfaceContact::Side SurfaceContact::side(const Pair& pair, bool second) const {
-  if (second)
-    return {traits_[pair.range.b].surface, pair.slot_b, bodies_[pair.range.b].stride, pair.offset, pair.inverse_b};
-  return {traits_[pair.range.a].surface, pair.slot_a, bodies_[pair.range.a].stride, glm::vec3(0.0f), pair.inverse_a};
 }
 
 std::size_t SurfaceContact::rows() const {
   std::size_t sum = 0;
-  for (const Pair& p : pairs_) sum += p.rows;
+  for (const Pair& p : candidates_.pairs()) sum += p.rows;
   return sum;
-}
-
-double SurfaceContact::take_work() {
-  double sum = 0;
-  for (Pair& p : pairs_) sum += std::exchange(p.work, 0.0);
-  return sum;
-}
-
-std::vector<collide::surface::ItemPair> SurfaceContact::interactions() const {
-  std::vector<collide::surface::ItemPair> list;
-  for (const Pair& p : pairs_)
-    if (p.range.a != p.range.b && p.range.vertex_face < p.range.end) list.push_back({p.range.a, p.range.b});
-  return list;
-}
-
-/// The body of the pair that a slot belongs to.
-Index SurfaceContact::owner(const Pair& pair, std::uint32_t slot) const {
-  const std::size_t first = bodies_[pair.range.a].first_slot, stride = bodies_[pair.range.a].stride;
-  const std::size_t end = first + stride * traits_[pair.range.a].surface->vertex_count();
-  return slot >= first && slot < end && (slot - first) % stride == 0 ? pair.range.a : pair.range.b;
 }
 
 std::vector<SurfaceContactPoint> SurfaceContact::contact_points(const collide::Bodies& vertices) const {
   std::vector<SurfaceContactPoint> list;
-  for (const Pair& p : pairs_) {
-    const auto& rows = thread_work_[static_cast<std::size_t>(p.thread)].rows;
-    for (std::uint32_t r = p.first_row; r < p.first_row + p.rows; ++r) {
-      const ContactRow& row = rows[r];
+  for (const Pair& p : candidates_.pairs())
+    for (const ContactRow& row : rows_of(p)) {
       if (row.normal_impulse <= 0) continue;
-      SurfaceContactPoint& touch = list.emplace_back(
-          SurfaceContactPoint{owner(p, row.slot[0]), owner(p, row.slot[3]), {}, row.weight, row.normal});
+      SurfaceContactPoint& point = list.emplace_back();
+      point.a = candidates_.vertex_at(p, row.slot[0]).first;
+      point.b = candidates_.vertex_at(p, row.slot[3]).first;
+      point.weight = row.weight;
+      point.normal = row.normal;
       for (std::size_t k = 0; k < 4; ++k) {
-        const Index body = owner(p, row.slot[k]);
-        const std::size_t local = (row.slot[k] - bodies_[body].first_slot) / bodies_[body].stride;
-        touch.vertex[k] = vertices.first[body] + static_cast<Index>(local);
+        const auto& [body, vertex] = candidates_.vertex_at(p, row.slot[k]);
+        point.vertex[k] = vertices.first[body] + vertex;
       }
     }
-  }
   return list;
+}
+
+/// Keeps only features of which something is remembered, see SurfaceCandidates::save(), and rows that pressed.
+SurfaceContact::State SurfaceContact::save() const {
+  State state{.candidates = candidates_.save(), .rows = {}, .last_h = last_h_};
+  for (Pair& kept : state.candidates.pairs) {
+    const std::span<const ContactRow> rows = rows_of(kept);
+    kept.thread = 0;
+    kept.first_row = static_cast<std::uint32_t>(state.rows.size());
+    std::ranges::copy_if(rows, std::back_inserter(state.rows),
+                         [](const ContactRow& row) { return row.normal_impulse > 0; });
+    kept.rows = static_cast<std::uint32_t>(state.rows.size()) - kept.first_row;
+  }
+  return state;
+}
+
+void SurfaceContact::restore(const State& state) {
+  candidates_.restore(state.candidates);
+  thread_work_.resize(std::max(thread_work_.size(), std::size_t{1}));
+  thread_work_[0].rows = state.rows;
+  last_h_ = state.last_h;
 }
 
 }  // namespace softbody

@@ -104,7 +104,7 @@ void ModelForces::set_bounds(std::size_t particles) {
       const auto& own = of<F>();
       if (!own) return;
       if constexpr (F::coordinate == Coordinate::length)
-        for (const auto& law : F::template elements<double>(*own)) {
+        for (const auto& law : own->template elements<double>()) {
           stiffness.push_back({law.i, law.j, law.stiffness});
           damping.push_back({law.i, law.j, law.damping});
         }

@@ -4,18 +4,21 @@
 // the particles, in lanes and in double, in every integrator, in the matrix and in the stability bound, is written once
 // for each coordinate (kernel_bodies.h, bound.cpp, deformation.cpp, implicit/matrix.cpp).
 
+#include <type_traits>
+#include <vector>
+
 #include "softbody/mesh/mesh.h"
 
 namespace softbody {
 
 enum class Coordinate {
-  /// The distance between two particles. The force has elements<Real>(data): a list of laws with the particles i and j,
+  /// The distance between two particles. The data have elements<Real>(): a list of laws with the particles i and j,
   /// `stiffness` (N/m, the largest slope of pull()), `damping` (N s/m), pull(length) in N and stored(length) in J.
   length,
   /// The volume inside the mesh. The data are a law that has pull(volume) in Pa, stored(volume) and
   /// stored_change(from, to) in J, and scale() in Pa, about the largest of its pressures.
   volume,
-  /// The way of each particle from its place in a shape, which follows the body. The data have points<Real>(), the
+  /// The way of each particle from its place in a shape, which follows the body. The data have elements<Real>(), the
   /// shape, and `stiffness` (N/m).
   offset,
   /// The way of each particle through space. The data have `damping` (N s/m), and there is no other force.
@@ -32,6 +35,25 @@ struct Offset {
 };
 struct Path {
   Index i;
+};
+
+/// A list of elements that a force keeps in double and, rounded, in float.
+template <template <class> class Element>
+struct ElementList {
+  std::vector<Element<double>> exact;
+  std::vector<Element<float>> rounded;
+
+  void add(const Element<double>& e) {
+    exact.push_back(e);
+    rounded.push_back(e.rounded());
+  }
+  template <class Real>
+  const std::vector<Element<Real>>& elements() const {
+    if constexpr (std::is_same_v<Real, float>)
+      return rounded;
+    else
+      return exact;
+  }
 };
 
 /// A number and its derivative: the pull of a law at Jet(q, 1) has the law's stiffness as its slope.

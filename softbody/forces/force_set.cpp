@@ -32,9 +32,7 @@ void ForceSet::add(const ForceBatch& b) const {
 }
 
 void ForceSet::add_unprojected(const ForceBatch& b) const {
-  add_if(b, [&]<class F>(Name<F>) {
-    return !is_projected<F>() && !requires(const F& force) { force.kick(b); };
-  });
+  add_if(b, []<class F>(Name<F>) { return is_unprojected<F>(); });
 }
 
 void ForceSet::project(const ForceBatch& b, Field<const float> x0, Field<float> d) const {
@@ -51,7 +49,7 @@ void ForceSet::project(const ForceBatch& b, Field<const float> x0, Field<float> 
 
 void ForceSet::kick(const ForceBatch& b) const {
   for_each_force(Forces{}, [&]<class F>(Name<F>) {
-    if constexpr (requires(const F& force) { force.kick(b); })
+    if constexpr (Kicks<F>)
       if (taken_[index_of<F>]) std::get<const F&>(objects_).kick(b);
   });
 }

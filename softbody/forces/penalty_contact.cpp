@@ -1,13 +1,12 @@
 #include "softbody/forces/penalty_contact.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/keys.h"
-#include "softbody/contact/law.h"
+#include "softbody/forces/penalty_law.h"
 
 namespace softbody {
 namespace {
@@ -30,15 +29,35 @@ glm::vec3 vertex_normal(const State& state, BodyId body, Index vertex) {
   return direction(sum);
 }
 
+/// Returns the way from b to a, in m.
+glm::vec3 between(const PenaltyPair& p, Field<const float> x) {
+  return read(x, p.slot_a) - read(x, p.slot_b) + p.offset;
+}
+
+/// How the two particles of a pair stand and move.
+struct Meeting {
+  Meeting(const PenaltyPair& p, Field<const float> x, Field<const float> v)
+      : normal(p.normal),
+        d(between(p, x)),
+        velocity(read(v, p.slot_a) - read(v, p.slot_b)),
+        s(glm::dot(d, normal)),
+        u(glm::dot(velocity, normal)) {}
+  float d2() const { return glm::dot(d, d); }
+  glm::vec3 slip() const { return velocity - u * normal; }
+
+  glm::vec3 normal;
+  glm::vec3 d, velocity;  // of a from b, m and m/s
+  float s, u;             // of these, along n
+};
+
 glm::vec3 contact_normal(const State& state, const PenaltyPair& pair) {
-  const glm::vec3 between =
-      direction(read(field(state.x), pair.slot_a) - read(field(state.x), pair.slot_b) + pair.offset);
+  const glm::vec3 way = direction(between(pair, field(state.x)));
   const bool surfaces =
       pair.body_a != pair.body_b && state.model(pair.body_a).mesh.closed && state.model(pair.body_b).mesh.closed;
-  if (!surfaces) return between;
+  if (!surfaces) return way;
   const glm::vec3 apart =
       vertex_normal(state, pair.body_b, pair.vertex_b) - vertex_normal(state, pair.body_a, pair.vertex_a);
-  return glm::length(apart) > 0.5f ? glm::normalize(apart) : between;  // surfaces that face the same way tell nothing
+  return glm::length(apart) > 0.5f ? glm::normalize(apart) : way;  // surfaces that face the same way tell nothing
 }
 
 }  // namespace
@@ -131,27 +150,25 @@ void PenaltyContact::add(const ForceBatch& b) const {
   for (const PenaltyEnd& end : ends_of(b.batch)) softbody::add(f, end.slot, end.sign * force[end.pair]);
 }
 
+template <class Real>
+PenaltyLaw<Real> PenaltyContact::law_of(const PenaltyPair& pair) const {
+  return {Real(pair.stiffness), Real(thickness), Real(pair.friction)};
+}
+template PenaltyLaw<double> PenaltyContact::law_of(const PenaltyPair&) const;
+
 void PenaltyContact::evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds) {
-  const float h = thickness;
   for (std::size_t i = part.begin; i < part.end; ++i) {
     PenaltyPair& p = pairs[i];
-    force[i] = glm::vec3(0.0f);
-    const glm::vec3 d = read(x, p.slot_a) - read(x, p.slot_b) + p.offset;
-    const float s = glm::dot(d, p.normal);
-    const float beyond = std::min(s, 0.0f);
-    const float weight = 1 - (glm::dot(d, d) - beyond * beyond) / (h * h);
-    if (weight <= 0) {
-      p.stretch = glm::vec3(0.0f);
+    const PenaltyLaw pair_law = law_of<float>(p);
+    const Meeting m(p, x, v);
+    const float at_rest = pair_law.push_at_rest(m.s, m.d2());
+    if (at_rest <= 0) {
+      force[i] = p.stretch = glm::vec3(0.0f);
       continue;
     }
-    const glm::vec3 velocity = read(v, p.slot_a) - read(v, p.slot_b);
-    const float separating = glm::dot(velocity, p.normal);
-    const float damping = std::clamp(1 - separating / rebound_speed, 0.0f, approach_limit);
-    const float push = p.stiffness * weight * std::min(h - s, h) * damping;
-    const glm::vec3 slip = velocity - separating * p.normal;
-    const float viscous = sticking_damping * p.stiffness * h / rebound_speed;
-    p.stretch += seconds * slip;
-    const glm::vec3 asked = p.stiffness * p.stretch + viscous * slip;
+    const float push = at_rest * pair_law.damping(m.u);
+    p.stretch += seconds * m.slip();
+    const glm::vec3 asked = pair_law.drag(p.stretch, m.slip());
     const glm::vec3 drag = law::within_cone(asked, p.friction * push);
     if (drag != asked) p.stretch = drag / p.stiffness;
     force[i] = push * p.normal - drag;
@@ -168,46 +185,28 @@ void PenaltyContact::remove(BodyId body, Index first, Index count) {
 
 PenaltyContact::Slopes PenaltyContact::slopes(const PenaltyPair& p, Field<const float> x, Field<const float> v,
                                               float seconds) const {
-  const float h = thickness;
-  const glm::vec3 d = read(x, p.slot_a) - read(x, p.slot_b) + p.offset;
-  const float s = glm::dot(d, p.normal), beyond = std::min(s, 0.0f);
-  const float weight = 1 - (glm::dot(d, d) - beyond * beyond) / (h * h);
-  if (weight <= 0) return {};
-  const float separating = glm::dot(read(v, p.slot_a) - read(v, p.slot_b), p.normal);
-  const float damping = std::clamp(1 - separating / rebound_speed, 0.0f, approach_limit);
-  const float depth = std::min(h - s, h);
-  // The weight falls with s, too: by 2 s / h^2 times a depth of h - s, together at most a half.
-  const float spring = p.stiffness * damping * (weight + 0.5f);
-  const float damper = p.stiffness * weight * depth / (rebound_speed * seconds);
-  return {spring, damper, p.stiffness, sticking_damping * p.stiffness * h / (rebound_speed * seconds)};
+  const PenaltyLaw pair_law = law_of<float>(p);
+  const Meeting m(p, x, v);
+  const float at_rest = pair_law.push_at_rest(m.s, m.d2());
+  if (at_rest <= 0) return {};
+  return {pair_law.slope_bound(m.s, m.d2(), m.u), pair_law.damper(at_rest) / seconds, p.stiffness,
+          pair_law.sticking_damper() / seconds};
 }
 
 float PenaltyContact::predicted_damping(const PenaltyPair& p, Field<const float> x, Field<const float> v,
                                         float seconds) const {
-  const glm::vec3 d = read(x, p.slot_a) - read(x, p.slot_b) + p.offset;
-  const glm::vec3 velocity = read(v, p.slot_a) - read(v, p.slot_b);
-  const float s = glm::dot(d, p.normal), u = glm::dot(velocity, p.normal);
-  const float nearer = seconds * glm::length(velocity - u * p.normal);
-  const float across = std::max(0.0f, glm::length(d - s * p.normal) - nearer) / thickness;
-  const float along = std::max(0.0f, s + seconds * std::min(u, 0.0f)) / thickness;
-  const float depth = std::max(0.0f, 1 - across * across - along * along) * std::max(0.0f, 1 - along);
-  return p.stiffness * thickness / rebound_speed * std::max(sticking_damping, max_damping(p.friction) * depth);
+  const PenaltyLaw pair_law = law_of<float>(p);
+  const Meeting m(p, x, v);
+  const float across = std::max(0.0f, glm::length(m.d - m.s * p.normal) - seconds * glm::length(m.slip()));
+  const float along = std::max(0.0f, m.s + seconds * std::min(m.u, 0.0f));
+  return pair_law.damping_bound(pair_law.push_at_rest(along, across * across + along * along));
 }
 
 double PenaltyContact::energy(const PenaltyPair& p, Field<const float> x) const {
-  const double h = thickness;
-  const glm::dvec3 d(read(x, p.slot_a) - read(x, p.slot_b) + p.offset);
-  const double s = glm::dot(d, glm::dvec3(p.normal)), k = double(p.stiffness);
-  const double end2 = h * h - (glm::dot(d, d) - s * s);  // of s, where the weight has come to 0, squared
-  if (end2 <= 0 || s >= std::sqrt(end2)) return 0;
-  // (end2 - s^2) (h - s), integrated; below 0 the force stays as it is there.
-  const auto integral = [&](double t) {
-    return end2 * h * t - end2 * t * t / 2 - h * t * t * t / 3 + t * t * t * t / 4;
-  };
-  const double push = integral(std::sqrt(end2)) - integral(std::max(s, 0.0)) + end2 * h * std::max(-s, 0.0);
-  const glm::dvec3 stretch(p.stretch);
-  // At the edge of sight the two integrals differ by less than they are rounded by.
-  return k / (h * h) * std::max(0.0, push) + k / 2 * glm::dot(stretch, stretch);
+  const glm::dvec3 d(between(p, x)), stretch(p.stretch);
+  const double s = glm::dot(d, glm::dvec3(p.normal));
+  const PenaltyLaw pair_law = law_of<double>(p);
+  return pair_law.stored(s, glm::dot(d, d) - s * s) + pair_law.stored_by_friction(glm::dot(stretch, stretch));
 }
 
 double PenaltyContact::energy(Field<const float> x) const {

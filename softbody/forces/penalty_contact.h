@@ -1,20 +1,10 @@
 #pragma once
-// The response to the detector's contacts. "A tolerance force that acts like a shield" is the paper's (§2.3); its law
-// is ours: along a unit normal n, fixed for a frame, two particles with separation d push each other apart by
-//
-//   F = k w min(h - s, h) clamp(1 - u / v, 0, 3)    s = d . n,  w = 1 - (d^2 - s_^2) / h^2,  s_ = min(s, 0),
-//
-// which fades out where the detector loses sight of the pair, at |d| = h, so that contacts come and go without a jump -
-// in front of the surface. A pair that comes into sight from behind it is pushed out with full force at once: work that
-// nobody has put in, as when solids push out what is in them.
-// h is the thickness of the contact layer, k its stiffness, u the speed at which the two separate: Hunt and Crossley's
-// damping (1975), under which nothing is thrown back faster than v. Friction across n is Cundall and Strack's (1979): a
-// spring of stiffness k that the slip stretches, with a damper, cut off at Coulomb's limit; it holds from frame to
-// frame as long as the pair does, so that bodies stick and not merely creep. Between closed bodies n comes from the
-// surfaces' normals, so that a particle that has slipped through is still pushed out; elsewhere it is the line between
-// the two. k is shared among the contacts of a particle: a wide contact layer is not stiffer.
+// The response to the detector's contacts: a penalty force between the vertices of each, by penalty_law.h. The friction
+// spring of a pair holds from frame to frame as long as the pair does, so that bodies stick and not merely creep.
+// Between closed bodies n comes from the surfaces' normals, so that a particle that has slipped through is still pushed
+// out; elsewhere it is the line between the two. The stiffness is shared among the contacts of a particle: a wide
+// contact layer is not stiffer.
 
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,6 +15,9 @@
 #include "softbody/forces/force.h"
 
 namespace softbody {
+
+template <class Real>
+struct PenaltyLaw;
 
 /// Contacts that a detector has found.
 struct DetectedContacts {
@@ -61,9 +54,7 @@ struct PenaltyContact {
   /// Adds the forces that evaluate() has found.
   void add(const ForceBatch& batch) const;
 
-  static constexpr float rebound_speed = 2.0f;   // v, m/s
-  static constexpr float approach_limit = 3.0f;  // upper clamp of the damping factor
-  float thickness = 0;                           // h, m
+  float thickness = 0;  // of the contact layer, m
   std::vector<PenaltyPair> pairs;
   std::vector<glm::vec3> force;          // on a, of the current substep, N
   std::vector<PenaltyEnd> ends;          // grouped by batch
@@ -71,10 +62,12 @@ struct PenaltyContact {
 
   /// Evaluates the forces of the pairs in `part` and stretches their friction springs by `seconds` of slip.
   void evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds);
-  /// J: the work of the undamped push along n until the pair is out of sight, and what its friction spring holds.
+  template <class Real>
+  PenaltyLaw<Real> law_of(const PenaltyPair& pair) const;
+  /// Returns what the law stores, in J.
   double energy(const PenaltyPair& pair, Field<const float> x) const;
   double energy(Field<const float> x) const;  // J, of all pairs
-  /// How fast the force on a falls with the motion of a in the coming `seconds`, at least: N/m along and across n.
+  /// Returns upper bounds of how fast the force on a falls with the motion of a in the coming `seconds`, in N/m.
   struct Slopes {
     float spring, damper;                // along n
     float across_spring, across_damper;  // while it sticks
@@ -92,25 +85,12 @@ struct PenaltyContact {
   /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up.
   void remove(BodyId body, Index first, Index count);
 
-  // What the law adds at one particle whose contacts share the stiffness k, for the stability bound.
-  static float stiffness_bound(float k) { return (4.0f / 3 * approach_limit + 1) * k; }  // N/m
-  static float damping_bound(float k, float friction, float thickness) {                 // N s/m
-    return max_damping(friction) * k * thickness / rebound_speed;
-  }
-  /// N: of a contact as deep as can be, damped as much as can be.
-  float max_force(const PenaltyPair& pair) const {
-    return approach_limit * max_damping(pair.friction) * pair.stiffness * thickness;
-  }
-  /// N s/m: the most that a pair does in the coming `seconds` if its speed stays.
+  /// Returns an upper bound of the damping (N s/m) of a pair in the coming `seconds` if its speed stays.
   float predicted_damping(const PenaltyPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
 
  private:
   void add_pairs(const DetectedContacts& detected, const State& state);
   void group(const State& state);
-
-  static constexpr float sticking_damping = 0.5f;  // across n, over k h / v
-  /// Of a contact as deep as can be, over k h / v: 1 along n, and Coulomb's limit, which that moves, across n.
-  static float max_damping(float friction) { return std::sqrt(1 + friction * friction); }
 };
 
 }  // namespace softbody

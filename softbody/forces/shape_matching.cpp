@@ -29,13 +29,13 @@ std::optional<ShapeMatching::Data> ShapeMatching::make(const BodyModel& p, const
   const double by_kind = source.kind == "file" ? mesh_file_shape_frequency : 0;
   const double rate = 2 * std::numbers::pi * (p.material.given(frequency) ? p.material[frequency] : by_kind);
   if (rate <= 0) return {};
-  Data data{p.particle_mass * rate * rate, {}, {}};
+  Data data;
+  data.stiffness = p.particle_mass * rate * rate;
   glm::dvec3 mean(0.0);
   for (const glm::dvec3& v : p.mesh.vertices) mean += v / double(p.mesh.vertices.size());
   for (const glm::dvec3& v : p.mesh.vertices) {
     const glm::dvec3 q = v - mean;
-    data.exact.push_back({q.x, q.y, q.z});
-    data.rounded.push_back({float(q.x), float(q.y), float(q.z)});
+    data.add({q.x, q.y, q.z});
   }
   return data;
 }

@@ -10,9 +10,7 @@
 // the stiffness over mass in every state.
 
 #include <array>
-
 #include <optional>
-#include <vector>
 
 #include "softbody/forces/coordinates.h"
 #include "softbody/model/body_model.h"
@@ -26,6 +24,7 @@ inline constexpr double mesh_file_shape_frequency = 10;  // Hz
 template <class Real>
 struct ShapePoint {
   Real x, y, z;
+  ShapePoint<float> rounded() const { return {float(x), float(y), float(z)}; }
 };
 
 /// Moments of the body in each lane: the mean of x, and the sum of x q^T with the places q of ShapePoint. Column c of
@@ -40,6 +39,7 @@ template <class Real>
 struct ShapePose {
   Real centre[3][lanes], rotation[9][lanes];
 };
+
 struct ShapeMatching {
   static constexpr std::string_view key = "shape-matching";
   static constexpr auto frequency =
@@ -52,17 +52,8 @@ struct ShapeMatching {
   static constexpr auto coordinate = Coordinate::offset;
   static constexpr const char* absent = "no body keeps its shape by itself";
 
-  struct Data {
-    double stiffness;  // m w^2 in N/m
-    std::vector<ShapePoint<double>> exact;
-    std::vector<ShapePoint<float>> rounded;  // the same
-    template <class Real>
-    const std::vector<ShapePoint<Real>>& points() const {
-      if constexpr (std::is_same_v<Real, float>)
-        return rounded;
-      else
-        return exact;
-    }
+  struct Data : ElementList<ShapePoint> {
+    double stiffness = 0;  // m w^2 in N/m
   };
   static std::optional<Data> make(const BodyModel& model, const MeshSource& source);
 };

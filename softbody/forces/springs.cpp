@@ -22,8 +22,7 @@ std::optional<Springs::Data> Springs::join(const BodyModel& p, const std::vector
     const double own = stiffness * std::min(1.0, 6.0 / std::max(meeting[i], meeting[j]));
     const double damping = 2 * damping_ratio * std::sqrt(own * p.particle_mass / 2);  // reduced mass m / 2
     const double rest = glm::distance(p.mesh.vertices[i], p.mesh.vertices[j]);
-    data.exact.push_back({i, j, rest, own, damping});
-    data.rounded.push_back({i, j, float(rest), float(own), float(damping)});
+    data.add({i, j, rest, own, damping});
   }
   return data;
 }
@@ -46,9 +45,10 @@ template const std::vector<Spring>& springs<BendSprings>(const BodyModel&);
 template const std::vector<Spring>& springs<ShearSprings>(const BodyModel&);
 
 void for_each_spring(const BodyModel& model, const std::function<void(const Spring&)>& use) {
-  for (const auto* list :
-       {&springs<StructuralSprings>(model), &springs<BendSprings>(model), &springs<ShearSprings>(model)})
-    for (const Spring& s : *list) use(s);
+  for_each_force(Forces{}, [&]<class F>(Name<F>) {
+    if constexpr (std::is_base_of_v<Springs, F>)
+      for (const Spring& s : springs<F>(model)) use(s);
+  });
 }
 
 }  // namespace softbody

@@ -25,6 +25,7 @@ struct SpringOf {
   HWY_INLINE T pull(T length) const {
     return stiffness * (length - rest);
   }
+  SpringOf<float> rounded() const { return {i, j, float(rest), float(stiffness), float(damping)}; }
   template <class T>
   HWY_INLINE T stored(T length) const {
     return stiffness / 2 * (length - rest) * (length - rest);
@@ -42,17 +43,7 @@ struct Springs {
   static constexpr auto coordinate = Coordinate::length;
   static constexpr const char* absent = "no body has such springs";
 
-  struct Data {
-    std::vector<Spring> exact;
-    std::vector<SpringOf<float>> rounded;  // the same
-  };
-  template <class Real>
-  static const std::vector<SpringOf<Real>>& elements(const Data& d) {
-    if constexpr (std::is_same_v<Real, float>)
-      return d.rounded;
-    else
-      return d.exact;
-  }
+  using Data = ElementList<SpringOf>;
 
  protected:
   static std::optional<Data> join(const BodyModel& model, const std::vector<Edge>& pairs, double stiffness,

@@ -72,11 +72,23 @@ concept HasElements = requires {
   typename F::Data;
 };
 
-/// True if XPBD moves the particles to where the law has them; other forces act as forces there.
+/// True if the force changes velocities, in steps that are not made of forces alone.
+template <class F>
+concept Kicks = requires(const F& force, const ForceBatch& batch) {
+  force.kick(batch);
+};
+
+/// True if XPBD moves the particles to where the law has them.
 template <class F>
 constexpr bool is_projected() {
   if constexpr (HasElements<F>) return F::coordinate != Coordinate::offset;
   return false;
+}
+
+/// True if the force acts as a force in XPBD.
+template <class F>
+constexpr bool is_unprojected() {
+  return !is_projected<F>() && !Kicks<F>;
 }
 
 }  // namespace softbody

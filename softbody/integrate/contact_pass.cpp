@@ -8,7 +8,7 @@ namespace softbody {
 
 void ContactPass::set_plan(const Plan& plan) {
   has_surfaces_ = plan.has(Stage::surface_contact);
-  if (!has_surfaces_) surfaces_.clear();
+  if (!has_surfaces_) surfaces_ = {};
 }
 
 double ContactPass::wake_hit_sleepers(double seconds, std::size_t max_candidates) {
@@ -19,7 +19,7 @@ double ContactPass::wake_hit_sleepers(double seconds, std::size_t max_candidates
   }
   if (!moving || !sleeping) return 0;
   const double work = find(seconds, seconds, 0, max_candidates);
-  for (const collide::surface::SurfacePair& pair : surfaces_.search().pairs())
+  for (const collide::surface::SurfacePair& pair : surfaces_.candidates().search().pairs())
     for (const auto& [sleeper, by] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)}) {
       if (!state_.body(sleeper).asleep || !state_.body(by).moves() ||
           state_.max_particle_speed(by) <= 2 * scene_.sleep.speed)
@@ -31,7 +31,7 @@ double ContactPass::wake_hit_sleepers(double seconds, std::size_t max_candidates
 }
 
 int ContactPass::predicted_substeps(double left, double h) const {
-  const double seconds = double(surfaces_.search().predicted_until()) - (found_ - left);
+  const double seconds = double(surfaces_.candidates().search().predicted_until()) - (found_ - left);
   return std::max(1, int(std::min(seconds / h + 1e-3, 1e6)));
 }
 
@@ -52,13 +52,14 @@ collide::surface::Motion ContactPass::motion(const collide::Frame& now) {
 double ContactPass::find(double left, double ahead, double least, std::size_t max_candidates) {
   const collide::Frame now = world_positions();
   const auto elapsed = float(found_ - left);
-  if (found_ > 0 && surfaces_.check_valid(now, elapsed, float(ahead))) return 0;
+  if (found_ > 0 && surfaces_.candidates().check_valid(now, elapsed, float(ahead))) return 0;
   if (found_ > 0) {
-    surfaces_.update(motion(now), elapsed, float(ahead), crew_.workers());
-    return double(surfaces_.search().work());
+    surfaces_.candidates().update(motion(now), elapsed, float(ahead), crew_.workers());
+    return double(surfaces_.candidates().search().work());
   }
   found_ = left;
   since_found_.assign(std::size_t(crew_.workers().threads()), 0.0f);
+  surfaces_.set_threads(crew_.workers().threads());
   std::vector<collide::surface::SurfaceBody> traits;
   std::vector<ContactBody> contacts;
   for (BodyId id = 0; id < state_.body_count(); ++id) {
@@ -71,28 +72,56 @@ double ContactPass::find(double left, double ahead, double least, std::size_t ma
                         body.moves() ? float(1 / p.particle_mass) : 0.0f, float(p.material[contact::friction]),
                         float(p.material[contact::restitution]), &p.shape->rest()});
   }
-  surfaces_.find(motion(now), std::move(traits), std::move(contacts),
-                 {float(left), float(least), scene_.collision.self_collision, max_candidates}, float(ahead),
-                 crew_.workers());
-  return double(surfaces_.search().work());
+  surfaces_.candidates().find(motion(now), std::move(traits), std::move(contacts),
+                              {float(left), float(least), scene_.collision.self_collision, max_candidates},
+                              float(ahead), crew_.workers());
+  keep_overlapping_awake();
+  return double(surfaces_.candidates().search().work());
+}
+
+void ContactPass::keep_overlapping_awake() {
+  for (const SurfaceCandidates::Pair& pair : surfaces_.candidates().pairs())
+    if (pair.separating || !surfaces_.candidates().interior(pair).empty())
+      for (const Index body : {pair.range.a, pair.range.b}) state_.memory(body).calm_frames = 0;
 }
 
 void ContactPass::apply(const Worker& worker, float h, float since_start) {
+  constexpr int max_passes = 4;
   const auto solids = [&] {
     for (const Batch* batch : worker.batches()) solids_.apply(*batch, h);
   };
   apply_surfaces(worker, h, since_start);
   solids();
-  for (int pass = 0; pass < SurfaceContact::max_passes && has_surfaces_ && surfaces_.needs_more_iterations(h); ++pass) {
+  if (!has_surfaces_ || surfaces_.candidates().empty()) return;
+  for (int pass = 0; pass < max_passes; ++pass) {
     worker.barrier();
-    if (!surfaces_.resolve_after_solids(worker.index(), crew_.active(), field(state_.v), h, [&] { worker.barrier(); }))
+    if (!surfaces_.find_islands(worker.index(), crew_.active(), field(std::as_const(state_.v)),
+                                [&] { worker.barrier(); }))
       break;
+    const std::vector<SurfaceContact::Island>& islands = surfaces_.islands();
+    for (auto i = std::size_t(worker.index()); i < islands.size(); i += std::size_t(crew_.active()))
+      if (islands[i].closes) solve_island(worker.index(), islands[i], h);
+    worker.barrier();
     solids();
   }
+  surfaces_.add_row_work(worker.index(), crew_.active());
+}
+
+/// Solves contacts of bodies together with those of the solids that they lie on, which apply() takes in turn.
+void ContactPass::solve_island(int thread, const SurfaceContact::Island& island, float h) {
+  std::vector<ContactRow> rows;
+  std::vector<std::size_t> end;
+  for (const Index body : island.bodies) {
+    if (state_.body(body).moves()) solids_.add_particle_rows(body, 2 * h * island.speed, rows);
+    end.push_back(rows.size());
+  }
+  surfaces_.solve_island(thread, island, rows, field(state_.v));
+  for (std::size_t i = 0, first = 0; i < end.size(); first = end[i++])
+    solids_.book(island.bodies[i], std::span(rows).subspan(first, end[i] - first));
 }
 
 void ContactPass::apply_surfaces(const Worker& worker, float h, float since_start) {
-  if (!has_surfaces_ || surfaces_.empty()) return;
+  if (!has_surfaces_ || surfaces_.candidates().empty()) return;
   const Field<const float> x = field(std::as_const(state_.x));
   worker.barrier();  // the velocities of all bodies are there
   surfaces_.make_rows(worker.index(), crew_.active(), x, field(state_.v),

@@ -48,6 +48,8 @@ class ContactPass {
 
  private:
   void apply(const Worker& worker, float h, float since_start);
+  void keep_overlapping_awake();
+  void solve_island(int thread, const SurfaceContact::Island& island, float h);
   void apply_surfaces(const Worker& worker, float h, float since_start);
   collide::Frame world_positions();
   collide::surface::Motion motion(const collide::Frame& now);

@@ -33,6 +33,7 @@ struct Integrator {
   bool automatic = false;        // chooses another integrator for each frame, see StepController::choose()
   bool by_damping = false;       // is stable only if every oscillation is damped enough
   bool staggered = false;        // its velocities belong to the middle of the last substep
+  bool projects = false;         // moves particles to where forces have them, see Plan::unprojected()
   bool conserves_energy = true;  // as steps get short; else it moves bodies to shapes of its own, by its steps
   bool conserves_spin = false;   // conserves a free body's angular momentum up to rounding; all conserve the linear one
 };

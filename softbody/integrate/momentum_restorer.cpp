@@ -11,18 +11,13 @@
 namespace softbody {
 namespace {
 
-glm::dvec3 read(const DoubleLaneVector& v, std::size_t lane) { return {v.x[lane], v.y[lane], v.z[lane]}; }
-void write(DoubleLaneVector& to, std::size_t lane, const glm::dvec3& v) {
-  to.x[lane] = v.x, to.y[lane] = v.y, to.z[lane] = v.z;
-}
-
 /// Of a lane's body, but for its spin; its centre is seen from the first particle.
 RigidMotion rigid_motion(const RigidSums& sums, std::size_t lane, double count) {
   RigidMotion m;
-  m.centre = read(sums.place, lane) / count;
-  m.velocity = read(sums.velocity, lane) / count;
-  m.momentum = read(sums.momentum, lane) - count * glm::cross(m.centre, m.velocity);
-  const glm::dvec3 square = read(sums.square, lane), mixed = read(sums.mixed, lane);
+  m.centre = sums.place[lane] / count;
+  m.velocity = sums.velocity[lane] / count;
+  m.momentum = sums.momentum[lane] - count * glm::cross(m.centre, m.velocity);
+  const glm::dvec3 square = sums.square[lane], mixed = sums.mixed[lane];
   const glm::dmat3 products(square.x, mixed.z, mixed.y, mixed.z, square.y, mixed.x, mixed.y, mixed.x, square.z);
   const glm::dmat3 about = products - count * glm::outerProduct(m.centre, m.centre);
   m.inertia = glm::dmat3(about[0][0] + about[1][1] + about[2][2]) - about;
@@ -50,9 +45,9 @@ void MomentumRestorer::restore(const glm::dvec3& fall, bool spin, std::span<cons
       const glm::dvec3 turn = spin ? after.steady_spin_of(before.momentum - after.momentum) : glm::dvec3(0.0);
       if (!std::isfinite(glm::dot(push, push) + glm::dot(turn, turn))) continue;
       change.acts[l] = 1;
-      write(change.push, l, push);
-      write(change.spin, l, turn);
-      write(change.about, l, after.centre);
+      change.push.set(l, push);
+      change.spin.set(l, turn);
+      change.about.set(l, after.centre);
     }
     state_kernels(b.width).add_rigid(b.used, b.particles(), change, view.x, view.v);
   }

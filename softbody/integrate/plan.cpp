@@ -6,6 +6,7 @@
 #include "softbody/contact/keys.h"
 #include "softbody/forces/model_forces.h"
 #include "softbody/integrate/force_stage.h"
+#include "softbody/integrate/integrators.h"
 #include "softbody/scene/solids.h"
 
 namespace softbody {
@@ -101,6 +102,7 @@ struct Row {
   Stage stage;
   std::string_view key;
   Why why_not;
+  bool unprojected = false;
 };
 
 constexpr std::array before_forces{
@@ -129,18 +131,27 @@ constexpr std::array after_forces{
 constexpr auto all_stages = [] {
   std::array<Row, before_forces.size() + force_count + after_forces.size()> rows{};
   auto next = std::ranges::copy(before_forces, rows.begin()).out;
-  for_each_force(Forces{}, [&]<class F>(Name<F>) { *next++ = {stage_of<F>, F::key, force<F>}; });
+  for_each_force(Forces{}, [&]<class F>(Name<F>) { *next++ = {stage_of<F>, F::key, force<F>, is_unprojected<F>()}; });
   std::ranges::copy(after_forces, next);
   return rows;
 }();
 
+const Row& row_of(Stage stage) { return *std::ranges::find(all_stages, stage, &Row::stage); }
+
 }  // namespace
 
-std::string_view stage_key(Stage stage) { return std::ranges::find(all_stages, stage, &Row::stage)->key; }
+std::string_view stage_key(Stage stage) { return row_of(stage).key; }
 
 bool Plan::has(Stage stage) const { return std::find(stages.begin(), stages.end(), stage) != stages.end(); }
 
 bool Plan::has(std::string_view key) const { return std::ranges::find(stages, key, stage_key) != stages.end(); }
+
+std::vector<Stage> Plan::unprojected(const Integrator& integrator) const {
+  std::vector<Stage> list;
+  if (!integrator.projects) return list;
+  std::ranges::copy_if(stages, std::back_inserter(list), [](Stage s) { return row_of(s).unprojected; });
+  return list;
+}
 
 Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const BodyModel>>& models,
                const AddedBodies& added_bodies) {

@@ -11,6 +11,7 @@
 namespace softbody {
 
 struct BodyModel;
+struct Integrator;
 struct Scene;
 
 /// A stage of a step. That of a force of the table (forces/table.h) is first_force plus its place there: see stage_of.
@@ -47,6 +48,8 @@ struct Plan {
   std::vector<LeftOut> left_out;  // in order
   bool has(Stage stage) const;
   bool has(std::string_view key) const;
+  /// Returns the stages that act as forces although the integrator moves particles to where others have them.
+  std::vector<Stage> unprojected(const Integrator& integrator) const;
 };
 
 /// What a world has besides its scene's own bodies.

@@ -53,7 +53,7 @@ void Resistance::apply(const BodyModel& p, const BodyField& x, const BodyField& 
   if (rebound_ && m[contact::rebound_speed] > 0 && normal > 0) {
     const glm::dvec3 n = push.impulse / normal;
     lost_velocity = n * excess_rebound_speed(glm::dot(velocity, n), normal, push.returned, m[Material::mass], impact) *
-                    std::min(1.0, normal / (m[Material::mass] * m[contact::rebound_speed]));
+                    std::min(1.0, law::damper(normal, m[contact::rebound_speed]) / m[Material::mass]);
   }
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec3 r = x(i) - centre, old = v(i);

@@ -46,7 +46,7 @@ void Solver::set_plan(const Plan& plan) {
 
 void Solver::remove(BodyId body) {
   penalty_.remove(body, vertices_->first[body], vertices_->size(body));
-  contacts_.surfaces().clear();  // found anew in the next frame
+  contacts_.surfaces() = {};  // found anew in the next frame
   solids_.remove(body);
   hand_.remove(body);
   state_.remove(body);
@@ -120,6 +120,7 @@ FrameResult Solver::advance(double seconds, const std::function<void()>& after_s
 void Solver::take_substeps(Frame& frame, const std::function<void()>& after_substep) {
   const bool fixed = steps_.fixed(), implicit = steps_.integrator().implicit, surfaces = contacts_.has_surfaces();
   const SurfaceContact& surface = contacts_.surfaces();
+  const SurfaceCandidates& candidates = surface.candidates();
   const auto pairs = double(penalty_.pairs.size());
   const int most = steps_.max_substeps() - frame.substeps;
   int stable = most;
@@ -130,16 +131,16 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   if (surfaces) {
     const double longest = frame.left / stable;
     steps_.spend({.surface = contacts_.find(frame.left, longest, longest, steps_.max_candidates())});
-    for (const collide::surface::SurfacePair& p : surface.search().pairs()) mark_pushed(p.a), mark_pushed(p.b);
+    for (const collide::surface::SurfacePair& p : candidates.search().pairs()) mark_pushed(p.a), mark_pushed(p.b);
   }
-  const int count = fixed ? stable : steps_.substeps(stable, double(surface.substep_rate()), frame.left);
+  const int count = fixed ? stable : steps_.substeps(stable, double(candidates.substep_rate()), frame.left);
   if (frame.substeps == 0 && !implicit && count >= many_substeps)
     for (const Batch* b : crew_.moving()) frame.momenta.note({*b, field(state_.x, b->base), field(state_.v, b->base)});
   const double h = frame.left / count;
   const auto trusted = [&] { return bounds_.trusted_substeps(crew_.moving(), h); };
   int now = fixed ? count : std::clamp(trusted(), 1, count);
   // Then it is looked whether the candidates still hold: at once where their speed decides the count.
-  if (!surface.empty()) now = std::min(now, fixed || count > stable ? 1 : 4);
+  if (!candidates.empty()) now = std::min(now, fixed || count > stable ? 1 : 4);
   if (surfaces) now = std::min(now, contacts_.predicted_substeps(frame.left, h));
   now = std::min(now, most);
   int done = 0;
@@ -148,7 +149,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
     state_.ledger.book(WorkBy::surfaces, contacts_.surfaces().take_work());
     done += steps;
     frame.substeps += steps;
-    steps_.spend({.surface = surface.empty() ? 0 : surface.work_of_substep(float(h)) * steps,
+    steps_.spend({.surface = candidates.empty() ? 0 : surface.work_of_substep() * steps,
                   .implicit = implicit_->take_work(),
                   .penalty = pairs * steps});
   };

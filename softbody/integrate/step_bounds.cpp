@@ -6,6 +6,7 @@
 
 #include "softbody/contact/keys.h"
 #include "softbody/contact/law.h"
+#include "softbody/forces/penalty_law.h"
 #include "softbody/state/kernels.h"
 
 namespace softbody {
@@ -38,8 +39,7 @@ SubstepBound StepBounds::measure(const Integrator& integrator, double seconds) {
     double stiffest = own.stiffness, damper = own.damping;
     lone_step = std::min(lone_step, integrator.stable_step(stiffest, damper));
     if (pairs) {
-      const auto k = static_cast<float>(p.material[contact::stiffness]);
-      stiffest += PenaltyContact::stiffness_bound(k) / p.particle_mass;
+      stiffest += PenaltyLaw<double>::stiffness_bound(p.material[contact::stiffness]) / p.particle_mass;
       float most = 0;
       for (const float *row = penalty_damping_.data() + b.base, *end = row + b.values(); row < end; row += b.width)
         most = std::max(most, *std::max_element(row, row + b.used));
@@ -84,11 +84,11 @@ double StepBounds::rounding_velocity(std::span<const Batch* const> moving, doubl
 
 double substeps_at_start(const BodyModel& p, const Integrator& integrator, double frame_time, float thickness,
                          double max_friction) {
-  const auto contact = float(p.material[contact::stiffness]);
-  const auto friction = float(law::common_friction(p.material[contact::friction], max_friction));
-  const double k =
-      stiffness_per_mass(p, measure_surface(p, p.start)) + PenaltyContact::stiffness_bound(contact) / p.particle_mass;
-  const double own = damping_bound(p), all = own + PenaltyContact::damping_bound(contact, friction, thickness);
+  const PenaltyLaw<double> contacts{p.material[contact::stiffness], double(thickness),
+                                    law::common_friction(p.material[contact::friction], max_friction)};
+  const double k = stiffness_per_mass(p, measure_surface(p, p.start)) +
+                   contacts.stiffness_bound(contacts.stiffness) / p.particle_mass;
+  const double own = damping_bound(p), all = own + contacts.damping_bound();
   const auto stable_step = integrator.stable_step;
   return frame_time / std::min(stable_step(k, own / p.particle_mass), stable_step(k, all / p.particle_mass));
 }

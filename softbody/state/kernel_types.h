@@ -10,13 +10,24 @@
 
 namespace softbody {
 
-struct LaneVector {
-  float x[lanes], y[lanes], z[lanes];
-};
+/// A vector for each lane.
+template <class Real>
+struct LaneVectorOf {
+  Real x[lanes], y[lanes], z[lanes];
 
-struct DoubleLaneVector {
-  double x[lanes], y[lanes], z[lanes];
+  glm::vec<3, Real> operator[](std::size_t lane) const { return {x[lane], y[lane], z[lane]}; }
+  void set(std::size_t lane, const glm::vec<3, Real>& v) { x[lane] = v.x, y[lane] = v.y, z[lane] = v.z; }
 };
+using LaneVector = LaneVectorOf<float>;
+using DoubleLaneVector = LaneVectorOf<double>;
+template <class Real>
+Field<Real> field(LaneVectorOf<Real>& v) {
+  return {v.x, v.y, v.z};
+}
+template <class Real>
+Field<const Real> field(const LaneVectorOf<Real>& v) {
+  return {v.x, v.y, v.z};
+}
 
 struct KickArguments {
   std::size_t particles;
@@ -24,10 +35,6 @@ struct KickArguments {
   float gx, gy, gz;    // h * gravity, m/s
   const float* moves;  // a value a lane, 0 or 1
 };
-
-inline Field<float> field(LaneVector& v) { return {v.x, v.y, v.z}; }
-inline Field<double> field(DoubleLaneVector& v) { return {v.x, v.y, v.z}; }
-inline Field<const double> field(const DoubleLaneVector& v) { return {v.x, v.y, v.z}; }
 
 /// Bounds of two fields, for the body in each lane.
 struct Extent {
@@ -37,9 +44,10 @@ struct Extent {
   double max_length() const { return std::sqrt(double(*std::max_element(std::begin(length2), std::end(length2)))); }
   double max_diagonal() const {  // of the boxes
     double most = 0;
-    for (int l = 0; l < lanes; ++l)
-      most =
-          std::max(most, std::hypot(double(hi.x[l] - lo.x[l]), double(hi.y[l] - lo.y[l]), double(hi.z[l] - lo.z[l])));
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const glm::dvec3 diagonal(hi[l] - lo[l]);
+      most = std::max(most, std::hypot(diagonal.x, diagonal.y, diagonal.z));
+    }
     return most;
   }
 };

@@ -78,6 +78,12 @@ struct Field {
   Field operator+(std::size_t values) const { return {x + values, y + values, z + values}; }
 };
 
+/// Returns the components of a field of implicit steps.
+inline Field<double> field(Lanes& f) { return {f.data(), f.data() + f.size() / 3, f.data() + 2 * (f.size() / 3)}; }
+inline Field<const double> field(const Lanes& f) {
+  return {f.data(), f.data() + f.size() / 3, f.data() + 2 * (f.size() / 3)};
+}
+
 inline glm::vec3 read(Field<const float> f, std::size_t slot) { return {f.x[slot], f.y[slot], f.z[slot]}; }
 inline void add(Field<float> f, std::size_t slot, const glm::vec3& more) {
   f.x[slot] += more.x, f.y[slot] += more.y, f.z[slot] += more.z;

@@ -73,11 +73,10 @@ BodyId State::add(const std::shared_ptr<const BodyModel>& model, const glm::dvec
   const Body& body =
       bodies_.emplace_back(Body{.batch = batch.index, .lane = batch.used++, .number = number, .origin = position});
   batch.body[std::size_t(body.lane)] = id;
-  for (Index i = 0; i < batch.particles(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      x[std::size_t(k)][slot(id, i)] = float(model->start[i][k]);
-      v[std::size_t(k)][slot(id, i)] = float(velocity[k]);
-    }
+  for (Index i = 0; i < batch.particles(); ++i) {
+    field_of(id, x).set(i, model->start[i]);
+    field_of(id, v).set(i, velocity);
+  }
   update_moves(body);
   return id;
 }
@@ -124,8 +123,7 @@ void State::set_asleep(BodyId id, bool asleep) {
   body.memory.calm_frames = 0;
   update_moves(body);
   if (!asleep) return;
-  for (Index i = 0; i < model(id).mesh.vertices.size(); ++i)
-    for (auto& c : v) c[slot(id, i)] = 0.0f;
+  for (Index i = 0; i < model(id).mesh.vertices.size(); ++i) field_of(id, v).set(i, glm::dvec3(0.0));
 }
 
 void State::set_particles(BodyId id, std::span<const Particle> particles) {
@@ -134,12 +132,10 @@ void State::set_particles(BodyId id, std::span<const Particle> particles) {
   glm::dvec3 middle(0.0);
   for (const Particle& p : particles) middle += p.position / double(particles.size());
   body.origin = glm::round(middle * 64.0) / 64.0;  // a multiple of 1/64 m, as in recentre()
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      const std::size_t s = slot(id, static_cast<Index>(i));
-      x[std::size_t(k)][s] = float(particles[i].position[k] - body.origin[k]);
-      v[std::size_t(k)][s] = float(particles[i].velocity[k]);
-    }
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    field_of(id, x).set(i, particles[i].position - body.origin);
+    field_of(id, v).set(i, particles[i].velocity);
+  }
 }
 
 /// The origin moves when the first particle, which starts no further than the radius from it, is further than one and a
@@ -149,11 +145,9 @@ void State::recentre(BodyId id) {
   Body& body = bodies_[id];
   const glm::dvec3 away(read(field(x), slot(id, 0)));
   if (glm::length(away) <= 1.5 * model(id).radius) return;
-  for (int k = 0; k < 3; ++k) {
-    const double shift = std::round(away[k] * 64) / 64;
-    body.origin[k] += shift;
-    for (Index i = 0; i < model(id).mesh.vertices.size(); ++i) x[std::size_t(k)][slot(id, i)] -= float(shift);
-  }
+  const glm::dvec3 shift = glm::round(away * 64.0) / 64.0;
+  body.origin += shift;
+  for (Index i = 0; i < model(id).mesh.vertices.size(); ++i) field_of(id, x).add(i, -shift);
 }
 
 Extent State::extent(const Batch& b, const VectorArray& boxed, const VectorArray& measured) const {

@@ -33,9 +33,10 @@ struct Batch {
 
 /// What World, Sleep and Resistance remember of a body from one frame to the next.
 struct BodyMemory {
-  int release = 0;      // the frame until which it is pinned
-  int calm_frames = 0;  // for how many frames it has been slow enough to sleep
-  double impact = 0;    // m/s, the speed with which it came upon the solids that it touches
+  int release = 0;               // the frame until which it is pinned
+  int calm_frames = 0;           // for how many frames it has been slow enough to sleep
+  bool may_lie_in_solid = true;  // it has been placed there, or solids have been moved, and not come out since
+  double impact = 0;             // m/s, the speed with which it came upon the solids that it touches
 };
 
 struct Body {

@@ -2,7 +2,7 @@
 // Puts bodies at rest to sleep. Islands of touching bodies fall asleep together, so that no sleeper loses its support.
 
 #include "collide/methods.h"
-#include "softbody/contact/surface_contact.h"
+#include "softbody/contact/surface_candidates.h"
 #include "softbody/scene/scene.h"
 #include "softbody/state/state.h"
 

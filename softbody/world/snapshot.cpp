@@ -8,51 +8,26 @@ namespace softbody {
 
 std::size_t Snapshot::bytes() const {
   const Values& all = *values;
-  return sizeof(*this) + sizeof(all) + bytes_of(all.scene.bodies) + bytes_of(all.arrived) + bytes_of(all.added) +
-         all.solver.bytes();
+  return sizeof(*this) + sizeof(all) + bytes_of(all.world.scene.bodies) + bytes_of(all.world.arrived) +
+         bytes_of(all.world.added) + all.solver.bytes();
 }
 
 Snapshot World::snapshot() const {
   const Parts& s = *parts_;
   return {.frame = s.frame,
           .grab = grabbed(),
-          .values = std::make_shared<const Snapshot::Values>(Snapshot::Values{.scene = s.scene,
-                                                                              .models = s.models,
-                                                                              .solver = s.solver.save(),
-                                                                              .arrived = s.arrived,
-                                                                              .added_bodies = s.added_bodies,
-                                                                              .added = s.added,
-                                                                              .drops = s.drops,
-                                                                              .drop_direction = s.drop_direction,
-                                                                              .integrator = s.options.integrator,
-                                                                              .method = s.method,
-                                                                              .settings = s.settings,
-                                                                              .penalty_thickness = s.penalty_thickness,
-                                                                              .report = s.report})};
+          .values = std::make_shared<const Snapshot::Values>(Snapshot::Values{s, s.solver.save()})};
 }
 
 void World::restore(const Snapshot& snapshot) {
   assert(snapshot.values);
   Parts& s = *parts_;
-  const Snapshot::Values& from = *snapshot.values;
-  s.scene = from.scene;
-  s.models = from.models;
-  s.added_bodies = from.added_bodies;
-  s.added = from.added;
+  static_cast<WorldValues&>(s) = snapshot.values->world;
   s.sleep = Sleep(s.scene.sleep);
-  s.options.integrator = from.integrator;
-  s.report = from.report;
   s.update_plan();
   s.set_integrator();  // without a check: the state may be one that a new scene would be refused for
-  s.solver.restore(from.solver);
+  s.solver.restore(snapshot.values->solver);
   s.solver.hand().take(snapshot.grab);
-  s.arrived = from.arrived;
-  s.drops = from.drops;
-  s.drop_direction = from.drop_direction;
-  s.frame = snapshot.frame;
-  s.settings = from.settings;
-  s.penalty_thickness = from.penalty_thickness;
-  s.method = from.method;
   s.detector = s.method->make();  // a new one: the old one caches another state
   s.count_vertices();
   s.update_positions();

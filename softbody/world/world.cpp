@@ -32,20 +32,24 @@ glm::vec3 rest_cell_size(const BodyModelSet& models, const collide::Settings& se
 
 }  // namespace
 
-World::Parts::Parts(Scene s, const Options& o)
+WorldValues::WorldValues(Scene s, const IntegratorChoice& integrator)
     : scene(std::move(s)),
-      options(o),
-      workers(o.threads),
       models(scene),
+      arrived(scene.bodies.size(), false),
+      choice(integrator),
+      method(collide::find_method(scene.method)),
+      settings(scene.collision),
+      penalty_thickness(settings.tolerance) {}
+
+World::Parts::Parts(Scene s, const Options& o)
+    : WorldValues(std::move(s), o.integrator),
+      frame_time(o.frame_time),
+      workers(o.threads),
       plan(make_plan(scene, models.all())),
       solver(scene, Crew(workers, o.min_shared_particles)),
       sleep(scene.sleep),
-      arrived(scene.bodies.size(), false),
-      method(collide::find_method(scene.method)),
-      detector(method->make()),
-      settings(scene.collision),
-      penalty_thickness(settings.tolerance) {
-  solver.steps().set_max_work(options.max_work);
+      detector(method->make()) {
+  solver.steps().set_max_work(o.max_work);
   solver.set_vertices(bodies);
   solver.set_plan(plan);
   check_stability(models, plan);
@@ -60,22 +64,22 @@ World::Parts::Parts(Scene s, const Options& o)
 double World::Parts::needed_substeps(const BodyModel& p, float thickness) const {
   double max_friction = 0;
   for (const Material& m : scene.materials) max_friction = std::max(max_friction, m[contact::friction]);
-  return substeps_at_start(p, options.integrator.integrator(), options.frame_time, thickness, max_friction);
+  return substeps_at_start(p, choice.integrator(), frame_time, thickness, max_friction);
 }
 
 /// True if the integrator may choose implicit steps, so that no material is too stiff.
 bool World::Parts::implicit_in_reserve(const BodyModelSet& all, const Plan& with) const {
-  return options.integrator.integrator().automatic && !with.has(Stage::surface_contact) &&
+  return choice.integrator().automatic && !with.has(Stage::surface_contact) &&
          std::all_of(all.all().begin(), all.all().end(),
                      [](const auto& one) { return one->mesh.vertices.size() <= max_implicit_particles; });
 }
 
-/// Sets the integrator of the options, without a check of stability.
+/// Hands the integrator on to the solver, without a check of stability.
 void World::Parts::set_integrator() {
-  report.integrator = &options.integrator.integrator();
+  report.integrator = &choice.integrator();
   report.why = {};
   solver.steps().set_integrator(*report.integrator);
-  solver.steps().set_fixed_steps(options.integrator.substeps);
+  solver.steps().set_fixed_steps(choice.substeps);
 }
 
 /// Throws SceneError if, in a world with this plan, one of the models needs more substeps than max_substeps.
@@ -86,11 +90,11 @@ void World::Parts::check_stability(const BodyModelSet& all, const Plan& with) co
 
 void World::Parts::check_stability(const BodyModel& p, bool implicit_in_reserve, bool contacts) const {
   const auto particles = p.mesh.vertices.size();
-  if (options.integrator.integrator().implicit && particles > max_implicit_particles)
+  if (choice.integrator().implicit && particles > max_implicit_particles)
     throw SceneError("scene '" + scene.key + "': a body of " + std::to_string(particles) +
                      " vertices has too large a matrix for implicit steps (at most " +
                      std::to_string(max_implicit_particles) + " vertices); choose another integrator");
-  if (options.integrator.substeps) return;
+  if (choice.substeps) return;
   const double steps = needed_substeps(p, contacts ? penalty_thickness : 0);
   if (steps <= max_substeps) return;
   const bool wide = contacts && needed_substeps(p, 0) <= max_substeps;  // a smaller tolerance would be stable
@@ -164,8 +168,7 @@ void World::step(const std::function<void()>& after_substep) {
   if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.solver.state(), s.vertex_body, s.result.contacts);
   const float thickness = s.penalty_thickness;
   if (s.plan.has(stage_of<PenaltyContact>)) {
-    s.penalty_thickness =
-        std::min(s.settings.tolerance, s.penalty_thickness + float(0.05 * s.options.frame_time));  // 5 cm/s
+    s.penalty_thickness = std::min(s.settings.tolerance, s.penalty_thickness + float(0.05 * s.frame_time));  // 5 cm/s
     s.solver.set_contacts({s.bodies, s.vertex_body, s.result.contacts}, s.penalty_thickness);
   }
   double looking_ms = 0;
@@ -175,7 +178,7 @@ void World::step(const std::function<void()>& after_substep) {
     after_substep();
     looking_ms += ms_since(from);
   };
-  const FrameResult done = s.solver.advance(s.options.frame_time, after_substep ? look : std::function<void()>());
+  const FrameResult done = s.solver.advance(s.frame_time, after_substep ? look : std::function<void()>());
   s.solver.finish_frame(done.seconds);
   s.report.time += done.seconds;
   s.report.seconds = done.seconds;
@@ -183,7 +186,7 @@ void World::step(const std::function<void()>& after_substep) {
   s.report.last_substep = s.solver.last_substep();
   s.report.integrator = &s.solver.steps().integrator();
   s.report.why = s.solver.steps().why();
-  const bool whole = done.seconds == s.options.frame_time;
+  const bool whole = done.seconds == s.frame_time;
   if (!whole)
     s.penalty_thickness =
         std::min(s.penalty_thickness, thickness + float(0.05 * done.seconds));  // it grows with time, not frames
@@ -193,7 +196,8 @@ void World::step(const std::function<void()>& after_substep) {
   const bool penalty_grows = s.plan.has(stage_of<PenaltyContact>) &&
                              s.penalty_thickness < s.settings.tolerance;  // nobody falls asleep meanwhile
   if (s.plan.has(Stage::sleep) && whole && !penalty_grows)
-    s.sleep.settle(s.solver.state(), s.vertex_body, s.result.contacts, s.solver.surface_contact().interactions());
+    s.sleep.settle(s.solver.state(), s.vertex_body, s.result.contacts,
+                   s.solver.surface_contact().candidates().interactions());
   s.report.total_ms = ms_since(start) - looking_ms;
 }
 
@@ -201,6 +205,7 @@ void World::set_particles(BodyId body, std::span<const Particle> particles) {
   Parts& s = *parts_;
   assert(particles.size() == s.bodies.size(body));
   s.book_change([&] { s.solver.state().set_particles(body, particles); });
+  s.solver.state().memory(body).may_lie_in_solid = true;
   s.wake_all();
   s.update_positions();
   s.detect();
@@ -208,7 +213,7 @@ void World::set_particles(BodyId body, std::span<const Particle> particles) {
 
 const Scene& World::scene() const { return parts_->scene; }
 int World::frame() const { return parts_->frame; }
-double World::frame_time() const { return parts_->options.frame_time; }
+double World::frame_time() const { return parts_->frame_time; }
 const Plan& World::plan() const { return parts_->plan; }
 const collide::Settings& World::collision() const { return parts_->settings; }
 const collide::Method& World::method() const { return *parts_->method; }
@@ -225,19 +230,19 @@ void World::set_method(std::string_view key) {
 
 void World::set_integrator(const IntegratorChoice& choice) {
   Parts& s = *parts_;
-  const IntegratorChoice before = s.options.integrator;
-  s.options.integrator = choice;
+  const IntegratorChoice before = s.choice;
+  s.choice = choice;
   try {
     s.check_stability(s.models, s.plan);
   } catch (const SceneError&) {
-    s.options.integrator = before;
+    s.choice = before;
     throw;
   }
   s.set_integrator();
   s.wake_all();
 }
 
-const IntegratorChoice& World::integrator_choice() const { return parts_->options.integrator; }
+const IntegratorChoice& World::integrator_choice() const { return parts_->choice; }
 
 void World::set_collision(const collide::Settings& settings, bool default_cell_size) {
   Parts& s = *parts_;
@@ -274,7 +279,7 @@ Particle World::particle(BodyId body, Index vertex) const { return parts_->solve
 const collide::Result& World::detection() const { return parts_->result; }
 const collide::Detector& World::detector() const { return *parts_->detector; }
 std::span<const BodyId> World::vertex_body() const { return parts_->vertex_body; }
-int World::needed_substeps() const { return parts_->solver.needed_substeps(parts_->options.frame_time); }
+int World::needed_substeps() const { return parts_->solver.needed_substeps(parts_->frame_time); }
 const State& World::state() const { return parts_->solver.state(); }
 std::uint64_t World::state_hash() const { return parts_->solver.state().hash(); }
 const StepReport& World::last_step() const { return parts_->report; }

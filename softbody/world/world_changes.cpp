@@ -236,6 +236,7 @@ void World::set_solids(const Scene& from) {
   to.boxes = from.boxes;
   to.capsules = from.capsules;
   to.ground = from.ground;
+  for (BodyId b = 0; b < parts_->bodies.count(); ++b) parts_->solver.state().memory(b).may_lie_in_solid = true;
   parts_->update_plan();
   parts_->wake_all();
 }

@@ -20,7 +20,27 @@ struct Coordinates {
   collide::Frame frame(const collide::Bodies& bodies) const { return {x, y, z, &bodies}; }
 };
 
-struct World::Parts {
+/// What decides how a world goes on, beside its solver's state.
+struct WorldValues {
+  WorldValues(Scene s, const IntegratorChoice& integrator);
+
+  Scene scene;  // with all changes
+  BodyModelSet models;
+  std::vector<char> arrived;  // for each body source of the scene
+  AddedBodies added_bodies;
+  std::vector<AddedBody> added;
+  int drops = 0;
+  std::array<double, 2> drop_direction{1, 0};  // x and z
+  int frame = 0;
+  IntegratorChoice choice;
+  const collide::Method* method;
+  collide::Settings settings;
+  float penalty_thickness;  // m, of the contact layer; grows slowly towards the tolerance, so that a larger tolerance
+                            // throws no bodies about
+  StepReport report;
+};
+
+struct World::Parts : WorldValues {
   Parts(Scene s, const Options& o);
 
   /// Makes a change by the user, and books the energy that it gives to the bodies.
@@ -53,47 +73,22 @@ struct World::Parts {
   bool is_clear(const BodyModel& p, const glm::dvec3& position) const;
   double clear_height(const BodyModel& p, const glm::dvec3& position) const;
 
-  Scene scene;
-  Options options;
+  double frame_time;  // s
   collide::Workers workers;
-  BodyModelSet models;
   Plan plan;
   Solver solver;
   Sleep sleep;
-  std::vector<char> arrived;  // for each body source of the scene
-  AddedBodies added_bodies;
-  std::vector<AddedBody> added;
-  int drops = 0;
-  std::array<double, 2> drop_direction{1, 0};  // x and z
-  int frame = 0;
-
-  const collide::Method* method;
   std::unique_ptr<collide::Detector> detector;
-  collide::Settings settings;
-  float penalty_thickness;  // m, of the contact layer; grows slowly towards the tolerance, so that a larger tolerance
-                            // throws no bodies about
 
   collide::Bodies bodies;
   std::vector<BodyId> vertex_body;
   Coordinates positions;
   collide::Result result;
-  StepReport report;
 };
 
 struct Snapshot::Values {
-  Scene scene;  // with all changes
-  BodyModelSet models;
+  WorldValues world;
   SolverState solver;
-  std::vector<char> arrived;
-  AddedBodies added_bodies;
-  std::vector<AddedBody> added;
-  int drops = 0;
-  std::array<double, 2> drop_direction{};
-  IntegratorChoice integrator;
-  const collide::Method* method = nullptr;
-  collide::Settings settings;
-  float penalty_thickness = 0;  // m
-  StepReport report;
 };
 
 }  // namespace softbody

@@ -104,6 +104,16 @@ TEST(Panel, FoldsItsSections) {
   EXPECT_TRUE(rig.recorder.find("Coverage"));  // the status light stays
 }
 
+TEST(Panel, SaysWhichStagesActAsForcesInXpbd) {
+  PanelRig rig;
+  for (const char* section : {"Numbers", "Show", "Detection", "Stages of a step"}) rig.click(section);
+  EXPECT_FALSE(rig.recorder.find("contact-response"));
+  rig.session.settings.set_integrator({"xpbd"});
+  rig.frames(2);
+  EXPECT_TRUE(rig.recorder.find("contact-response"));
+  EXPECT_FALSE(rig.recorder.find("structural-springs"));
+}
+
 TEST(Panel, KeepsTheStatusWhenItIsHidden) {
   PanelRig rig;
   rig.ui.panel = false;

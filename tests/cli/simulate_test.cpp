@@ -294,6 +294,12 @@ TEST(Simulate, AppliesPrimesAndWarnsOfPoorOnes) {
   EXPECT_EQ(simulate({"--scene", "drop", "--frames", "1"})["warnings"], json::array());
 }
 
+TEST(Simulate, SaysWhichStagesActAsForcesInXpbd) {
+  const std::vector<std::string> drop{"simulate", "--scene", "drop", "--frames", "1", "--integrator", "xpbd"};
+  EXPECT_NE(run(drop).out.find("XPBD\n  contact-response acts as a force\nstages left out"), std::string::npos);
+  EXPECT_EQ(simulate({drop.begin() + 1, drop.end()})["plan"]["as_forces"], json({"contact-response"}));
+}
+
 TEST(Simulate, AppliesTheContactSurface) {
   const auto stages = [](std::vector<std::string> more) {
     more.insert(more.end(), {"--scene", "drop", "--frames", "1"});

@@ -58,7 +58,7 @@ class Soak {
         const softbody::World& world = demo_.session.world();
         if (world.frame() == before) continue;
         const softbody::Solver& solver = softbody::WorldTestAccess::solver(world);
-        const auto candidates = int(solver.surface_contact().search().features().size());
+        const auto candidates = int(solver.surface_contact().candidates().search().features().size());
         const int weight = solver.steps().integrator().implicit ? implicit_substeps : 1;
         substeps += world.last_step().substeps * (weight + candidates / candidates_of_substep);
         if (world.last_step().seconds < world.frame_time()) substeps += cut_substeps;
@@ -99,7 +99,8 @@ class Soak {
         world.scene().key.c_str(), static_cast<unsigned long long>(frames_), seconds, last_action_.c_str(),
         world.bodies().count(), world.bodies().vertex_count(), p.substeps,
         std::string(world.last_step().integrator->key).c_str(), p.seconds, p.detect_ms, p.solve_ms,
-        double(surface.search().work()), surface.work_of_substep(float(p.seconds / std::max(p.substeps, 1))));
+        double(surface.candidates().search().work()),
+        surface.work_of_substep());
     std::fflush(stdout);
   }
 

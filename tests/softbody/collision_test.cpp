@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/penalty_contact.h"
+#include "softbody/forces/penalty_law.h"
 #include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_test_access.h"
@@ -46,7 +46,7 @@ TEST(Collision, LosesEnergyAndIsNotThrownBackFasterThanPenaltyContactAllows) {
   EXPECT_LT(measure(world).energy, before);
   const double apart = motion(world, 1).velocity.x - motion(world, 0).velocity.x;
   EXPECT_GT(apart, 0);
-  EXPECT_LT(apart, double(PenaltyContact::rebound_speed) + 1);
+  EXPECT_LT(apart, PenaltyLaw<double>::rebound_speed + 1);
 }
 
 TEST(Collision, FrictionSpringsSlipOnceAStepInEveryExplicitIntegrator) {

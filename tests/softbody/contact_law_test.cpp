@@ -33,13 +33,6 @@ TEST(ContactLaw, PushesOutAShareOfTheDepthAtABoundedSpeed) {
     }
 }
 
-TEST(ContactLaw, AsksForMoreTheSmallerTheGap) {
-  for (std::size_t i = 1; i < gaps.size(); ++i) {
-    EXPECT_LE(law::min_move(gaps[i - 1], h), law::min_move(gaps[i], h)) << gaps[i];
-    EXPECT_LE(law::min_speed(gaps[i - 1], 1 / h), law::min_speed(gaps[i], 1 / h)) << gaps[i];
-  }
-}
-
 TEST(ContactLaw, AsksForTheSameAsLengthAndAsSpeed) {
   for (const double length : {1e-5, 1e-3, 1.0 / 60})
     for (const double gap : gaps)

@@ -39,11 +39,6 @@ struct Rig {
         write(now, i * implicit_lanes + l, at[i]);
         write(before, i * implicit_lanes + l, at[i] - h * v.at(i, lane));
       }
-    const auto field = [](auto& lanes_field) {
-      const std::size_t stride = lanes_field.size() / 3;
-      return Field<std::remove_reference_t<decltype(lanes_field[0])>>{lanes_field.data(), lanes_field.data() + stride,
-                                                                      lanes_field.data() + 2 * stride};
-    };
     const LaneBodies<double> bodies{model, implicit_lanes, field(std::as_const(now)), field(f)};
     HeldForces held{};
     implicit_force_kernels().hold(bodies, held);

@@ -88,32 +88,6 @@ TEST_P(Pressure, VolumesHaveTheirClosedForms) {
   }
 }
 
-TEST_P(Pressure, ForceIsPressureTimesTheGradientOfVolume) {
-  std::mt19937 random(11);
-  for (const Solid& solid : solids) {
-    LaneField x = positions(solid), f(solid.corners.size());
-    for (std::size_t i = 0; i < solid.corners.size(); ++i)  // no symmetry may hide a mistake
-      for (int l = 0; l < lanes; ++l) x.set(i, l, x.at(i, l) + random_vector(random, 0.1));
-    const Gas inside = gas_of(solid);
-    k.add[index_of<GasPressure>]({model_of(solid, inside), lanes, std::as_const(x).field(), f.field()},
-                                 {std::as_const(f).field()});
-    for (int l = 0; l < lanes; ++l) {
-      std::vector<glm::dvec3> p;
-      for (std::size_t i = 0; i < solid.corners.size(); ++i) p.push_back(x.at(i, l));
-      const double gauge = inside.gauge(volume(p, solid.faces));
-      for (std::size_t i = 0; i < p.size(); ++i)
-        for (int axis = 0; axis < 3; ++axis) {
-          constexpr double e = 1e-4;
-          auto more = p, less = p;
-          more[i][axis] += e;
-          less[i][axis] -= e;
-          const double gradient = (volume(more, solid.faces) - volume(less, solid.faces)) / (2 * e);
-          EXPECT_NEAR(f.at(i, l)[axis], gauge * gradient, 1e-5 * 300 * scale(l) * scale(l) + 1e-6);
-        }
-    }
-  }
-}
-
 TEST_P(Pressure, NetForceAndTorqueVanishAndGaugeZeroPushesNowhere) {
   for (const Solid& solid : solids)
     for (const double amount : {0.0, 1.0, 3e4}) {

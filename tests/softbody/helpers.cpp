@@ -33,6 +33,13 @@ Material gas_ball(double stiffness, double damping_ratio) {
   return m;
 }
 
+Material damped(Material m) {
+  m[Material::internal_damping] = 10;
+  m[contact::rebound_speed] = 2;
+  m[contact::rolling_resistance] = 0.3;
+  return m;
+}
+
 Scene lone_body(const Material& material, const glm::dvec3& velocity) {
   Scene scene;
   scene.key = "test";

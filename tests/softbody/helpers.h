@@ -19,6 +19,8 @@ Material spring_ball();
 Material gas_ball();
 /// gas_ball() of another stiffness in N/m, to which its pressure is in proportion.
 Material gas_ball(double stiffness, double damping_ratio = 0.1);
+/// The material with the frame's dampers as the shipped scenes' rubber has them.
+Material damped(Material material);
 /// One icosphere of 162 particles and 0.5 m: no gravity, no solids, no self-collision, no sleep.
 Scene lone_body(const Material& material, const glm::dvec3& velocity = glm::dvec3(0.0));
 /// A second body of the same mesh and material.

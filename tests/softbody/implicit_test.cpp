@@ -20,10 +20,7 @@ Scene ball_above_ground(double stiffness, double height) {
   Material m = gas_ball();
   m.set(StructuralSprings::keys, {stiffness, 0.1});
   m.set(BendSprings::keys, {stiffness / 4, 0.1});
-  m[Material::internal_damping] = 10;
-  m[contact::rebound_speed] = 2;
-  m[contact::rolling_resistance] = 0.3;
-  Scene scene = lone_body(m);
+  Scene scene = lone_body(damped(m));
   scene.gravity = {0, -9.81, 0};
   scene.bodies[0].position = {0, height, 0};
   scene.ground.emplace();

@@ -75,6 +75,18 @@ TEST(Plan, OfABallAloneInEmptySpace) {
   EXPECT_TRUE(plan.has(stage_of<StructuralSprings>) && plan.has(stage_of<BendSprings>) && plan.has(Stage::integrate));
 }
 
+TEST(Plan, SaysWhichForcesXpbdDoesNotProject) {
+  Scene scene = lone_body(gas_ball());
+  scene.collision.self_collision = true;
+  scene.materials[0][ShapeMatching::frequency] = 3;
+  const World world(scene, {});
+  for (const Integrator& integrator : integrators())
+    EXPECT_EQ(world.plan().unprojected(integrator),
+              integrator.key == "xpbd" ? (std::vector{stage_of<ShapeMatching>, stage_of<PenaltyContact>})
+                                       : std::vector<Stage>{})
+        << integrator.key;
+}
+
 TEST(Plan, HasArrivalsWhereABodyComesOrIsReleasedLate) {
   EXPECT_TRUE(world_of("[[body]]\nappear = 3\n").plan().has(Stage::arrive));
   EXPECT_TRUE(world_of("[[body]]\nrelease = 3\n").plan().has(Stage::arrive));

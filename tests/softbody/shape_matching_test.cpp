@@ -1,4 +1,4 @@
-// Shape matching: the rotation against ones that are known, the force against the gradient of its energy.
+// Shape matching: the rotation against ones that are known, and which bodies have it. forces_test.cpp has its force.
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,7 @@
 #include "softbody/forces/best_rotation.h"
 #include "softbody/forces/deformation.h"
 #include "softbody/forces/equilibrium.h"
-#include "softbody/forces/kernels/kernels.h"
 #include "softbody/forces/shape_matching.h"
-#include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -62,40 +60,6 @@ Material shape_only() {
   m[StructuralSprings::stiffness] = m[BendSprings::stiffness] = 0;
   m[ShapeMatching::frequency] = 3;
   return m;
-}
-
-TEST(ShapeMatching, ForceIsTheGradientOfTheEnergyAndMovesNothingAsAWhole) {
-  std::mt19937 random(2);
-  const auto p = make_body_model({.subdivisions = 1}, shape_only());
-  std::vector<glm::dvec3> x;
-  const glm::dmat3 r = rotation({1, 2, 3}, 2);
-  for (const glm::dvec3& v : p->mesh.vertices)
-    x.push_back(r * (v * glm::dvec3(1, 1.3, 0.8)) + random_vector(random, 0.05) + glm::dvec3(1, 2, 3));
-
-  // Through the kernels of every instruction set, in float; energy and its differences in double.
-  for (const std::int64_t target : tests::targets()) {
-    const tests::UseTarget use(target);
-    LaneField field(x.size()), force(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i) field.set(i, 5, x[i]);
-    force_kernels(lanes).add[index_of<ShapeMatching>]({*p, lanes, std::as_const(field).field(), force.field()},
-                                                      {std::as_const(field).field()});
-
-    const double scale = data<ShapeMatching>(*p)->stiffness * 0.5;
-    glm::dvec3 total(0.0), torque(0.0);
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      const glm::dvec3 f = force.at(i, 5);
-      total += f;
-      torque += glm::cross(x[i] - x[0], f);
-      for (int k = 0; k < 3; ++k) {
-        constexpr double h = 1e-5;
-        auto ahead = x, behind = x;
-        ahead[i][k] += h, behind[i][k] -= h;
-        EXPECT_NEAR(f[k], -(elastic_energy(*p, ahead) - elastic_energy(*p, behind)) / (2 * h), 1e-5 * scale);
-      }
-    }
-    EXPECT_LT(glm::length(total), 1e-5 * scale * double(x.size()));
-    EXPECT_LT(glm::length(torque), 1e-5 * scale * double(x.size()));
-  }
 }
 
 TEST(ShapeMatching, ARigidMotionCostsNothing) {

@@ -230,10 +230,7 @@ TEST(SolidMotion, TheShippedContainerLosesNone) {
 }
 
 TEST(SolidMotion, ABallComesToRestInABox) {
-  Material m = gas_ball();
-  m[Material::internal_damping] = 10;
-  m[contact::rebound_speed] = 2;
-  m[contact::rolling_resistance] = 0.3;
+  Material m = damped(gas_ball());
   m[Material::thickness] = 0.005;
   Scene scene = lone_body(m, glm::dvec3(3, 0, 2));
   scene.gravity = {0, -g, 0};

@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/forces/penalty_law.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_test_access.h"
 
@@ -69,7 +70,7 @@ TEST(StepController, CountsTheStiffnessOfContacts) {
   World world(scene, {.integrator = {"semi-implicit-euler"}});
   world.step();
   const BodyModel& p = world.model(0);
-  const double own = stiffness_per_mass(p, {}), penalty = PenaltyContact::stiffness_bound(1e4) / p.particle_mass;
+  const double own = stiffness_per_mass(p, {}), penalty = PenaltyLaw<double>::stiffness_bound(1e4) / p.particle_mass;
   ASSERT_GT(penalty, 4 * own);
   EXPECT_GE(world.last_step().substeps, world.frame_time() / world.integrator_choice().integrator().stable_step(
                                                                  own + penalty, damping_bound(p) / p.particle_mass));

@@ -163,7 +163,7 @@ TEST(SurfaceContact, LeavesASheetAtRestThatIsThickerThanItsQuadsAreWide) {
   scene.bodies[0].mesh = {.kind = "grid", .columns = 3, .rows = 6, .width = 0.9, .depth = 0.12};
   World world(scene, {});
   run(world, 3);
-  EXPECT_FALSE(WorldTestAccess::solver(world).surface_contact().search().features().empty());
+  EXPECT_FALSE(WorldTestAccess::solver(world).surface_contact().candidates().search().features().empty());
   EXPECT_LT(measure(world).max_speed, 1e-4);
 }
 
@@ -215,7 +215,7 @@ TEST(SurfaceContact, TakesSubstepsForItsFastestPair) {
   const auto rate = [&] {
     World world(scene, {});
     world.step();
-    return WorldTestAccess::solver(world).surface_contact().substep_rate();
+    return WorldTestAccess::solver(world).surface_contact().candidates().substep_rate();
   };
   const float alone = rate();
   add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
@@ -304,21 +304,12 @@ TEST(SurfaceContact, ASheetCarriesMoreBallsThanThereAreColours) {
   }
   World world(scene, {});
   run(world, 20);
-  EXPECT_GT(WorldTestAccess::solver(world).surface_contact().interactions().size(), 70u);
+  EXPECT_GT(WorldTestAccess::solver(world).surface_contact().candidates().interactions().size(), 70u);
   for (BodyId ball = 1; ball <= 80; ++ball) EXPECT_GT(motion(world, ball).centre.y, 0.05) << ball;
 }
 
-/// What the scene files call rubber.
-Material damped_rubber() {
-  Material m = rubber();
-  m[Material::internal_damping] = 10;
-  m[contact::rebound_speed] = 2;
-  m[contact::rolling_resistance] = 0.3;
-  return m;
-}
-
 TEST(SurfaceContact, AStackInAWellStandsWithoutSinkingIn) {
-  Scene scene = ball_in_space(damped_rubber());
+  Scene scene = ball_in_space(damped(rubber()));
   scene.gravity = {0, -9.81, 0};
   scene.ground = Ground{0, 0.6};
   scene.bodies[0].position = {0.02, 0.6, 0.01};
@@ -372,6 +363,23 @@ TEST(SurfaceContact, AStarThatFallsOnAStarStaysOutside) {
 }
 
 /// Skins pressed into each other's way cannot all be pushed out: the impulses of such contacts must not pile up.
+TEST(SurfaceContact, KeepsBodiesAwakeThatLieInEachOther) {
+  Scene scene = ball_in_space(rubber());
+  scene.sleep = {.speed = 100, .frames = 3};
+  add_body(scene, {0.1, 0, 0}, glm::dvec3(0.0));
+  World world(scene, {});
+  Judge judge(world);
+  int overlapping = 0;  // frames
+  for (int i = 0; i < 90; ++i) {
+    world.step();
+    if (judge.look().penetrating_vertices == 0) continue;
+    ++overlapping;
+    EXPECT_FALSE(world.body(0).asleep || world.body(1).asleep) << frame_of(world);
+  }
+  EXPECT_GT(overlapping, 10);
+  EXPECT_TRUE(world.body(0).asleep && world.body(1).asleep);
+}
+
 TEST(SurfaceContact, HeavyBodiesThatCrushEachOtherGainNoEnergy) {
   Scene scene = find_scene("A", SBCOLLIDE_SCENES);
   scene.contact_surface = ContactSurface::surfaces;

@@ -79,9 +79,11 @@ class OneRow {
       return ContactBody{glm::dvec3(0.0), lane, lanes, inverse_mass, friction, restitution};
     };
     collide::Workers workers(1);
-    contact_.find({{seen_[0], seen_[1], seen_[2], &bodies_}, speed_[0], speed_[1], speed_[2]}, {traits, traits},
-                  {body(0, impact_.inverse_a, impact_.restitution), body(1, impact_.inverse_b, impact_.restitution_b)},
-                  {.seconds = h, .min_seconds = h}, h, workers);
+    contact_.set_threads(1);
+    contact_.candidates().find(
+        {{seen_[0], seen_[1], seen_[2], &bodies_}, speed_[0], speed_[1], speed_[2]}, {traits, traits},
+        {body(0, impact_.inverse_a, impact_.restitution), body(1, impact_.inverse_b, impact_.restitution_b)},
+        {.seconds = h, .min_seconds = h}, h, workers);
   }
 
   const collide::surface::Surface triangle_{3, {{0, 1, 2}}};
@@ -135,8 +137,8 @@ TEST(SurfaceContactRow, TakesFrictionTimesTheImpulseFromTheSlip) {
 
 /// A damped spring in one implicit step, as a soft constraint (Catto 2011).
 TEST(SurfaceContactRow, KeepsTheDistanceByASpring) {
-  const double turn = double(SurfaceContact::spring_frequency * OneRow::h);
-  const double damping = 2 * double(SurfaceContact::spring_damping) + turn, hardness = turn * damping;
+  const double turn = double(SurfaceRowMaker::spring_frequency * OneRow::h);
+  const double damping = 2 * double(SurfaceRowMaker::spring_damping) + turn, hardness = turn * damping;
   for (const float depth : {0.0005f, 0.001f, 0.002f})  // still on their own sides, but closer than that
     for (const float speed : {0.0f, 0.2f}) {
       const double widening = double(depth / OneRow::h) * turn / damping;

@@ -37,11 +37,7 @@ Scene cloth(double size, double mass) {
 }
 
 Scene ball() {
-  Material m = rubber();
-  m[Material::internal_damping] = 10;
-  m[contact::rebound_speed] = 2;
-  m[contact::rolling_resistance] = 0.3;
-  Scene scene = ball_in_space(m);
+  Scene scene = ball_in_space(damped(rubber()));
   scene.gravity = {0, -g, 0};
   scene.ground = Ground{-3};
   scene.sleep.speed = 0.03;

@@ -100,9 +100,12 @@ void draw_overlays(Widgets& w, UiState& ui) {
 }
 
 void draw_plan(Widgets& w, const softbody::World& world) {
+  const std::vector<softbody::Stage> as_forces = world.plan().unprojected(world.integrator_choice().integrator());
   for (const softbody::Stage stage : world.plan().stages) {
     const std::string key(softbody::stage_key(stage));
-    ImGui::BulletText("%s", key.c_str());
+    const bool as_force = std::ranges::find(as_forces, stage) != as_forces.end();
+    ImGui::BulletText(as_force ? "%s, as a force" : "%s", key.c_str());
+    if (as_force) w.register_item(key.c_str(), "XPBD moves no particles to where it has them.");
   }
   for (const auto& [stage, why] : world.plan().left_out) {
     const std::string key(softbody::stage_key(stage));

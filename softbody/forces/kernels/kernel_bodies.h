@@ -83,7 +83,7 @@ template <class F, class V, int width>
 HWY_INLINE void hold(const typename F::Data& data, Field<const Value<V>> x, int used, HeldOf<F, Value<V>>& held) {
   if constexpr (F::coordinate == Coordinate::offset) {
     ShapeMoments<Value<V>> moments;
-    shape_moments<V, width>(data.template points<Value<V>>(), x, moments);
+    shape_moments<V, width>(data.template elements<Value<V>>(), x, moments);
     fit_shape<Value<V>>(moments, std::min(used, lanes_of<V>), held);
   }
 }
@@ -94,7 +94,7 @@ HWY_INLINE void visit(const BodyModel& model, const typename F::Data& data, cons
                       const At& at) {
   using Real = Value<V>;
   if constexpr (F::coordinate == Coordinate::length) {
-    for (const auto& law : F::template elements<Real>(data)) at(Length{law.i, law.j}, law);
+    for (const auto& law : data.template elements<Real>()) at(Length{law.i, law.j}, law);
   } else if constexpr (F::coordinate == Coordinate::volume) {
     at(Volume{}, data);
   } else if constexpr (F::coordinate == Coordinate::path) {
@@ -106,7 +106,7 @@ HWY_INLINE void visit(const BodyModel& model, const typename F::Data& data, cons
     const Vec<V> centre = vector(held.centre);
     Vec<V> column[3];
     for (int k = 0; k < 3; ++k) column[k] = vector(held.rotation + 3 * k);
-    for (Index i = 0; const auto& q : data.template points<Real>())
+    for (Index i = 0; const auto& q : data.template elements<Real>())
       at(Offset{i++}, centre + V(q.x) * column[0] + V(q.y) * column[1] + V(q.z) * column[2], data);
   }
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -32,12 +31,8 @@ double kinetic_energy(const BodyModel& p, const LaneView& v) {
 Lanes external_forces(const BodyModel& p, const ImplicitWork& work, double h) {
   Lanes forces;
   if (!has_external_force(p)) return forces;
-  const std::size_t stride = work.x.size() / 3;
   forces.resize(work.x.size());
   const Lanes none(work.x.size());
-  const auto field = [stride](auto& a) {
-    return Field<std::remove_pointer_t<decltype(a.data())>>{a.data(), a.data() + stride, a.data() + 2 * stride};
-  };
   const LaneBodies<double> bodies{p, implicit_lanes, field(work.end_x), field(forces)};
   HeldForces held{};
   implicit_force_kernels().hold(bodies, held);

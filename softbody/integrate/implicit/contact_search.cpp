@@ -6,14 +6,15 @@
 
 #include "softbody/contact/law.h"
 #include "softbody/contact/solid_shapes.h"
+#include "softbody/forces/penalty_law.h"
 
 namespace softbody {
 namespace {
 
 /// Returns the surface of a solid as seen from x, in the frame of the body in a lane.
 SurfaceAt<double> surface_from(const SolidArguments& s, std::size_t lane, const glm::dvec3& x) {
-  const body::Vec<double> d{x.x - double(s.place.x[lane]), x.y - double(s.place.y[lane]),
-                            x.z - double(s.place.z[lane])};
+  const glm::dvec3 from = x - glm::dvec3(s.place[lane]);
+  const body::Vec<double> d{from.x, from.y, from.z};
   return std::visit([&](const auto& shape) { return body::surface_at(shape, d); }, s.shape);
 }
 
@@ -66,8 +67,8 @@ LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, I
     s.friction = double(pair.friction);
     s.partner = b.is_moving(other) ? h * velocity(slot) : glm::dvec3(0.0);
     s.start_separation = h * velocity(end.slot) - s.partner;
-    s.max_work = double(PenaltyContact::approach_limit) * b.penalty.energy(pair, b.x) +
-                 double(b.penalty.max_force(pair)) * glm::length(s.partner);
+    const PenaltyLaw<double> pair_law = b.penalty.law_of<double>(pair);
+    s.max_work = pair_law.approach_limit * b.penalty.energy(pair, b.x) + pair_law.max_force() * glm::length(s.partner);
     work.penalty_pairs.push_back(s);
     in_contact.set(lane);
   }

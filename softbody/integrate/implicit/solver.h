@@ -36,8 +36,6 @@ class ImplicitSolver {
   double take_work() { return std::exchange(work_, 0.0) + minimiser_.take_work() + contact_.take_work(); }
 
  private:
-  Field<double> field(Lanes& v) const { return {v.data(), v.data() + stride_, v.data() + 2 * stride_}; }
-  Field<const double> field(const Lanes& v) const { return {v.data(), v.data() + stride_, v.data() + 2 * stride_}; }
   void predict(const ImplicitProblem& p);
   void stop_at_planes(const ImplicitProblem& p);
   void fit_rotation(const ImplicitProblem& p);

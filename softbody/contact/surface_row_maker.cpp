@@ -1,4 +1,4 @@
-// Surface contact: the rows of a substep, from the features that are near each other.
+#include "softbody/contact/surface_row_maker.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +14,7 @@ namespace {
 using collide::surface::Closest;
 using collide::surface::FeaturePair;
 
+constexpr float hair = 0.02f;      // of the distance, that may be used up unsolved
 constexpr float push_kept = 0.8f;  // of an impulse that pushes out is handed on to the next substep; by trial
 
 ContactRow corners_of(const Closest& c, std::size_t vertex_slot, float vertex_mobility,
@@ -31,76 +32,72 @@ ContactRow corners_of(const Closest& c, std::size_t vertex_slot, float vertex_mo
   return row;
 }
 
+/// Turns the normal to the side that is remembered; true if that is not the one it is on now.
+bool orient(SurfaceCandidates::CachedContact& cached, bool inner, glm::vec3& normal) {
+  const bool crossed = inner && glm::dot(cached.normal, normal) < 0;
+  if (crossed) normal = -normal;
+  cached.normal = inner ? normal : glm::vec3(0.0f);
+  return crossed;
+}
+
 }  // namespace
 
-void SurfaceContact::make_rows(int thread, int threads, Field<const float> x, Field<const float> v, float elapsed,
-                               float h) {
-  ThreadWork& work = thread_work_[static_cast<std::size_t>(thread)];
-  work.rows.clear();
-  const collide::Part part = collide::part_of(pairs_.size(), thread, threads);
-  for (std::size_t i = part.begin; i < part.end; ++i) {
-    Pair& p = pairs_[i];
-    p.thread = thread;
-    p.first_row = static_cast<std::uint32_t>(work.rows.size());
-    Step step{x, v, h, elapsed + h, work, p, 1.1f * p.distance + h * p.speed, last_h_ > 0 ? h / last_h_ : 0};
-    p.rows = 0;
-    if (p.separating) continue;
-    if (p.interior < p.interior_end) add_interior_vertices(step);
-    vertices_on_faces(step, p.range.vertex_face, p.range.face_vertex, false);
-    vertices_on_faces(step, p.range.face_vertex, p.range.edge_edge, true);
-    if (p.interior == p.interior_end) edges_on_edges(step);
-    p.rows = static_cast<std::uint32_t>(work.rows.size()) - p.first_row;
-  }
+void SurfaceRowMaker::add_rows(Pair& p) {
+  p.first_row = static_cast<std::uint32_t>(rows_.size());
+  p.rows = 0;
+  if (p.separating) return;
+  const bool interior = p.interior < p.interior_end;
+  if (interior) add_interior_vertices(p);
+  vertices_on_faces(p, p.range.vertex_face, p.range.face_vertex, false);
+  vertices_on_faces(p, p.range.face_vertex, p.range.edge_edge, true);
+  if (!interior) edges_on_edges(p);
+  p.rows = static_cast<std::uint32_t>(rows_.size()) - p.first_row;
 }
 
-glm::vec3 SurfaceContact::at(const Step& step, const Side& side, Index vertex) {
-  return read(step.x, side.slot + vertex * side.stride) + side.offset;
-}
-
-void SurfaceContact::vertices_on_faces(Step& step, std::uint32_t begin, std::uint32_t end, bool vertex_of_b) {
-  const Side vertex_side = side(step.pair, vertex_of_b), face_side = side(step.pair, !vertex_of_b);
-  const Side faces = step.pair.range.a == step.pair.range.b ? vertex_side : face_side;
-  const bool oriented = step.pair.range.a == step.pair.range.b || !faces.surface->closed();
+void SurfaceRowMaker::vertices_on_faces(Pair& pair, std::uint32_t begin, std::uint32_t end, bool vertex_of_b) {
+  const Side vertex_side = candidates_.side(pair, vertex_of_b), face_side = candidates_.side(pair, !vertex_of_b);
+  const Side faces = pair.range.a == pair.range.b ? vertex_side : face_side;
+  const bool oriented = pair.range.a == pair.range.b || !faces.surface->closed();
   const auto is_interior = [&](Index v) {
-    return std::any_of(interior_.begin() + step.pair.interior, interior_.begin() + step.pair.interior_end,
-                       [&](const InteriorVertex& d) { return d.vertex == v && d.of_b == vertex_of_b; });
+    return std::ranges::any_of(candidates_.interior(pair), [&](const SurfaceCandidates::InteriorVertex& d) {
+      return d.vertex == v && d.of_b == vertex_of_b;
+    });
   };
-  const auto& features = search_.features();
-  const float max_distance2 = step.max_distance * step.max_distance;
-  collide::surface::FeatureBatch& meeting = step.work.meeting;
-  step.work.near_faces.clear();
+  const auto& features = candidates_.search().features();
+  const float max_distance2 = max_distance(pair) * max_distance(pair);
+  collide::surface::FeatureBatch& meeting = scratch_.meeting;
+  scratch_.near_faces.clear();
   const auto flush = [&] {
-    if (!step.work.near_faces.empty() && !is_interior(features[step.work.near_faces[0].feature].a))
-      vertex_on_faces(step, vertex_side, faces, oriented);
-    step.work.near_faces.clear();
+    if (!scratch_.near_faces.empty() && !is_interior(features[scratch_.near_faces[0].feature].a))
+      vertex_on_faces(pair, vertex_side, faces, oriented);
+    scratch_.near_faces.clear();
   };
   for (std::uint32_t i = begin; i < end;) {
     meeting.clear();
     for (; i < end && !meeting.full(); ++i) {
-      if (features[i].earliest > step.until) continue;
+      if (features[i].earliest > step_.until) continue;
       const auto& [a, b, c] = faces.surface->triangles()[features[i].b];
-      meeting.add({at(step, vertex_side, features[i].a), at(step, faces, a), at(step, faces, b), at(step, faces, c)},
-                  i);
+      meeting.add({at(vertex_side, features[i].a), at(faces, a), at(faces, b), at(faces, c)}, i);
     }
     meeting.find_closest_vertex_faces();
     for (Index k = 0; k < meeting.size(); ++k) {
       const std::uint32_t feature = meeting.tag(k);
-      if (!step.work.near_faces.empty() && features[step.work.near_faces[0].feature].a != features[feature].a) flush();
+      if (!scratch_.near_faces.empty() && features[scratch_.near_faces[0].feature].a != features[feature].a) flush();
       if (meeting.distance2(k) > max_distance2)
-        cached_[feature] = {};
+        candidates_.cached(feature) = {};
       else
-        step.work.near_faces.push_back({meeting.closest_vertex_face(k),
-                                        normal_of(meeting.corner(1, k), meeting.corner(2, k), meeting.corner(3, k)),
-                                        meeting.distance2(k), feature});
+        scratch_.near_faces.push_back({meeting.closest_vertex_face(k),
+                                       normal_of(meeting.corner(1, k), meeting.corner(2, k), meeting.corner(3, k)),
+                                       meeting.distance2(k), feature});
     }
   }
   flush();
 }
 
 /// The rows of one vertex, whose near faces are listed.
-void SurfaceContact::vertex_on_faces(Step& step, const Side& vertex_side, const Side& face_side, bool oriented) {
-  const auto& features = search_.features();
-  const std::vector<NearFace>& near_faces = step.work.near_faces;
+void SurfaceRowMaker::vertex_on_faces(Pair& pair, const Side& vertex_side, const Side& face_side, bool oriented) {
+  const auto& features = candidates_.search().features();
+  const std::vector<NearFace>& near_faces = scratch_.near_faces;
   const auto corners = [&](const NearFace& n) {
     const FeaturePair& f = features[n.feature];
     ContactRow row =
@@ -123,16 +120,17 @@ void SurfaceContact::vertex_on_faces(Step& step, const Side& vertex_side, const 
     if (glm::dot(nearest->closest.separation, nearest->face_normal) < 0) {
       const float depth = std::sqrt(nearest->distance2);
       for (const NearFace& n : near_faces)
-        cached_[n.feature].normal_impulse = n.feature == nearest->feature ? cached_[n.feature].normal_impulse : 0;
-      if (depth > step.pair.distance) step.pair.overlap = true;  // to be looked at when candidates are found next
-      add_row(step, corners(*nearest), unit(-nearest->closest.separation, nearest->face_normal), -depth,
-              cached_[nearest->feature]);
+        candidates_.cached(n.feature).normal_impulse =
+            n.feature == nearest->feature ? candidates_.cached(n.feature).normal_impulse : 0;
+      if (depth > pair.distance) pair.overlap = true;  // to be looked at when candidates are found next
+      add_row(pair, corners(*nearest), unit(-nearest->closest.separation, nearest->face_normal), -depth,
+              candidates_.cached(nearest->feature));
       return;
     }
   }
   for (std::size_t k = 0; k < near_faces.size(); ++k) {
     const NearFace& n = near_faces[k];
-    CachedContact& cached = cached_[n.feature];
+    CachedContact& cached = candidates_.cached(n.feature);
     const bool twice = !n.closest.inner &&
                        std::any_of(near_faces.begin(), near_faces.begin() + std::ptrdiff_t(k), [&](const NearFace& m) {
                          const glm::vec3 d = m.closest.separation - n.closest.separation;
@@ -144,55 +142,47 @@ void SurfaceContact::vertex_on_faces(Step& step, const Side& vertex_side, const 
     }
     glm::vec3 normal = unit(n.closest.separation, oriented ? cached.normal : n.face_normal);
     const bool crossed = oriented && orient(cached, n.closest.inner, normal);
-    add_row(step, corners(n), normal, std::sqrt(n.distance2) * (crossed ? -1.0f : 1.0f), cached);
+    add_row(pair, corners(n), normal, std::sqrt(n.distance2) * (crossed ? -1.0f : 1.0f), cached);
   }
 }
 
-/// Turns the normal to the side that is remembered; true if that is not the one it is on now.
-bool SurfaceContact::orient(CachedContact& cached, bool inner, glm::vec3& normal) const {
-  const bool crossed = inner && glm::dot(cached.normal, normal) < 0;
-  if (crossed) normal = -normal;
-  cached.normal = inner ? normal : glm::vec3(0.0f);
-  return crossed;
-}
-
 /// Those deep inside another body: towards the plane of the face that they are closest to.
-void SurfaceContact::add_interior_vertices(Step& step) {
-  for (std::uint32_t i = step.pair.interior; i < step.pair.interior_end; ++i) {
-    const InteriorVertex& d = interior_[i];
-    const Side vertex_side = side(step.pair, d.of_b), face_side = side(step.pair, !d.of_b);
+void SurfaceRowMaker::add_interior_vertices(Pair& pair) {
+  for (const SurfaceCandidates::InteriorVertex& d : candidates_.interior(pair)) {
+    const Side vertex_side = candidates_.side(pair, d.of_b), face_side = candidates_.side(pair, !d.of_b);
     const collide::surface::Triangle& face = face_side.surface->triangles()[d.face];
     glm::vec3 corner[3];
-    for (std::size_t k = 0; k < 3; ++k) corner[k] = at(step, face_side, face[k]);
-    const glm::vec3 p = at(step, vertex_side, d.vertex);
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = at(face_side, face[k]);
+    const glm::vec3 p = at(vertex_side, d.vertex);
     const Closest c = collide::surface::closest_vertex_face(p, corner[0], corner[1], corner[2]);
     const glm::vec3 normal = unit(normal_of(corner[0], corner[1], corner[2]), {});
     ContactRow row = corners_of(c, vertex_side.slot + d.vertex * vertex_side.stride, vertex_side.inverse_mass, face,
                                 face_side.slot, face_side.stride, face_side.inverse_mass);
     row.feature = uncached;
     CachedContact unseen;
-    add_row(step, row, normal, glm::dot(p - corner[0], normal), unseen);
+    add_row(pair, row, normal, glm::dot(p - corner[0], normal), unseen);
   }
 }
 
-void SurfaceContact::edges_on_edges(Step& step) {
-  const collide::surface::SurfacePair& range = step.pair.range;
+void SurfaceRowMaker::edges_on_edges(Pair& pair) {
+  const collide::surface::SurfacePair& range = pair.range;
+  const auto& features = candidates_.search().features();
   const bool self = range.a == range.b;
-  const Side one = side(step.pair, false), two = self ? one : side(step.pair, true);
+  const Side one = candidates_.side(pair, false), two = self ? one : candidates_.side(pair, true);
   const bool closed = !self && one.surface->closed() && two.surface->closed();
-  const float max_distance2 = step.max_distance * step.max_distance;
+  const float max_distance2 = max_distance(pair) * max_distance(pair);
   const auto outward = [&](const Side& s, Index edge) {
     glm::vec3 sum(0.0f);
     for (const Index f : s.surface->edge_triangles()[edge]) {
       const collide::surface::Triangle& face = s.surface->triangles()[f];
-      sum += unit(normal_of(at(step, s, face[0]), at(step, s, face[1]), at(step, s, face[2])), {});
+      sum += unit(normal_of(at(s, face[0]), at(s, face[1]), at(s, face[2])), {});
     }
     return sum;
   };
   const auto meets = [&](std::uint32_t i, const Closest& c, float distance2) {
-    const FeaturePair& f = search_.features()[i];
+    const FeaturePair& f = features[i];
     const collide::surface::Edge &e1 = one.surface->edges()[f.a], &e2 = two.surface->edges()[f.b];
-    CachedContact& cached = cached_[i];
+    CachedContact& cached = candidates_.cached(i);
     ContactRow row{};
     for (std::size_t k = 0; k < 2; ++k) {
       row.slot[k] = static_cast<std::uint32_t>(one.slot + e1[k] * one.stride);
@@ -209,60 +199,64 @@ void SurfaceContact::edges_on_edges(Step& step) {
     if (!closed) {
       crossed = orient(cached, true, normal);
     } else if (glm::dot(cached.normal, normal) <= 0.5f) {  // else they are on the sides that they were on before
-      crossed = glm::dot(normal, outward(two, f.b) - outward(one, f.a)) < 0;
-      if (crossed && distance > step.pair.distance) {  // the far side of something thin
+      const float out_of_two = glm::dot(normal, outward(two, f.b)), out_of_one = glm::dot(normal, outward(one, f.a));
+      crossed = out_of_two < out_of_one;
+      // The one sees the other from within it, as a sphere pressed deep into a ball sees the ball's far side: what lies
+      // between them keeps them apart. Or it is the far side of something thin.
+      if (out_of_one * out_of_two > 0 || (crossed && distance > pair.distance)) {
         cached = {};
         return;
       }
       cached.normal = crossed ? glm::vec3(0.0f) : normal;
       if (crossed) normal = -normal;
     }
-    add_row(step, row, normal, crossed ? -distance : distance, cached);
+    add_row(pair, row, normal, crossed ? -distance : distance, cached);
   };
-  collide::surface::FeatureBatch& meeting = step.work.meeting;
+  collide::surface::FeatureBatch& meeting = scratch_.meeting;
   for (std::uint32_t i = range.edge_edge; i < range.end;) {
     meeting.clear();
     for (; i < range.end && !meeting.full(); ++i) {
-      const FeaturePair& f = search_.features()[i];
-      if (f.earliest > step.until) continue;
+      const FeaturePair& f = features[i];
+      if (f.earliest > step_.until) continue;
       const collide::surface::Edge &e1 = one.surface->edges()[f.a], &e2 = two.surface->edges()[f.b];
-      meeting.add({at(step, one, e1[0]), at(step, one, e1[1]), at(step, two, e2[0]), at(step, two, e2[1])}, i);
+      meeting.add({at(one, e1[0]), at(one, e1[1]), at(two, e2[0]), at(two, e2[1])}, i);
     }
     meeting.find_closest_edges();
     for (Index k = 0; k < meeting.size(); ++k) {
       if (meeting.inner(k) && meeting.distance2(k) <= max_distance2)
         meets(meeting.tag(k), meeting.closest_edges(k), meeting.distance2(k));
       else  // those that end on a corner are a vertex's
-        cached_[meeting.tag(k)] = {};
+        candidates_.cached(meeting.tag(k)) = {};
     }
   }
 }
 
 /// Adds a row, unless neither side moves. apart: between the surfaces, negative where they overlap.
-void SurfaceContact::add_row(Step& step, const ContactRow& corners, const glm::vec3& normal, float apart,
-                             CachedContact& cached) {
+void SurfaceRowMaker::add_row(const Pair& pair, const ContactRow& corners, const glm::vec3& normal, float apart,
+                              CachedContact& cached) {
   float mobility = 0;
   for (std::size_t k = 0; k < 4; ++k) mobility += corners.weight[k] * corners.mobility[k];
   if (mobility <= 0) return;
-  const float speed = glm::dot(relative_velocity(corners, step.v), normal);
-  const float max_gap = corners.feature == uncached ? step.pair.distance : max_gap_[corners.feature];
-  const float distance = std::min(step.pair.distance, max_gap), gap = apart - distance;
-  ContactRow& row = step.work.rows.emplace_back(corners);
+  const float speed = glm::dot(relative_velocity(corners, step_.v), normal);
+  const float max_gap = corners.feature == uncached ? pair.distance : candidates_.max_gap(corners.feature);
+  const float distance = std::min(pair.distance, max_gap), gap = apart - distance;
+  ContactRow& row = rows_.emplace_back(corners);
   row.normal = normal;
   row.mass = 1 / mobility;
   // A spring and damper hold the distance; half of it is never given up, and what overlaps is pushed out.
   const float spare = apart - 0.5f * distance;
-  row.target = law::min_move(spare, step.h) / step.h;
-  const float turn = step.h * std::min(spring_frequency, 0.25f * 2 * glm::pi<float>() / step.h);
+  row.target = law::min_move(spare, step_.h) / step_.h;
+  const float turn = step_.h * std::min(spring_frequency, 0.25f * 2 * glm::pi<float>() / step_.h);
   row.relative_stiffness = gap < 0 ? turn * (2 * spring_damping + turn) : 0;
-  row.bias = -gap * turn / ((2 * spring_damping + turn) * step.h);
+  row.bias = -gap * turn / ((2 * spring_damping + turn) * step_.h);
   row.push = std::max({0.0f, row.target, gap < 0 ? row.bias : 0.0f});
-  if (cached.normal_impulse == 0 && gap + step.h * speed < 0)
-    row.target = std::max(row.target, law::rebound(-speed, step.pair.restitution));
-  row.friction = step.pair.friction;
+  if (cached.normal_impulse == 0 && gap + step_.h * speed < 0)
+    row.target = std::max(row.target, law::rebound(-speed, pair.restitution));
+  row.slack = hair * distance / step_.h;
+  row.friction = pair.friction;
   // Bodies that stand in each other's way cannot all be pushed out as they ask for: handed on in full, their impulses
-  // would grow with every substep.
-  const float kept = spare > 0 ? step.h_ratio : push_kept * step.h_ratio;
+  // would grow with every substep_.
+  const float kept = spare > 0 ? step_.h_ratio : push_kept * step_.h_ratio;
   row.normal_impulse = kept * cached.normal_impulse;
   row.friction_impulse = kept * (cached.friction_impulse - glm::dot(cached.friction_impulse, normal) * normal);
 }

@@ -1,0 +1,54 @@
+#pragma once
+// A contact as a row of a projected Gauss-Seidel solve: it limits the relative velocity of the closest points of two
+// features, each of which follows the corners of its feature by their weights.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "softbody/state/lanes.h"
+
+namespace softbody {
+
+struct ContactRow {
+  std::array<std::uint32_t, 4> slot;
+  std::array<float, 4> weight;    // first side positive, second negative
+  std::array<float, 4> mobility;  // weight / mass
+  glm::vec3 normal;               // unit, from the second side to the first
+  float mass;                     // kg, effective: 1 / sum of weight^2 / mass
+  float relative_stiffness;  // of the spring that keeps the distance, times the substep squared, over the mass; 0: out
+                             // of its reach
+  float bias;                // m/s, that it asks for
+  float target;              // m/s, least normal speed
+  float slack;               // m/s, by which it may be missed
+  float push;                // m/s, at most so fast it pushes apart: an impact gets no more back than it had
+  float friction;
+  float normal_impulse;        // N s, accumulated along the normal
+  glm::vec3 friction_impulse;  // N s, accumulated across it
+  float work;                  // J, that the former gives by pushing apart
+  std::uint32_t feature;       // place in the search's features
+};
+
+/// ContactRow::feature of a row that nothing is remembered of.
+inline constexpr std::uint32_t uncached = std::numeric_limits<std::uint32_t>::max();
+
+/// Of the two closest points. Bodies that do not move stand, whatever velocity they will set out with.
+inline glm::vec3 relative_velocity(const ContactRow& row, Field<const float> v) {
+  glm::vec3 velocity(0.0f);
+  for (std::size_t k = 0; k < 4; ++k)
+    if (row.mobility[k] != 0) velocity += row.weight[k] * read(v, row.slot[k]);
+  return velocity;
+}
+
+/// Changes the velocities of its corners.
+inline void apply(const ContactRow& row, const glm::vec3& impulse, Field<float> v) {
+  for (std::size_t k = 0; k < 4; ++k) add(v, row.slot[k], row.mobility[k] * impulse);
+}
+
+/// Changes the velocities so that one row meets its target and friction its cone, and adds to the row's impulses: one
+/// step of projected Gauss-Seidel.
+void solve_row(ContactRow& row, Field<float> v);
+
+}  // namespace softbody

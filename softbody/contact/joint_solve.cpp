@@ -1,0 +1,47 @@
+#include "softbody/contact/joint_solve.h"
+
+#include <algorithm>
+
+namespace softbody {
+
+bool misses_target(const ContactRow& row, Field<const float> v) {
+  return row.target - glm::dot(relative_velocity(row, v), row.normal) > row.slack;
+}
+
+int JointSolver::solve(std::span<ContactRow* const> rows, Field<float> v) {
+  constexpr int watched = 32;  // sweeps
+  before_.resize(rows.size());
+  direction_.assign(rows.size(), {});
+  double last_square = 0, watched_square = 0;
+  for (int sweep = 1;; ++sweep) {
+    double square = 0;  // of the change, in the norm of the kinetic energy
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      ContactRow& row = *rows[i];
+      before_[i] = impulse_of(row);
+      solve_row(row, v);
+      const float push = row.normal_impulse - before_[i].normal;
+      const glm::vec3 drag = row.friction_impulse - before_[i].friction;
+      square += double(push * push + glm::dot(drag, drag)) / double(row.mass);
+    }
+    if (sweep == max_sweeps || std::ranges::none_of(rows, [&](ContactRow* r) { return misses_target(*r, v); }))
+      return sweep;
+    if (sweep % watched == 0) {
+      if (sweep > watched && square > 0.9 * watched_square)  // they contradict each other
+        for (ContactRow* row : rows) row->target = std::min(row->target, 0.0f);
+      watched_square = square;
+    }
+    const float go_on = sweep > 1 && square < last_square ? float(square / last_square) : 0;
+    last_square = square;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      ContactRow& row = *rows[i];
+      Impulse& d = direction_[i];
+      const Impulse further{go_on * d.normal, go_on * d.friction}, now = impulse_of(row);
+      row.normal_impulse = std::max(0.0f, now.normal + further.normal);
+      row.friction_impulse = row.normal_impulse > 0 ? now.friction + further.friction : glm::vec3(0.0f);
+      apply(row, (row.normal_impulse - now.normal) * row.normal + (row.friction_impulse - now.friction), v);
+      d = {further.normal + (now.normal - before_[i].normal), further.friction + (now.friction - before_[i].friction)};
+    }
+  }
+}
+
+}  // namespace softbody
