@@ -10,8 +10,8 @@ namespace app::reference {
 
 void StabilityAssessment::add(const StabilitySample& s) {
   StabilityFigures& f = figures_;
-  const double excess = (s.energy - limits_.energy - s.work) / s.scale, speed = s.speed / s.reachable_speed,
-               extent = s.extent / s.reachable_extent, depth = s.depth / limits_.radius;
+  const double excess = s.excess / s.scale, speed = s.speed / s.reachable_speed, extent = s.extent / s.reachable_extent,
+               depth = s.depth / limits_.radius;
   // std::max would ignore NaN.
   const auto finite = [](double figure) { return std::isfinite(figure); };
   f.finite = s.finite && std::ranges::all_of(std::array{excess, speed, extent, depth}, finite);

@@ -10,7 +10,6 @@ namespace app::reference {
 
 /// What is fixed at the start of a run.
 struct StabilityLimits {
-  double energy = 0;           // J, at the start, of all that StabilitySample::energy counts
   double seconds = 0;          // length of the run
   double radius = 0;           // m, R of the smallest body of the scene, even of one that is added later
   bool begins_inside = false;  // some body begins inside a solid
@@ -21,8 +20,7 @@ struct StabilitySample {
   double time = 0;     // s, at its end
   int frame = 0;       // from 1
   bool finite = true;  // all positions and velocities are; if not, the rest has no meaning
-  double energy = 0;   // J: kinetic, springs, gas, gravity, and what bodies have put into penalty contacts
-  double work = 0;     // J, from outside so far: solids push out bodies, and added bodies bring their own energy
+  double excess = 0;   // J, energy from nowhere that has not been lost again, see softbody::EnergyLedger
   double scale = 0;    // J, max(E0 - E_eq, m g R) of the bodies that are there by now
   double speed = 0, reachable_speed = 0;    // m/s: of the fastest particle; what all the energy could give it
   double extent = 0, reachable_extent = 0;  // m: longest side of a body's box; to what that energy could stretch it

@@ -66,7 +66,7 @@ SimulationClock::Step Simulation::step() {
   const bool had_blown_up = stability_.blow_up().has_value();
   stability_.before_step(*world_);
   const bool stepped = attempt([&] { world_->step(); });
-  if (world_->grabbed()) intervened();  // a hand brings energy
+  if (world_->grabbed()) observer_.intervened();  // another hand would do otherwise
   stability_.after_step(*world_, pause_on_blow_up);
   if (stability_.blow_up() && !had_blown_up) clock.paused = true;
   if (!stepped || !was_at_rest || !world_->all_at_rest()) ++revision_;
@@ -124,18 +124,13 @@ bool Simulation::attempt(const std::function<void()>& action) {
   return false;
 }
 
-void Simulation::intervened() {
-  stability_.intervened();
-  observer_.intervened();
-}
-
 bool Simulation::change(const std::function<void(World&)>& change) {
   notice.clear();
   const collide::Method& method = world_->method();
   const collide::Settings settings = world_->collision();
   const bool done = attempt([&] { change(*world_); });
   ++revision_;
-  intervened();
+  observer_.intervened();
   if (&method != &world_->method() || settings != world_->collision()) observer_.detection_changed();
   return done;
 }

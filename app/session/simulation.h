@@ -114,7 +114,6 @@ class Simulation {
 
  private:
   bool attempt(const std::function<void()>& action);
-  void intervened();
   void replace(bool new_scene);
   KeptWorld present(Change change) const;
   void leave_for(std::unique_ptr<softbody::World> world);

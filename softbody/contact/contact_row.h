@@ -23,9 +23,11 @@ struct ContactRow {
   float bias;                // m/s, that it asks for
   float target;              // m/s, least normal speed
   float slack;               // m/s, by which it may be missed
+  float push;                // m/s, at most so fast it pushes apart: an impact gets no more back than it had
   float friction;
   float normal_impulse;        // N s, accumulated along the normal
   glm::vec3 friction_impulse;  // N s, accumulated across it
+  float work;                  // J, that the former gives by pushing apart
   std::uint32_t feature;       // place in the search's features
 };
 

@@ -54,8 +54,9 @@ void SolidContact::ease_out(const Batch& b, int lane, const glm::dvec3& way, con
   for (std::size_t i = 0; i < b.particles(); ++i) mean += glm::dvec3(read(v, slot(i))) / double(b.particles());
   const glm::vec3 change(law::max_separation_speed * way - 0.5 * seconds * gravity - mean);
   for (std::size_t i = 0; i < b.particles(); ++i) softbody::add(v, slot(i), change);
-  BodyField{impulse(b), std::size_t(lane), 1}.add(0,
-                                                  double(b.particles()) * b.model->particle_mass * glm::dvec3(change));
+  const glm::dvec3 given = double(b.particles()) * b.model->particle_mass * glm::dvec3(change);  // N s
+  BodyField{impulse(b), std::size_t(lane), 1}.add(0, given);
+  state_.ledger.book(WorkBy::easing, glm::dot(given, mean + 0.5 * glm::dvec3(change)));
   of_batch_[b.index].pushed |= 1u << lane;
   state_.memory(b.body[std::size_t(lane)]).calm_frames = 0;
 }
@@ -106,6 +107,7 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
   s.moves = b.moves.data();
   s.impulse = impulse(b);
   s.returned = returned(b);
+  s.work = work(b);
   if (has_restitution_) s.before = field(std::as_const(before_), b.base);
   if (!has_features_) return;
   const std::vector<SolidCore> cores = cores_of(solid);
@@ -130,10 +132,11 @@ void SolidContact::end_frame() {
   pushes_.assign(state_.body_count(), {});
   for (const Batch& b : state_.batches()) {
     const OfBatch& own = of_batch_[b.index];
-    for (std::size_t l = 0; l < std::size_t(b.used); ++l)
+    for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
       pushes_[b.body[l]] = {glm::dvec3(own.impulse[l]), double(own.returned[l])};
-    for (std::size_t l = 0; l < std::size_t(b.used); ++l)
+      state_.ledger.book(WorkBy::solids, double(own.work[l]));
       if (b.moves[l] != 0) state_.memory(b.body[l]).may_lie_in_solid = own.eased >> l & 1u;
+    }
   }
 }
 
@@ -208,6 +211,7 @@ void SolidContact::add_particle_rows(BodyId body, float travel, std::vector<Cont
       row.normal = {surface.normal.x, surface.normal.y, surface.normal.z};
       row.friction = s.friction;
       row.target = law::min_speed(surface.distance, 1 / s.h);
+      row.push = std::max(0.0f, row.target);
       row.slack = infinite;  // what is left they do by themselves
       row.feature = i;
     }
@@ -222,6 +226,7 @@ void SolidContact::book(BodyId body, std::span<const ContactRow> rows) {
     if (row.normal_impulse <= 0) continue;
     softbody::add(impulse(b), lane, row.normal_impulse * row.normal);
     own.returned[lane] += own.near[row.feature].restitution * row.normal_impulse;
+    own.work[lane] += row.work;
     std::atomic_ref(own.pushed).fetch_or(1u << lane, std::memory_order_relaxed);
   }
 }

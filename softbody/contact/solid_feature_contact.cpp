@@ -140,6 +140,7 @@ void SolidContact::apply_to_features(const Batch& b, float h) {
     const SolidFeature& f = own.features[row.feature];
     softbody::add(impulse(b), std::size_t(f.lane), row.normal_impulse * row.normal);
     own.returned[std::size_t(f.lane)] += own.near[f.solid].restitution * row.normal_impulse;
+    own.work[std::size_t(f.lane)] += row.work;
     own.pushed |= 1u << f.lane;
   }
 }
@@ -173,6 +174,7 @@ void SolidContact::add_row(const Batch& b, SolidFeature& f, float h) {
   row.normal = {surface->normal.x, surface->normal.y, surface->normal.z};
   row.friction = s.friction;
   row.target = law::min_speed(surface->distance, 1 / h);
+  row.push = std::max(0.0f, row.target);
   if (s.restitution > 0 && glm::dot(relative_velocity(row, field(state_.v, b.base)), row.normal) < row.target)
     row.target =
         std::max(row.target, law::rebound(-glm::dot(relative_velocity(row, s.before), row.normal), s.restitution));

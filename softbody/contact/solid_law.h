@@ -18,11 +18,12 @@ namespace body {
 /// Acts on the velocity of a point: after the step it is not below the surface, the change of normal velocity acts as
 /// an impulse, and friction takes at most `friction` times it from the tangential velocity. An impact is as fast as
 /// the point was before the step's forces, because these alone may be large on a particle at rest. moves: 1, or 0 for
-/// what stays as it is. Returns the change of normal velocity.
+/// what stays as it is. Returns the change of normal velocity, and adds to `work` it times the speed at which an
+/// overlap is pushed out: an impact gets no more back than it had.
 template <class V>
-HWY_INLINE V respond(const SolidArguments& s, V moves, V gap, Vec<V> n, Vec<V> before, Vec<V>& v) {
-  const V zero{};
-  V target = law::min_speed(gap, 1.0f / s.h);
+HWY_INLINE V respond(const SolidArguments& s, V moves, V gap, Vec<V> n, Vec<V> before, Vec<V>& v, V& work) {
+  const V zero{}, out = law::min_speed(gap, 1.0f / s.h);
+  V target = out;
   const V normal_speed = dot(v, n);
   if (s.restitution > 0) {
     const V thrown_back = larger(law::rebound(-dot(before, n), s.restitution), target);
@@ -32,6 +33,7 @@ HWY_INLINE V respond(const SolidArguments& s, V moves, V gap, Vec<V> n, Vec<V> b
   const V change = moves * select(wanted > V(s.slack), wanted, zero);
   if (!any_above(change, zero)) return change;
   v = v + change * n - law::within_cone(v - normal_speed * n, s.friction * change);
+  work += change * larger(out, zero);
   return change;
 }
 

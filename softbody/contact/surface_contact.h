@@ -62,8 +62,10 @@ class SurfaceContact {
   double work_of_substep() const;
 
   std::size_t rows() const;
-  /// True if the last substep pushed overlapping surfaces apart or threw colliding ones back, and so added energy.
-  bool adds_energy() const;
+  /// Notes the work of the rows of a substep, which all threads must have solved. On every thread.
+  void add_row_work(int thread, int threads);
+  /// Returns the energy (J) that pushing apart has given to bodies since the last call.
+  double take_work();
   /// `vertices`: those of the bodies that find() was given, and perhaps of more. While all bodies sleep it is the last
   /// substep before.
   std::vector<SurfaceContactPoint> contact_points(const collide::Bodies& vertices) const;
@@ -86,7 +88,7 @@ class SurfaceContact {
   }
   void keep(const ContactRow& row);
   void join_islands();
-  void separate(const Pair& pair, Field<const float> x, Field<float> v) const;
+  void separate(Pair& pair, Field<const float> x, Field<float> v) const;
   bool few_rows() const { return rows() < 2000; }
   template <class Visit>
   void for_each_pair(int thread, int threads, const std::function<void()>& barrier, const Visit& visit);

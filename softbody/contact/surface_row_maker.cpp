@@ -249,6 +249,7 @@ void SurfaceRowMaker::add_row(const Pair& pair, const ContactRow& corners, const
   const float turn = step_.h * std::min(spring_frequency, 0.25f * 2 * glm::pi<float>() / step_.h);
   row.relative_stiffness = gap < 0 ? turn * (2 * spring_damping + turn) : 0;
   row.bias = -gap * turn / ((2 * spring_damping + turn) * step_.h);
+  row.push = std::max({0.0f, row.target, gap < 0 ? row.bias : 0.0f});
   if (cached.normal_impulse == 0 && gap + step_.h * speed < 0)
     row.target = std::max(row.target, law::rebound(-speed, pair.restitution));
   row.slack = hair * distance / step_.h;

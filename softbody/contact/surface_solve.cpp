@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include <glm/common.hpp>
 
@@ -10,6 +11,7 @@
 #include "softbody/contact/surface_vectors.h"
 
 namespace softbody {
+
 void solve_row(ContactRow& row, Field<float> v) {
   glm::vec3 velocity = relative_velocity(row, v);
   const float speed = glm::dot(velocity, row.normal);
@@ -25,11 +27,12 @@ void solve_row(ContactRow& row, Field<float> v) {
       law::within_cone(row.friction_impulse - row.mass * slip, row.friction * normal_impulse);
   apply(row, push * row.normal + (friction_impulse - row.friction_impulse), v);
   row.friction_impulse = friction_impulse;
+  row.work = normal_impulse * std::clamp(speed + push / row.mass, 0.0f, row.push);
 }
 
 /// Two bodies far inside each other move apart along the line of their centres, each as a whole: their shapes, momentum
 /// and angular momentum stay.
-void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<float> v) const {
+void SurfaceContact::separate(Pair& pair, Field<const float> x, Field<float> v) const {
   struct Whole {
     glm::vec3 centre{0.0f}, velocity{0.0f};
     float inverse_mass = 0;
@@ -52,6 +55,7 @@ void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<floa
   const float missing = float(law::max_separation_speed) - glm::dot(a.velocity - b.velocity, axis);
   if (missing <= 0) return;
   const float impulse = missing / (a.inverse_mass + b.inverse_mass);
+  pair.work += double(impulse * (float(law::max_separation_speed) - 0.5f * missing));
   for (Index i = 0; i < one.surface->vertex_count(); ++i)
     add(v, one.slot + i * one.stride, impulse * a.inverse_mass * axis);
   for (Index i = 0; i < two.surface->vertex_count(); ++i)
@@ -67,7 +71,7 @@ void SurfaceContact::for_each_pair(int thread, int threads, const std::function<
     const collide::Part part =
         alone ? collide::Part{0, thread == 0 ? colour.size() : 0} : collide::part_of(colour.size(), thread, threads);
     for (std::size_t i = part.begin; i < part.end; ++i) {
-      const Pair& p = candidates_.pairs()[colour[i]];
+      Pair& p = candidates_.pairs()[colour[i]];
       visit(p, std::span(thread_work_[static_cast<std::size_t>(p.thread)].rows).subspan(p.first_row, p.rows));
     }
     if (!alone) barrier();
@@ -77,7 +81,7 @@ void SurfaceContact::for_each_pair(int thread, int threads, const std::function<
 void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
                            const std::function<void()>& barrier) {
   const auto pass = [&](const auto& visit) {
-    for_each_pair(thread, threads, barrier, [&](const Pair& p, std::span<ContactRow> rows) {
+    for_each_pair(thread, threads, barrier, [&](Pair& p, std::span<ContactRow> rows) {
       if (p.separating) separate(p, x, v);
       std::ranges::for_each(rows, visit);
     });
@@ -154,6 +158,18 @@ void SurfaceContact::solve_island(int thread, const Island& island, std::span<Co
   for (ContactRow& row : solids) work.together.push_back(&row);
   work.joint_work += double(work.joint.solve(work.together, v)) * double(work.together.size());
   std::for_each(work.together.begin(), work.together.begin() + own, [&](const ContactRow* row) { keep(*row); });
+}
+
+void SurfaceContact::add_row_work(int thread, int threads) {
+  const collide::Part part = collide::part_of(candidates_.pairs().size(), thread, threads);
+  for (Pair& p : std::span(candidates_.pairs()).subspan(part.begin, part.end - part.begin))
+    for (const ContactRow& row : rows_of(p)) p.work += double(row.work);
+}
+
+double SurfaceContact::take_work() {
+  double sum = 0;
+  for (Pair& p : candidates_.pairs()) sum += std::exchange(p.work, 0.0);
+  return sum;
 }
 
 double SurfaceContact::work_of_substep() const {

@@ -9,19 +9,19 @@
 namespace softbody {
 namespace {
 
-HeldBody held_body(const ForceBatch& b, BodyId id) {
-  State& s = b.state;
+HeldBody held_body(State& s, BodyId id) {
   return {s.model(id), s.body(id).origin, s.field_of(id, s.x), s.field_of(id, s.v), s.field_of(id, s.f)};
 }
 
 }  // namespace
 
 void Hand::add(const ForceBatch& b) const {
-  if (grab_ && b.state.body(grab_->body).batch == b.batch.index) add_force(held_body(b, grab_->body), b.h, b.gravity);
+  if (grab_ && b.state.body(grab_->body).batch == b.batch.index)
+    add_force(held_body(b.state, grab_->body), b.h, b.gravity);
 }
 
 void Hand::kick(const ForceBatch& b) const {
-  if (grab_ && b.state.body(grab_->body).batch == b.batch.index) add_impulse(held_body(b, grab_->body), b.h);
+  if (grab_ && b.state.body(grab_->body).batch == b.batch.index) add_impulse(held_body(b.state, grab_->body), b.h);
 }
 
 void Hand::take(const std::optional<Grab>& grab) {
@@ -34,14 +34,32 @@ void Hand::remove(BodyId body) {
   if (grab_ && grab_->body > body) --grab_->body;
 }
 
-/// On the point, which everything else would let go at `velocity` after a step of h.
-glm::dvec3 Hand::force(const HeldBody& body, double h, const glm::dvec3& velocity) const {
-  const double rate = 2 * std::numbers::pi * grab_->frequency, mass = body.model.material[Material::mass];  // 1/s, kg
-  const double point_mass = body.model.particle_mass / glm::dot(grab_->weights, grab_->weights);
+Hand::Pull Hand::pull_of(const BodyModel& model) const {
+  const double rate = 2 * std::numbers::pi * grab_->frequency, mass = model.material[Material::mass];  // 1/s, kg
+  return {mass * rate * rate, 2 * grab_->damping_ratio * mass * rate};
+}
+
+glm::dvec3 Hand::point(const HeldBody& body) const {
   glm::dvec3 point(0.0);
   for (int i = 0; i < 3; ++i) point += grab_->weights[i] * (body.origin + body.x(grab_->corners[std::size_t(i)]));
-  return pull(mass * rate * rate, 2 * grab_->damping_ratio * mass * rate, point_mass, h, grab_->target - point,
-              velocity);
+  return point;
+}
+
+/// On the point, which everything else would let go at `velocity` after a step of h.
+glm::dvec3 Hand::force(const HeldBody& body, double h, const glm::dvec3& velocity) const {
+  const Pull p = pull_of(body.model);
+  const double point_mass = body.model.particle_mass / glm::dot(grab_->weights, grab_->weights);
+  return pull(p.stiffness, p.damping, point_mass, h, grab_->target - point(body), velocity);
+}
+
+void Hand::note_point(State& state) { noted_point_ = point(held_body(state, grab_->body)); }
+
+/// By the force that pull() has at the end of a step.
+void Hand::book_work(State& state, double h) const {
+  const HeldBody body = held_body(state, grab_->body);
+  const Pull p = pull_of(body.model);
+  const glm::dvec3 now = point(body), moved = now - noted_point_;
+  state.ledger.book(WorkBy::hand, glm::dot(p.stiffness * (grab_->target - now) - p.damping / h * moved, moved));
 }
 
 void Hand::add_force(const HeldBody& body, double h, const glm::dvec3& gravity) const {

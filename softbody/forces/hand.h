@@ -27,6 +27,11 @@ class Hand {
   /// Adds its impulse to it.
   void kick(const ForceBatch& batch) const;
 
+  /// Notes where the point is that the hand holds. Call it before a substep ...
+  void note_point(State& state);
+  /// ... and after it, of h seconds: books the work that its force did.
+  void book_work(State& state, double h) const;
+
   /// Takes a body in another's place; none: lets go.
   void take(const std::optional<Grab>& grab);
   const std::optional<Grab>& grab() const { return grab_; }
@@ -42,9 +47,16 @@ class Hand {
   void add_impulse(const HeldBody& body, double h) const;
 
  private:
+  /// Of the spring and of the damper that pull a body of this model: N/m and N s/m.
+  struct Pull {
+    double stiffness, damping;
+  };
+  Pull pull_of(const BodyModel& model) const;
+  glm::dvec3 point(const HeldBody& body) const;
   glm::dvec3 force(const HeldBody& body, double h, const glm::dvec3& velocity) const;
 
   std::optional<Grab> grab_;
+  glm::dvec3 noted_point_{0.0};  // m
 };
 
 }  // namespace softbody

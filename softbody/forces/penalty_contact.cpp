@@ -208,16 +208,10 @@ double PenaltyContact::energy(const PenaltyPair& p, Field<const float> x) const 
   return pair_law.stored(s, glm::dot(d, d) - s * s) + pair_law.stored_by_friction(glm::dot(stretch, stretch));
 }
 
-double total(std::span<const PairEnergy> pairs) {
+double PenaltyContact::energy(Field<const float> x) const {
   double sum = 0;
-  for (const PairEnergy& p : pairs) sum += p.joules;
+  for (const PenaltyPair& p : pairs) sum += energy(p, x);
   return sum;
-}
-
-std::vector<PairEnergy> PenaltyContact::energies(Field<const float> x) const {
-  std::vector<PairEnergy> list;
-  for (const PenaltyPair& p : pairs) list.push_back({p.contact, energy(p, x)});
-  return list;
 }
 
 void PenaltyContact::carry_over(std::span<const PenaltyPair> before) {

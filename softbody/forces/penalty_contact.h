@@ -14,7 +14,6 @@
 
 #include "collide/core/detector.h"
 #include "softbody/forces/force.h"
-#include "softbody/forces/pair_energy.h"
 
 namespace softbody {
 
@@ -75,7 +74,7 @@ struct PenaltyContact {
   PenaltyLaw<Real> law_of(const PenaltyPair& pair) const;
   /// Returns what the law stores, in J.
   double energy(const PenaltyPair& pair, Field<const float> x) const;
-  std::vector<PairEnergy> energies(Field<const float> x) const;  // of all, in the order of pairs
+  double energy(Field<const float> x) const;  // J, of all pairs
   /// Returns upper bounds of how fast the force on a falls with the motion of a in the coming `seconds`, in N/m.
   struct Slopes {
     float spring, damper;                // along n

@@ -26,7 +26,10 @@ struct SpringOf {
     return stiffness * (length - rest);
   }
   SpringOf<float> rounded() const { return {i, j, float(rest), float(stiffness), float(damping)}; }
-  Real stored(Real length) const { return stiffness / 2 * (length - rest) * (length - rest); }
+  template <class T>
+  HWY_INLINE T stored(T length) const {
+    return stiffness / 2 * (length - rest) * (length - rest);
+  }
 };
 using Spring = SpringOf<double>;
 

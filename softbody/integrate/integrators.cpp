@@ -96,7 +96,8 @@ constexpr std::array all_integrators{
         .stable_step = unconditional,
         .substeps_per_step = 20,
         .scratch = 1,
-        .projects = true},
+        .projects = true,
+        .conserves_energy = false},
     Integrator{.key = "implicit",
                .name = "Implicit",
                .summary =

@@ -28,15 +28,16 @@ struct Integrator {
   /// Returns 0.8 times the largest stable step in s, for the sums of stiffness/mass (1/s^2) and damping/mass (1/s) at
   /// one particle; infinity if every step is stable. See stable_step() in forces/bound.h.
   double (*stable_step)(double k_m, double c_m);
-  int substeps_per_step = 1;    // that the method makes of each step asked for
-  int step_lengths = 8;         // in use between a length and its double, unless steps are fixed
-  int scratch = 0;              // copies of a field over all particles that it needs
-  bool implicit = false;        // solves with the matrices of implicit/matrix.h
-  bool automatic = false;       // chooses another integrator for each frame, see StepController
-  bool by_damping = false;      // is stable only if every oscillation is damped enough
-  bool staggered = false;       // its velocities belong to the middle of the last substep
-  bool projects = false;        // moves particles to where forces have them, see Plan::unprojected()
-  bool conserves_spin = false;  // conserves a free body's angular momentum up to rounding; all conserve the linear one
+  int substeps_per_step = 1;     // that the method makes of each step asked for
+  int step_lengths = 8;          // in use between a length and its double, unless steps are fixed
+  int scratch = 0;               // copies of a field over all particles that it needs
+  bool implicit = false;         // solves with the matrices of implicit/matrix.h
+  bool automatic = false;        // chooses another integrator for each frame, see StepController
+  bool by_damping = false;       // is stable only if every oscillation is damped enough
+  bool staggered = false;        // its velocities belong to the middle of the last substep
+  bool projects = false;         // moves particles to where forces have them, see Plan::unprojected()
+  bool conserves_energy = true;  // as steps get short; else it moves bodies to shapes of its own, by its steps
+  bool conserves_spin = false;   // conserves a free body's angular momentum up to rounding; all conserve the linear one
 
   bool stable_at_any_step() const { return std::isinf(stable_step(1, 0)); }
 };

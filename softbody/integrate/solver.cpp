@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "softbody/forces/body_measures.h"
 #include "softbody/integrate/force_stage.h"
 #include "softbody/integrate/implicit/steps.h"
 #include "softbody/scene/solids.h"
@@ -55,18 +56,6 @@ void Solver::set_contacts(const DetectedContacts& detected, float thickness) {
   penalty_.find(detected, state_, thickness);
 }
 
-std::vector<PairEnergy> Solver::penalty_energies() const {
-  PenaltyContact last = penalty_;
-  last.locate(state_);
-  return last.energies(field(state_.x));
-}
-
-std::vector<PairEnergy> Solver::penalty_energies(const DetectedContacts& detected, float thickness) const {
-  PenaltyContact coming = penalty_;
-  coming.find(detected, state_, thickness);
-  return coming.energies(field(state_.x));
-}
-
 glm::dvec3 Solver::gravity() const { return has_gravity_ ? scene_.gravity : glm::dvec3(0.0); }
 
 Solver::Frame Solver::begin_frame(double seconds) {
@@ -110,6 +99,7 @@ Solver::Frame Solver::begin_frame(double seconds) {
 
 FrameResult Solver::advance(double seconds, const std::function<void()>& after_substep) {
   Frame frame = begin_frame(seconds);
+  const double held = penalty_.energy(field(state_.x));
   if (!crew_.moving().empty()) {
     do take_substeps(frame, after_substep);
     while (frame.left > 0 && steps_.may_go_on());
@@ -119,6 +109,7 @@ FrameResult Solver::advance(double seconds, const std::function<void()>& after_s
     frame.left = 0;
   }
   solids_.end_frame();
+  state_.ledger.book(WorkBy::penalty, held - penalty_.energy(field(state_.x)));
   return {frame.substeps, seconds - frame.left};
 }
 
@@ -153,6 +144,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   int done = 0;
   const auto go_on = [&](int steps) {
     run(steps, static_cast<float>(h), frame.substeps == 0, after_substep);
+    state_.ledger.book(WorkBy::surfaces, contacts_.surfaces().take_work());
     done += steps;
     frame.substeps += steps;
     steps_.spend(steps * ((implicit ? 0 : steps_.work_of_substep()) +
@@ -168,6 +160,25 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   frame.left = done == plan.substeps ? 0 : frame.left - done * h;
 }
 
+/// Before substeps of h, the first of the frame or later ones: sets which energy they conserve, and books what the
+/// change to that gives. Fixed ones that are too long to be stable conserve none; then the plain one is not to grow.
+void Solver::set_staggering(double h, bool first) {
+  constexpr double reserve = 0.8, close = 0.2;  // of stable steps; of h
+  const Integrator& integrator = *steps_.plan().integrator;
+  double& now = state_.ledger.staggering;
+  const double before = now;
+  now = integrator.staggered ? h : 0;
+  if (now > 0 && steps_.fixed())
+    now = !first ? before : reserve * h * bounds_.measure(integrator).stable > 1 ? 0 : h;
+  if (std::abs(now - before) <= close * std::max(now, before)) {
+    now = before;
+    return;
+  }
+  double power = 0;
+  for (const BodyMeasures& b : measure_bodies(state_, gravity())) power += b.power;
+  state_.ledger.book(WorkBy::steps, (now - before) / 2 * power);
+}
+
 void Solver::prepare_implicit(float h) {
   implicit_->retain([this](const BodyModel& model) {
     return std::ranges::any_of(state_.batches(), [&](const Batch& b) { return b.model.get() == &model; });
@@ -177,13 +188,20 @@ void Solver::prepare_implicit(float h) {
 
 void Solver::run(int count, float h, bool first, const std::function<void()>& after_substep) {
   last_substep_ = h;
+  set_staggering(double(h), first);
   const Integrator& integrator = *steps_.plan().integrator;
   motion_.begin_substeps(integrator, h);
   if (integrator.implicit) prepare_implicit(h);
+  const auto holds_body = [&](const Batch* b) {
+    return hand_.grab() && state_.body(hand_.grab()->body).batch == b->index;
+  };
   crew_.run([&](const Worker& worker) {
     for (int s = 0; s < count; ++s) {
       for (const Batch* b : worker.batches()) solids_.note_velocities(*b);
+      const bool holds = std::ranges::any_of(worker.batches(), holds_body);
+      if (holds) hand_.note_point(state_);
       integrator.advance(motion_, worker, {h, first && s == 0});
+      if (holds) hand_.book_work(state_, double(h));
       contacts_.advance(worker, h);
       if (!after_substep) continue;
       worker.barrier();

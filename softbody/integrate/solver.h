@@ -52,6 +52,7 @@ class Solver {
   const StepController& steps() const { return steps_; }
   const SurfaceContact& surface_contact() const { return contacts_.surfaces(); }
   const SolidContact& solid_contact() const { return solids_; }
+  const PenaltyContact& penalty_contact() const { return penalty_; }
 
   /// Takes the world's list of bodies, which must outlive this and change with the state.
   void set_vertices(const collide::Bodies& vertices);
@@ -62,10 +63,6 @@ class Solver {
 
   /// Takes the contacts for the coming frame. thickness: of the contact layer, m.
   void set_contacts(const DetectedContacts& detected, float thickness);
-  /// Returns the stored energy (J) of each pair of the last frame now.
-  std::vector<PairEnergy> penalty_energies() const;
-  /// Returns the energy (J) that each pair of these contacts would store if it acted now.
-  std::vector<PairEnergy> penalty_energies(const DetectedContacts& detected, float thickness) const;
 
   /// Advances by `seconds`, or by less if the budget of work is spent. Unless substeps are fixed, their bound is
   /// measured anew as bodies move, since bodies that are crushed may need any number of substeps and have many
@@ -94,6 +91,7 @@ class Solver {
   void mark_pushed(BodyId body) { pushed_[state_.batch_of(body).index] |= 1u << state_.body(body).lane; }
   Frame begin_frame(double seconds);
   void take_substeps(Frame& frame, const std::function<void()>& after_substep);
+  void set_staggering(double h, bool first);
   void prepare_implicit(float h);
   void run(int substeps, float h, bool first, const std::function<void()>& after_substep);
 

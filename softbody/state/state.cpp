@@ -210,6 +210,7 @@ State State::saved() const {
   State copy;
   copy.x = x;
   copy.v = v;
+  copy.ledger = ledger;
   copy.batches_ = batches_;
   copy.bodies_ = bodies_;
   return copy;

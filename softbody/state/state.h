@@ -10,6 +10,7 @@
 
 #include "softbody/model/body_model.h"
 #include "softbody/state/body.h"
+#include "softbody/state/energy_ledger.h"
 #include "softbody/state/kernel_types.h"
 #include "softbody/state/lanes.h"
 
@@ -61,6 +62,7 @@ inline Field<const float> field(const VectorArray& a, std::size_t base = 0) {
 class State {
  public:
   VectorArray x, v, f;  // m relative to the bodies' origins, m/s, N
+  EnergyLedger ledger;
 
   BodyId add(const std::shared_ptr<const BodyModel>& model, const glm::dvec3& position, const glm::dvec3& velocity);
   /// Removes a body; the ids of later bodies move up by one.

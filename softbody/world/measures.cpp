@@ -8,27 +8,11 @@
 
 #include "softbody/contact/solid_overlap.h"
 #include "softbody/forces/deformation.h"
-#include "softbody/forces/model_forces.h"
 #include "softbody/scene/solids.h"
+#include "softbody/state/state.h"
 
 namespace softbody {
 namespace {
-
-/// Returns the elastic and the gas energy of a body with its particles at x.
-Energy deformation(const BodyModel& p, const std::vector<glm::dvec3>& x) {
-  const StoredEnergy stored = stored_energy(p, x);
-  Energy energy;
-  energy.elastic = stored.elastic, energy.gas = stored.gas;
-  return energy;
-}
-
-double largest_strain(const BodyModel& p, const std::vector<glm::dvec3>& x) {
-  double most = 0;
-  for_each_spring(p, [&](const Spring& s) {
-    if (s.rest > 0) most = std::max(most, std::abs(glm::distance(x[s.i], x[s.j]) / s.rest - 1));
-  });
-  return most;
-}
 
 /// Returns the largest value on a segment or triangle of a function that is concave on it: on the places from `lo` to
 /// `hi`.
@@ -67,10 +51,13 @@ double deepest_in(const Solid& solid, const std::vector<glm::dvec3>& x, std::spa
   return least;
 }
 
-/// Returns BodyMeasures::deepest_penetration. What contact sees counts: faces only if surfaces touch.
-double deepest_in_solids(const World& world, BodyId id, const std::vector<glm::dvec3>& x) {
+/// Returns how deep (m) a body lies in solids. What contact sees counts: faces only if surfaces touch.
+double deepest_in_solids(const World& world, BodyId id) {
+  const BodyModel& p = world.model(id);
+  std::vector<glm::dvec3> x;
+  for (Index i = 0; i < p.mesh.vertices.size(); ++i) x.push_back(world.particle(id, i).position);
   std::span<const Triangle> faces;
-  if (world.scene().contact_surface == ContactSurface::surfaces) faces = world.model(id).mesh.triangles;
+  if (world.scene().contact_surface == ContactSurface::surfaces) faces = p.mesh.triangles;
   double deepest = 0;
   for_each_solid(world.scene(), [&](const auto& solid) { deepest = deepest_in(solid, x, faces, deepest); });
   return deepest;
@@ -79,65 +66,22 @@ double deepest_in_solids(const World& world, BodyId id, const std::vector<glm::d
 /// Returns true if a body lies in one of the scene's solids, by more than rounding.
 bool lies_in_solid(const World& world, BodyId id, const PlacedBody& body) {
   constexpr double rounding = 1e-4;  // m
-  bool any = measure(world, id).deepest_penetration > rounding;
+  bool any = deepest_in_solids(world, id) > rounding;
   for_each_solid(world.scene(), [&](const auto& solid) {
     any = any || overlap(body, solid, world.scene().contact_surface == ContactSurface::surfaces);
   });
   return any;
 }
 
-/// Returns BodyMeasures::staggering. deformation_now: the body's present deformation energy in J.
-double staggering(const World& world, BodyId id, double substep, double deformation_now) {
-  const BodyModel& p = world.model(id);
-  std::vector<glm::dvec3> middle, before;  // positions in the middle of the last substep, and before it
-  double sum = 0;
-  for (Index i = 0; i < p.mesh.vertices.size(); ++i) {
-    const Particle q = world.particle(id, i);
-    middle.push_back(q.position - substep / 2 * q.velocity);
-    before.push_back(q.position - substep * q.velocity);
-    sum += p.particle_mass * glm::dot(world.scene().gravity, substep / 2 * q.velocity);
-  }
-  const auto at = [&](const std::vector<glm::dvec3>& x) { return deformation(p, x).deformation(); };
-  return sum + 2 * at(middle) - (deformation_now + at(before)) / 2 - deformation_now;
-}
-
 }  // namespace
 
-Energy& Energy::operator+=(const Energy& other) {
-  kinetic += other.kinetic;
-  elastic += other.elastic;
-  gas += other.gas;
-  gravity += other.gravity;
-  return *this;
+BodyMeasures measure(const World& world, BodyId id) { return measure(world.state(), id, world.scene().gravity); }
+
+std::vector<BodyMeasures> measure_bodies(const World& world) {
+  return measure_bodies(world.state(), world.scene().gravity);
 }
 
-BodyMeasures measure(const World& world, BodyId id, double substep) {
-  const BodyModel& p = world.model(id);
-  const Scene& scene = world.scene();
-  BodyMeasures m;
-  double kinetic = 0, gravity = 0;
-  std::vector<glm::dvec3> x;
-  x.reserve(p.mesh.vertices.size());
-  for (Index i = 0; i < p.mesh.vertices.size(); ++i) {
-    const Particle q = world.particle(id, i);
-    x.push_back(q.position);
-    const double speed2 = glm::dot(q.velocity, q.velocity);
-    m.finite = m.finite && std::isfinite(speed2) && std::isfinite(glm::dot(q.position, q.position));
-    kinetic += 0.5 * p.particle_mass * speed2;
-    gravity -= p.particle_mass * glm::dot(scene.gravity, q.position);
-    m.momentum += p.particle_mass * q.velocity;
-    m.max_speed = std::max(m.max_speed, std::sqrt(speed2));
-  }
-  m.deepest_penetration = deepest_in_solids(world, id, x);
-  m.energy = deformation(p, x);
-  m.largest_strain = largest_strain(p, x);
-  if (substep > 0) m.staggering = staggering(world, id, substep, m.energy.deformation());
-  m.energy.kinetic = kinetic;
-  m.energy.gravity = gravity;
-  m.closed = p.mesh.closed;
-  if (m.closed) m.volume_ratio = enclosed_volume(p, x) / p.start_volume;
-  return m;
-}
+const EnergyLedger& ledger(const World& world) { return world.state().ledger; }
 
 std::vector<BodyId> overlapping_bodies(const World& world) {
   const collide::Frame now = world.positions();
@@ -155,7 +99,10 @@ std::vector<BodyId> overlapping_bodies(const World& world) {
   return list;
 }
 
-Energy starting_energy(const BodyModel& p) { return deformation(p, p.start); }
+Energy starting_energy(const BodyModel& p) {
+  const StoredEnergy stored = stored_energy(p, p.start);
+  return {.elastic = stored.elastic, .gas = stored.gas};
+}
 
 SolidDepth solid_depth(const Scene& scene, const glm::dvec3& point) {
   SolidDepth deepest{glm::vec3(0, 1, 0), -std::numeric_limits<double>::infinity()};
@@ -172,7 +119,6 @@ Measures total(std::span<const BodyMeasures> bodies) {
     m.energies += b.energy;
     m.momentum += b.momentum;
     m.largest_strain = std::max(m.largest_strain, b.largest_strain);
-    m.deepest_penetration = std::max(m.deepest_penetration, b.deepest_penetration);
     m.max_speed = std::max(m.max_speed, b.max_speed);
     m.finite = m.finite && b.finite;
     if (!b.closed) continue;
@@ -182,12 +128,6 @@ Measures total(std::span<const BodyMeasures> bodies) {
   }
   m.energy = m.energies.total();
   return m;
-}
-
-std::vector<BodyMeasures> measure_bodies(const World& world, double substep) {
-  std::vector<BodyMeasures> list;
-  for (BodyId id = 0; id < world.bodies().count(); ++id) list.push_back(measure(world, id, substep));
-  return list;
 }
 
 std::vector<SolidContactPoint> solid_contacts(const World& world) {
@@ -204,6 +144,11 @@ std::vector<SolidContactPoint> solid_contacts(const World& world) {
   return contacts;
 }
 
-Measures measure(const World& world) { return total(measure_bodies(world)); }
+Measures measure(const World& world) {
+  Measures m = total(measure_bodies(world));
+  for (BodyId id = 0; id < world.bodies().count(); ++id)
+    m.deepest_penetration = std::max(m.deepest_penetration, deepest_in_solids(world, id));
+  return m;
+}
 
 }  // namespace softbody

@@ -81,6 +81,8 @@ BodyId World::Parts::add(const BodySource& source, const glm::dvec3& position) {
   const BodyId id = solver.state().add(model, position, source.velocity);
   bodies.add(model->shape);
   vertex_body.resize(bodies.vertex_count(), id);
+  EnergyLedger& ledger = solver.state().ledger;
+  ledger.book(WorkBy::user, measure(solver.state(), id, scene.gravity).conserved(ledger.staggering));
   return id;
 }
 
@@ -152,7 +154,6 @@ void World::step(const std::function<void()>& after_substep) {
   s.report.last_substep = s.solver.last_substep();
   s.report.integrator = steps.integrator;
   s.report.why = steps.why;
-  s.report.adds_energy = s.solver.surface_contact().adds_energy();
   const bool whole = done.seconds == s.frame_time;
   if (!whole)
     s.penalty_thickness =
@@ -171,7 +172,7 @@ void World::step(const std::function<void()>& after_substep) {
 void World::set_particles(BodyId body, std::span<const Particle> particles) {
   Parts& s = *parts_;
   assert(particles.size() == s.bodies.size(body));
-  s.solver.state().set_particles(body, particles);
+  s.book_change([&] { s.solver.state().set_particles(body, particles); });
   s.solver.state().memory(body).may_lie_in_solid = true;
   s.wake_all();
   s.update_positions();
@@ -239,20 +240,13 @@ Particle World::particle(BodyId body, Index vertex) const { return parts_->solve
 const collide::Result& World::detection() const { return parts_->result; }
 const collide::Detector& World::detector() const { return *parts_->detector; }
 std::span<const BodyId> World::vertex_body() const { return parts_->vertex_body; }
+const State& World::state() const { return parts_->solver.state(); }
 std::uint64_t World::state_hash() const { return parts_->solver.state().hash(); }
 const StepReport& World::last_step() const { return parts_->report; }
 
 BodyState World::body(BodyId body) const {
   const Body& b = parts_->solver.state().body(body);
   return {b.number, b.origin, b.pinned, b.asleep, parts_->solver.solid_contact().push(body).impulse};
-}
-
-PairEnergies World::pair_energies() const {
-  const Parts& s = *parts_;
-  PairEnergies energies{.last = s.solver.penalty_energies(), .next = {}};
-  if (s.plan.has(stage_of<PenaltyContact>))
-    energies.next = s.solver.penalty_energies({s.bodies, s.vertex_body, s.result.contacts}, s.penalty_thickness);
-  return energies;
 }
 
 std::vector<SurfaceContactPoint> World::surface_contacts() const {

@@ -13,7 +13,6 @@
 #include "collide/methods.h"
 #include "softbody/contact/contacts.h"
 #include "softbody/forces/grab.h"
-#include "softbody/forces/pair_energy.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/integrate/plan.h"
 #include "softbody/integrate/work.h"
@@ -24,6 +23,7 @@ namespace softbody {
 
 struct BodyModel;
 struct Snapshot;
+class State;
 
 /// Report of the last step. Before the first step all numbers but detect_ms are 0.
 struct StepReport {
@@ -36,8 +36,7 @@ struct StepReport {
   double last_substep = 0;  // s, its length
   /// The integrator that moved the bodies; the chosen one if no step was done since the choice.
   const Integrator* integrator = nullptr;
-  std::string_view why;      // reason for this integrator; empty unless it was chosen automatically
-  bool adds_energy = false;  // surface contact pushed overlapping bodies apart, or threw colliding ones back
+  std::string_view why;  // reason for this integrator; empty unless it was chosen automatically
 };
 
 /// A body that is not from the scene.
@@ -123,11 +122,11 @@ class World {
   const collide::Result& detection() const;   // at positions()
   const collide::Detector& detector() const;  // for its debug()
   bool all_at_rest() const;                   // all bodies are asleep, and none is still to come
+  const State& state() const;                 // of all particles
   std::uint64_t state_hash() const;           // over the bits of positions and velocities, in the order of bodies
 
   // The last step.
   const StepReport& last_step() const;
-  PairEnergies pair_energies() const;
   std::vector<SurfaceContactPoint> surface_contacts() const;  // if all bodies sleep: of the last substep before
 
  private:

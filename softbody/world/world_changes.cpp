@@ -163,7 +163,7 @@ void World::Parts::wake_near(BodyId body) {
 void World::remove(BodyId body) {
   Parts& s = *parts_;
   s.wake_near(body);
-  s.solver.remove(body);
+  s.book_change([&] { s.solver.remove(body); });
   std::erase_if(s.added, [&](const AddedBody& one) { return one.body == body; });
   for (AddedBody& one : s.added) one.body -= one.body > body;
   s.count_vertices();
@@ -185,8 +185,15 @@ void World::grab(const std::optional<Grab>& grab) {
 
 const std::optional<Grab>& World::grabbed() const { return parts_->solver.hand().grab(); }
 
+double World::Parts::energy() const {
+  double sum = 0;
+  for (const BodyMeasures& m : measure_bodies(solver.state(), scene.gravity))
+    sum += m.conserved(solver.state().ledger.staggering);
+  return sum;
+}
+
 void World::set_gravity(const glm::dvec3& gravity) {
-  parts_->scene.gravity = gravity;
+  parts_->book_change([&] { parts_->scene.gravity = gravity; });
   parts_->update_plan();
   parts_->wake_all();
 }
@@ -200,10 +207,12 @@ void World::set_material(std::size_t index, const Material& material) {
   }
   BodyModelSet changed = s.models;
   changed.set_material(int(index), material);
-  for (std::size_t i = 0; i < changed.all().size(); ++i) {
-    const auto &from = s.models.all()[i], &to = changed.all()[i];
-    if (from != to) s.solver.state().replace(from, to);
-  }
+  s.book_change([&] {
+    for (std::size_t i = 0; i < changed.all().size(); ++i) {
+      const auto &from = s.models.all()[i], &to = changed.all()[i];
+      if (from != to) s.solver.state().replace(from, to);
+    }
+  });
   s.models = std::move(changed);
   s.scene.materials[index] = material;
   s.update_plan();

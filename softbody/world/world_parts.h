@@ -43,6 +43,14 @@ struct WorldValues {
 struct World::Parts : WorldValues {
   Parts(Scene s, const Options& o);
 
+  /// Makes a change by the user, and books the energy that it gives to the bodies.
+  template <class Change>
+  void book_change(const Change& change) {
+    const double before = energy();
+    change();
+    solver.state().ledger.book(WorkBy::user, energy() - before);
+  }
+  double energy() const;  // J, of all bodies
   BodyId add(const BodySource& source, const glm::dvec3& position);
   void arrive();
   void count_vertices();

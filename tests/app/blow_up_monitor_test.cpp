@@ -32,33 +32,31 @@ TEST(BlowUpMonitor, ReportsABodyThatIsNotFinite) {
   EXPECT_NE(blow_up->what.find("Body 1 is no longer finite"), std::string::npos) << blow_up->what;
 }
 
-TEST(BlowUpMonitor, ReportsABodyThatGainsEnergyFromNothing) {
-  const softbody::World world = pair_after(1);
+TEST(BlowUpMonitor, ReportsABodyThatGainsEnergyFromNowhere) {
+  const softbody::World world = pair_after(20);
   auto bodies = softbody::measure_bodies(world);
-  const double weight = 9.81 * world.model(0).radius;  // J: m g R of one body of 1 kg
+  const double active = softbody::total(bodies).energies.kinetic;  // J, at least
   session::BlowUpMonitor monitor;
   EXPECT_FALSE(monitor.check(world, bodies));
-  bodies[1].energy.elastic += 0.1 * weight;
-  EXPECT_FALSE(monitor.check(world, bodies)) << "contacts may return as much";
-  bodies[1].energy.elastic += 0.3 * weight;
+  bodies[1].energy.elastic += 0.09 * active;
+  EXPECT_FALSE(monitor.check(world, bodies)) << "a tenth is allowed";
+  bodies[1].energy.elastic += 2 * active;
   const auto blow_up = monitor.check(world, bodies);
   ASSERT_TRUE(blow_up);
   EXPECT_EQ(blow_up->body, 1u);
   EXPECT_NE(blow_up->what.find("energy"), std::string::npos) << blow_up->what;
+  EXPECT_FALSE(monitor.check(world, bodies)) << "it stays at that";
 }
 
-TEST(BlowUpMonitor, ReportsABodyThatIsFasterThanPossible) {
+TEST(BlowUpMonitor, ReportsASingleFastParticle) {
   const softbody::World world = pair_after(1);
   auto bodies = softbody::measure_bodies(world);
   session::BlowUpMonitor monitor;
   EXPECT_FALSE(monitor.check(world, bodies));
-  bodies[0].max_speed = 13;
-  EXPECT_FALSE(monitor.check(world, bodies)) << "as fast as after a fall of a second, and half as much again";
-  bodies[0].max_speed = 60;
+  bodies[0].energy.kinetic += world.model(0).particle_mass / 2 * 60 * 60;
   const auto blow_up = monitor.check(world, bodies);
   ASSERT_TRUE(blow_up);
   EXPECT_EQ(blow_up->body, 0u);
-  EXPECT_NE(blow_up->what.find("m/s"), std::string::npos) << blow_up->what;
 }
 
 TEST(BlowUpMonitor, StartsAnewAfterRestart) {
@@ -108,7 +106,7 @@ TEST(BlowUpMonitor, AcceptsAHeldBodyThatSpringsBack) {
   double fastest = 0;
   for (int i = 0; i < 60; ++i) {
     world.step();
-    const auto bodies = softbody::measure_bodies(world, world.last_step().last_substep);
+    const auto bodies = softbody::measure_bodies(world);
     fastest = std::max(fastest, bodies[0].max_speed);
     const auto blow_up = monitor.check(world, bodies);
     ASSERT_FALSE(blow_up) << "frame " << i << ": " << blow_up->what;
@@ -116,35 +114,44 @@ TEST(BlowUpMonitor, AcceptsAHeldBodyThatSpringsBack) {
   EXPECT_GT(fastest, 10);
 }
 
-TEST(BlowUpMonitor, AcceptsABodyPushedOutOfASolidButNotForEver) {
+/// Looks at each frame of a world that gains energy by the work of contacts, first as it is, then with more energy.
+class Watched {
+ public:
+  explicit Watched(const softbody::Scene& scene) : world(scene, {}) { look(); }
+  void look() {
+    world.step();
+    auto bodies = softbody::measure_bodies(world);
+    const auto blow_up = monitor_.check(world, bodies);
+    EXPECT_FALSE(blow_up) << "frame " << world.frame() << ": " << blow_up->what;
+    const softbody::Energy all = softbody::total(bodies).energies;
+    const double more = 1 + 0.2 * (all.kinetic + all.elastic);  // J
+    bodies[0].energy.elastic += more;
+    EXPECT_TRUE(monitor_.check(world, bodies)) << "a blow-up in frame " << world.frame();
+    bodies[0].energy.elastic -= more;
+    monitor_.check(world, bodies);
+    most = std::max(most, softbody::measure(world).energy);
+  }
+  softbody::World world;
+  double most = -1e9;  // J
+
+ private:
+  session::BlowUpMonitor monitor_;
+};
+
+TEST(BlowUpMonitor, AcceptsABodyPushedOutOfASolid) {
   softbody::Scene scene = touching_pair();
   scene.bodies.resize(1);
   scene.ground.reset();
-  softbody::World world(scene, {});
-  session::BlowUpMonitor monitor;
-  const auto look = [&] {
-    world.step();
-    return monitor.check(world, softbody::measure_bodies(world, world.last_step().last_substep));
-  };
-  for (int i = 0; i < 5; ++i) ASSERT_FALSE(look());
-  const double start = softbody::measure(world).energy;
-  scene.spheres.push_back({.centre = world.body(0).origin - glm::dvec3(0.1, 0.3, 0), .radius = 1});
-  world.set_solids(scene);
-  monitor.restart();
-  double most = start;
-  int frame = 0;
-  for (; frame < 5 || softbody::measure(world).deepest_penetration > 0; ++frame) {
+  Watched watched(scene);
+  for (int i = 0; i < 4; ++i) watched.look();
+  const double start = softbody::measure(watched.world).energy;
+  scene.spheres.push_back({.centre = watched.world.body(0).origin - glm::dvec3(0.1, 0.3, 0), .radius = 1});
+  watched.world.set_solids(scene);
+  for (int frame = 0; frame < 5 || softbody::measure(watched.world).deepest_penetration > 0; ++frame) {
     ASSERT_LT(frame, 600);
-    const auto blow_up = look();
-    ASSERT_FALSE(blow_up) << "frame " << frame << ": " << blow_up->what;
-    most = std::max(most, softbody::measure(world).energy);
+    watched.look();
   }
-  EXPECT_GT(most, start + 9.81 * world.model(0).radius)
-      << "pushed out with ten times the gain that is a blow-up elsewhere";
-  ASSERT_FALSE(look());
-  auto bodies = softbody::measure_bodies(world, world.last_step().last_substep);
-  bodies[0].energy.elastic += 2 * (most - start);
-  EXPECT_TRUE(monitor.check(world, bodies));
+  EXPECT_GT(watched.most, start + 9.81 * watched.world.model(0).radius) << "or nothing pushed it out";
 }
 
 /// A row of overlapping bodies, each of which is pushed away from the next.
@@ -156,27 +163,14 @@ TEST(BlowUpMonitor, AcceptsOverlappingSurfacesThatSeparate) {
   scene.bodies.resize(24, scene.bodies[0]);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) scene.bodies[b].position = {0.4 * double(b), 0, 0};
   scene.contact_surface = softbody::ContactSurface::surfaces;
-  softbody::World world(scene, {});
-  session::BlowUpMonitor monitor;
-  const auto look = [&](double joules) {
-    world.step();
-    auto bodies = softbody::measure_bodies(world, world.last_step().last_substep);
-    bodies[0].energy.elastic += joules;
-    return monitor.check(world, bodies);
-  };
-  ASSERT_FALSE(look(0));
-  const double first = softbody::measure(world).energy;
-  for (int i = 0; i < 100; ++i) {
-    const auto blow_up = look(0);
-    ASSERT_FALSE(blow_up) << "frame " << i << ": " << blow_up->what;
-  }
-  const double last = softbody::measure(world).energy;
-  EXPECT_GT(last, 1.5 * first);
-  EXPECT_TRUE(look(0.2 * last)) << "they are separate now";
+  Watched watched(scene);
+  const double first = softbody::measure(watched.world).energy;
+  for (int i = 0; i < 100; ++i) watched.look();
+  EXPECT_GT(watched.most, 1.5 * first);
 }
 
 /// Sheets in one plane, which never separate.
-TEST(BlowUpMonitor, WaitsASecondForSurfacesToSeparate) {
+TEST(BlowUpMonitor, JudgesSurfacesThatNeverSeparate) {
   softbody::Scene scene = touching_pair();
   scene.gravity = glm::dvec3(0.0);
   for (softbody::BodySource& body : scene.bodies) {
@@ -185,15 +179,8 @@ TEST(BlowUpMonitor, WaitsASecondForSurfacesToSeparate) {
   }
   scene.bodies[1].position += glm::dvec3(0.02, 0, 0.01);
   scene.contact_surface = softbody::ContactSurface::surfaces;
-  softbody::World world(scene, {});
-  session::BlowUpMonitor monitor;
-  for (std::size_t i = 0; i < 2 * session::BlowUpMonitor::memory; ++i) {
-    world.step();
-    ASSERT_TRUE(world.last_step().adds_energy) << i;
-    auto bodies = softbody::measure_bodies(world, world.last_step().last_substep);
-    bodies[0].energy.elastic = std::pow(2.0, double(i));
-    EXPECT_EQ(monitor.check(world, bodies).has_value(), i > session::BlowUpMonitor::memory) << i;
-  }
+  Watched watched(scene);
+  for (int i = 0; i < 120; ++i) watched.look();
 }
 
 /// Gas whose pressure changes suddenly makes bodies swing as fast as explicit steps can follow.
@@ -221,7 +208,7 @@ TEST(BlowUpMonitor, ReportsTheBlowUpOfEveryExplicitIntegrator) {
     softbody::World world(scene, {.integrator = {integrator, 1}});
     session::BlowUpMonitor monitor;
     std::optional<session::BlowUp> blow_up;
-    while (!blow_up && world.frame() < 60) {
+    while (!blow_up && world.frame() < 10) {
       world.step();
       blow_up = monitor.check(world, softbody::measure_bodies(world));
     }

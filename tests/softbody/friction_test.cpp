@@ -85,13 +85,14 @@ class SolidKernels : public tests::OnEveryTarget {
                      .place = {},
                      .moves = moves,
                      .impulse = {impulse.x, impulse.y, impulse.z},
-                     .returned = returned};
+                     .returned = returned,
+                     .work = work};
     s.h = 0.01f;
     return s;
   }
   void act(const SolidArguments& s) { act_by_solid(lanes, lanes, s, std::as_const(x).field(), v.field()); }
 
-  float moves[lanes], returned[lanes]{};
+  float moves[lanes], returned[lanes]{}, work[lanes]{};
   LaneVector impulse{};
   LaneField x{1}, v{1};
 };
@@ -182,7 +183,8 @@ TEST_P(SolidKernels, OfASphereActWhereverTheLawDoesAndNowhereElse) {
       const auto surface =
           body::surface_at(SphereShape<float>{3}, body::Vec<float>{float(at.x), float(at.y), float(at.z)});
       expected[l] = {float(speed.x), float(speed.y), float(speed.z)};
-      acted += body::respond(s, 1.0f, surface.distance, surface.normal, {}, expected[l]) > 0;
+      float given = 0;
+      acted += body::respond(s, 1.0f, surface.distance, surface.normal, {}, expected[l], given) > 0;
     }
     act(s);
     for (int l = 0; l < lanes; ++l)

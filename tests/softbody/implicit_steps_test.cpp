@@ -23,7 +23,7 @@ struct BatchRig {
   PenaltyContact penalty;
   std::vector<SolidArguments> solids{1};
   LaneVector impulse{};
-  std::array<float, lanes> returned{};
+  std::array<float, lanes> returned{}, given{};
 
   BatchRig() {
     solids[0].moves = moves.data();
@@ -63,7 +63,9 @@ struct BatchRig {
             ends,
             [](BodyId id) { return id < 2; }};
   }
-  ImplicitResult result() { return {mean.field(), rest.field(), {impulse.x, impulse.y, impulse.z}, returned.data()}; }
+  ImplicitResult result() {
+    return {mean.field(), rest.field(), {impulse.x, impulse.y, impulse.z}, returned.data(), given.data()};
+  }
   /// m/s, of a lane's ball as a whole.
   glm::dvec3 velocity(const LaneField& f, int lane) const {
     glm::dvec3 sum(0.0);

@@ -35,7 +35,7 @@ void expect_the_same_again(World& world, const Scene& scene, int frames) {
   const Snapshot snapshot = world.snapshot();
   const auto touches = [](const World& w) { return w.surface_contacts().size(); };
   const std::size_t touched = touches(world);
-  const double held = total(world.pair_energies().last);
+  const double held = WorldTestAccess::penalty_energy(world);
   const Course first = follow(world, frames);
   world.restore(snapshot);
   EXPECT_EQ(world.frame(), snapshot.frame);
@@ -43,7 +43,7 @@ void expect_the_same_again(World& world, const Scene& scene, int frames) {
   EXPECT_TRUE(follow(world, frames) == first) << "from frame " << snapshot.frame;
   World fresh(scene, {.threads = 2});
   fresh.restore(snapshot);
-  EXPECT_EQ(total(fresh.pair_energies().last), held);
+  EXPECT_EQ(WorldTestAccess::penalty_energy(fresh), held);
   EXPECT_TRUE(follow(fresh, frames) == first) << "in a new world from frame " << snapshot.frame;
 }
 

@@ -7,6 +7,12 @@ namespace softbody {
 
 struct WorldTestAccess {
   static const Solver& solver(const World& world) { return world.parts_->solver; }
+  /// J, that the penalty pairs of the last frame hold now.
+  static double penalty_energy(const World& world) {
+    PenaltyContact last = solver(world).penalty_contact();
+    last.locate(world.state());
+    return last.energy(field(world.state().x));
+  }
   /// m, of the penalty force: grows slowly towards the tolerance.
   static float penalty_thickness(const World& world) { return world.parts_->penalty_thickness; }
 };

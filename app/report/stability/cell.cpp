@@ -8,13 +8,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/reference/contact_energy_ledger.h"
 #include "app/report/solid_passages.h"
 #include "app/report/steps.h"
-#include "softbody/contact/law.h"
 #include "softbody/forces/gas.h"
-#include "softbody/world/measures.h"
-#include "softbody/world/snapshot.h"
+#include "softbody/world/energy_watch.h"
 
 namespace app::report {
 namespace {
@@ -49,32 +46,34 @@ class Run {
     for (BodyId b = 0; b < particles.size(); ++b) world.set_particles(b, particles[b]);
     if (frame_ == 0) {
       passages_.observe(world);
-      contact_energy_.add_bodies(world.pair_energies().next, 0);
       while (bodies_ < world.bodies().count()) add_body();
+      available_ = softbody::measure(world).energy;
     }
+    energy_.restart();
+    energy_.look(world, softbody::measure_bodies(world));
+    booked_ = softbody::ledger(world).total();
     return world;
   }
 
   void step(World& world) {
     join(world);
-    const double depth_before = softbody::measure(world).deepest_penetration;
     world.step();
     ++frame_;
     time_ += world.frame_time();
     require_whole_frame(world);
     if (bodies_ == 0) return;  // there is no body to judge
     passages_.observe(world);
-    contact_energy_.end_frame(world.pair_energies().last, world.pair_energies().next);
+    count_excess(world);
     const softbody::Measures m = softbody::measure(world);
     reference::StabilitySample s{.time = time_,
                                  .frame = frame_,
                                  .finite = m.finite,
-                                 .energy = m.energy + contact_energy_.stored(),
+                                 .excess = excess_,
                                  .scale = std::max(above_balance_, weight_),
                                  .speed = m.max_speed,
                                  .depth = m.deepest_penetration,
                                  .passed_through = passages_.count()};
-    if (m.finite) add_reach(world, s, depth_before);
+    if (m.finite) add_reach(world, s);
     assessment_.add(s);
   }
 
@@ -83,12 +82,15 @@ class Run {
   const reference::StabilityFigures& figures() const { return assessment_.figures(); }
 
  private:
-  void add_reach(const World& world, reference::StabilitySample& s, double depth_before) {
-    add_work(world, depth_before);
-    s.work = work_;
-    const reference::StabilityLimits& limits = start_.limits;
-    double available =
-        limits.energy + work_ + reference::stability_bounds.energy * s.scale;  // for all but gravity and gas
+  void count_excess(const World& world) {
+    available_ += softbody::ledger(world).total() - booked_;
+    booked_ = softbody::ledger(world).total();
+    excess_ = std::max(0.0, excess_ + energy_.look(world, softbody::measure_bodies(world))->gain);
+  }
+
+  void add_reach(const World& world, reference::StabilitySample& s) {
+    // J, for all but gravity and gas
+    double available = available_ + reference::stability_bounds.energy * s.scale;
     double gas = 0;
     std::vector<double> extents;
     for (BodyId b = 0; b < world.bodies().count(); ++b) {
@@ -116,27 +118,10 @@ class Run {
     return member;
   }
 
-  /// Credits bodies that join in the coming step with their energy, which may be negative, and with what their pairs
-  /// hold where they join; not with what their first frame makes of it.
-  void join(World& world) {
+  /// Counts bodies that join in the coming step.
+  void join(const World& world) {
     const std::vector<softbody::BodySource>& sources = start_.scene.bodies;  // in this order
-    const BodyId first = bodies_;
-    while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame()) {
-      const StabilityStart::Member& member = add_body();
-      work_ += member.energy();
-      above_balance_ += member.kinetic;
-    }
-    if (bodies_ == first) return;
-    const auto joiners = std::span(sources).subspan(first, bodies_ - first);
-    work_ += contact_energy_.add_bodies(penalty_energies_with(world, joiners), world.bodies().vertex_count());
-  }
-
-  /// Adds the most work that solids can do on what is inside them: their impulse times the speed of separation.
-  void add_work(const World& world, double depth_before) {
-    if (frame_ > 1 && depth_before <= 0) came_out_ = true;
-    if (start_.limits.begins_inside && !came_out_)
-      for (BodyId b = 0; b < world.bodies().count(); ++b)
-        work_ += softbody::law::max_separation_speed * glm::length(world.body(b).solid_impulse);
+    while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame()) above_balance_ += add_body().kinetic;
   }
 
   const StabilityStart& start_;
@@ -147,10 +132,12 @@ class Run {
   double weight_ = 0;                                          // J, their m g R
   double lightest_ = std::numeric_limits<double>::infinity();  // kg, of their particles
   SolidPassages passages_;
-  reference::ContactEnergyLedger contact_energy_;
+  softbody::EnergyWatch energy_;
+  double booked_ = 0;     // J, by the end of the last frame
+  double available_ = 0;  // J: energy at the start, and all work since
+  double excess_ = 0;     // J, see StabilitySample
   int frame_ = 0;
-  double time_ = 0, work_ = 0;
-  bool came_out_ = false;
+  double time_ = 0;
 };
 
 reference::ReferenceDeviation compare(const World& world, const StabilityStart& start) {
@@ -166,16 +153,6 @@ reference::ReferenceDeviation compare(const World& world, const StabilityStart& 
 }
 
 }  // namespace
-
-std::vector<softbody::PairEnergy> penalty_energies_with(softbody::World& world,
-                                                        std::span<const softbody::BodySource> joiners) {
-  if (!world.plan().has("contact-response")) return {};
-  const softbody::Snapshot before = world.snapshot();
-  for (const softbody::BodySource& joiner : joiners) world.add(joiner);
-  std::vector<softbody::PairEnergy> pairs = world.pair_energies().next;
-  world.restore(before);
-  return pairs;
-}
 
 reference::StabilityFigures run_cell(const StabilityStart& start, const softbody::Integrator& integrator, double dt) {
   try {

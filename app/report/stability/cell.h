@@ -12,9 +12,4 @@ namespace app::report {
 /// the length of a frame.
 reference::StabilityFigures run_cell(const StabilityStart& start, const softbody::Integrator& integrator, double dt);
 
-/// Returns what penalty contacts would store if these bodies joined now, each at its source's position, before a
-/// first frame has carried them into others. Leaves the world as it was.
-std::vector<softbody::PairEnergy> penalty_energies_with(softbody::World& world,
-                                                        std::span<const softbody::BodySource> joiners);
-
 }  // namespace app::report

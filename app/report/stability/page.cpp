@@ -92,9 +92,9 @@ void add_introduction(Page& page, const StabilityResults& r) {
       r.from_file ? "with all stiffnesses and pressures of the scene times a factor"
                   : "with springs of 10 to 1e8 N/m (bend springs a fourth of it, gas pressure in proportion)");
   page.item(
-      "A cell passes if: everything is finite; the energy of motion, springs, gas and gravity, and what bodies have "
-      "put into the penalty contacts between them, never exceeds that of the start and work from outside by more than "
-      "{:g} max(E0 - E_eq, m g R); the fastest particle and the longest box stay within what this energy can give; no "
+      "A cell passes if: everything is finite; the energy that came from nowhere (beyond the work booked in the "
+      "solver's ledger) and was not lost again is never more than {:g} max(E0 - E_eq, m g R); the fastest particle and "
+      "the longest box stay within what this energy can give; no "
       "particle is ever deeper than {:g} R in a solid (after 10 frames where it began inside), nor deeper than {:g} R "
       "in the last quarter; no body goes through a solid; and at the end shape (RMS, moved and turned to fit) is "
       "within {:g} R, volume within {:g} %, and motion within the body no more than {:g} m/s above a reference's.",
@@ -104,14 +104,7 @@ void add_introduction(Page& page, const StabilityResults& r) {
       "nothing but springs and gas acts), and change by less than 0.1 % when its step is halved or its start is "
       "disturbed by 1e-7 R. A case without a reference is marked *, with the reason below its table, and judged on the "
       "rest.");
-  page.item(
-      "Where bodies start or join, they have their own energy and all that the pairs of the penalty contact hold "
-      "there. What the first frame of a joining body adds to it, or carries it into, is not credited. E0 - E_eq and m "
-      "g R are those of all bodies that have started or joined by then.");
-  page.item(
-      "Penalty contacts push out what they find behind a surface. The potential of such a pair appears when the pair "
-      "is found. It is not credited: what it adds to the bodies counts as a gain. What bodies put into a pair by "
-      "pressing it further is their energy.");
+  page.item("E0 - E_eq and m g R are those of all bodies that have started or joined by then.");
   page.item("`stability.csv` has every figure of every cell.");
   if (r.quick) page.item("This is the quick report: fewer cases and stiffnesses, and half the time.");
 }

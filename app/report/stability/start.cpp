@@ -12,7 +12,6 @@
 #include "softbody/forces/springs.h"
 #include "softbody/world/body_model_set.h"
 #include "softbody/world/measures.h"
-#include "softbody/world/snapshot.h"
 
 namespace app::report {
 namespace {
@@ -59,28 +58,20 @@ World placed(const StabilityScene& from) {
 }
 
 /// Returns the body as it starts or joins: in its starting shape.
-StabilityStart::Member member_of(const softbody::BodyModel& p, const softbody::BodySource& source,
-                                 const dvec3& gravity) {
-  StabilityStart::Member m{
-      .chain = spring_chain_of(p),
-      .radius = p.radius,
-      .mass = p.material[softbody::Material::mass],
-      .particle_mass = p.particle_mass,
-      .balance = softbody::starting_energy(p).deformation(),
-      .kinetic = 0.5 * p.material[softbody::Material::mass] * glm::dot(source.velocity, source.velocity),
-      .height = 0};
-  for (const dvec3& x : p.start) m.height -= p.particle_mass * glm::dot(gravity, source.position + x);
-  return m;
+StabilityStart::Member member_of(const softbody::BodyModel& p, const softbody::BodySource& source) {
+  return {.chain = spring_chain_of(p),
+          .radius = p.radius,
+          .mass = p.material[softbody::Material::mass],
+          .particle_mass = p.particle_mass,
+          .balance = softbody::starting_energy(p).deformation(),
+          .kinetic = 0.5 * p.material[softbody::Material::mass] * glm::dot(source.velocity, source.velocity)};
 }
 
 reference::StabilityLimits limits_of(const World& world, const StabilityStart& start, double seconds) {
   const softbody::Measures m = softbody::measure(world);
   double min_radius = infinite;
   for (const StabilityStart::Member& member : start.members) min_radius = std::min(min_radius, member.radius);
-  return {.energy = m.energy + softbody::total(world.pair_energies().next),
-          .seconds = start.first_frame + seconds,
-          .radius = min_radius,
-          .begins_inside = m.deepest_penetration > 0};
+  return {.seconds = start.first_frame + seconds, .radius = min_radius, .begins_inside = m.deepest_penetration > 0};
 }
 
 /// True if shape and volume agree.
@@ -115,7 +106,7 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
   for (const softbody::BodySource& source : s.scene.bodies) {
     const auto model =
         softbody::shared_body_model(source.mesh, s.scene.materials[static_cast<std::size_t>(source.material)]);
-    s.members.push_back(member_of(*model, source, s.scene.gravity));
+    s.members.push_back(member_of(*model, source));
   }
   s.above_balance = softbody::measure(world).energy;
   for (BodyId b = 0; b < s.particles.size(); ++b)

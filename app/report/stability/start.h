@@ -17,9 +17,8 @@ struct StabilityStart {
   /// One body of the scene as it is when it starts or joins.
   struct Member {
     SpringChain chain;
-    double radius, mass, particle_mass;  // m, kg, kg
-    double balance, kinetic, height;     // J: springs and gas; of motion; of gravity, 0 at the origin
-    double energy() const { return balance + kinetic + height; }
+    double radius, mass, particle_mass;                     // m, kg, kg
+    double balance, kinetic;                                // J: springs and gas; of motion
     double weight() const { return mass * 9.81 * radius; }  // J, m g R
   };
 

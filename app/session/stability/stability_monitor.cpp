@@ -42,11 +42,9 @@ void StabilityMonitor::before_step(const softbody::World& world) {
 
 void StabilityMonitor::after_step(const softbody::World& world, bool monitored) {
   margin_ = margin_of(world);
-  const auto every = static_cast<int>(1 + world.bodies().vertex_count() / vertices_a_frame);
+  const auto every = static_cast<int>(std::min(most_frames, 1 + world.bodies().vertex_count() / vertices_a_frame));
   if (world.frame() % every != 0) return;
-  const softbody::StepReport& last = world.last_step();
-  const bool staggered = last.substeps > 0 && last.integrator->staggered;
-  const auto bodies = softbody::measure_bodies(world, staggered ? last.last_substep : 0);
+  const auto bodies = softbody::measure_bodies(world);
   record(world, bodies);
   if (!monitored) blow_up_monitor_.restart();
   if (monitored) update_blow_up(world, bodies);
@@ -56,7 +54,7 @@ void StabilityMonitor::update_blow_up(const softbody::World& world, const std::v
   auto found = blow_up_monitor_.check(world, bodies);
   if (found) {
     if (recovery_checks_ == 0) blow_up_ = std::move(found);  // a blow-up that continues is one blow-up
-    recovery_checks_ = BlowUpMonitor::memory;
+    recovery_checks_ = recovery;
   } else if (recovery_checks_ > 0) {
     --recovery_checks_;
   } else if (blow_up_monitor_.compared()) {

@@ -33,14 +33,15 @@ struct StepMargin {
 
 class StabilityMonitor {
  public:
-  /// A world is measured once every 1 + vertices / vertices_a_frame frames.
-  static constexpr std::size_t vertices_a_frame = 50'000;
+  /// A world is measured once every 1 + vertices / vertices_a_frame frames, but every so many at least: so it takes a
+  /// small share of a frame, and a blow-up is named within ten frames.
+  static constexpr std::size_t vertices_a_frame = 10'000, most_frames = 8;
+  /// So many checks without a blow-up have to follow one before another is reported.
+  static constexpr std::size_t recovery = 60;
 
   /// Call these around each step of the world. monitored: report a blow_up().
   void before_step(const softbody::World& world);
   void after_step(const softbody::World& world, bool monitored);
-  /// Tells of a change by the user, which may have added energy.
-  void intervened() { blow_up_monitor_.restart(); }
   /// Removes the blow_up() once the user continues. Another one is reported only after the world was good for a while.
   void dismiss_blow_up() { blow_up_.reset(); }
   /// Starts anew with another world.
@@ -51,8 +52,7 @@ class StabilityMonitor {
   void keep_present(const softbody::World& world);
 
   const Rewind& past() const { return rewind_; }
-  /// Returns the last frame of past() that was found good. The first frame after a change never is, because the world
-  /// may have blown up in it; nor is a frame in which the user holds a body. Precondition: past() is not empty.
+  /// Returns the last frame of past() that was found good. Precondition: past() is not empty.
   int last_good_frame() const { return rewind_.snapshots()[rewind_.at(good_frame_)].frame; }
   const std::optional<BlowUp>& blow_up() const { return blow_up_; }
   const StabilityHistory& history() const { return history_; }

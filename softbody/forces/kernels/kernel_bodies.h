@@ -246,6 +246,64 @@ struct AddStretch {
   }
 };
 
+/// What the forces inside bodies store, in double.
+template <class V>
+struct StoredSums {
+  double volume[lanes], rate[lanes];     // m^3 and m^3/s, of closed meshes
+  double gas[lanes], gas_growth[lanes];  // J and W, of forces that depend on the volume
+  V elastic, growth;                     // of the others
+  V strain;                              // the largest of a spring
+};
+
+/// As volume(), and how fast it grows.
+template <class V, int width>
+HWY_INLINE void volume_and_rate(const MovingBodies& b, StoredSums<V>& sums) {
+  const Vec<V> from = load<V>(b.x, b.model.mesh.triangles[0][0] * width);
+  V six{}, rate{};
+  for (const auto& [i, j, k] : b.model.mesh.triangles) {
+    const Vec<V> a = load<V>(b.x, i * width), area = cross(load<V>(b.x, j * width) - a, load<V>(b.x, k * width) - a);
+    six += dot(a - from, area);
+    rate += dot(load<V>(b.v, i * width) + load<V>(b.v, j * width) + load<V>(b.v, k * width), area);
+  }
+  store(sums.volume, six / V(6.0));
+  store(sums.rate, rate / V(6.0));
+}
+
+/// Adds what elements store, and how fast that grows. Wants the volumes.
+template <class V, int width>
+struct AddStored {
+  const MovingBodies& b;
+  StoredSums<V>& sums;
+
+  HWY_INLINE void operator()(Length c, const auto& law) const {
+    const std::size_t i = c.i * width, j = c.j * width;
+    const V tiny = V(1e-12);  // m
+    const Vec<V> dx = load<V>(b.x, j) - load<V>(b.x, i), dv = load<V>(b.v, j) - load<V>(b.v, i);
+    const V length = square_root(dot(dx, dx));
+    sums.elastic += law.stored(length);
+    sums.growth += law.pull(length) * dot(dx, dv) / larger(length, tiny);
+    if (law.rest > 0) {
+      const V stretch = V(1 / law.rest) * length - V(1.0);
+      sums.strain = larger(larger(stretch, -stretch), sums.strain);
+    }
+  }
+
+  HWY_INLINE void operator()(Volume, const auto& law) const {
+    for (int l = 0; l < std::min(b.used, lanes_of<V>); ++l) {
+      sums.gas[l] += law.stored(sums.volume[l]);
+      sums.gas_growth[l] += law.pull(sums.volume[l]) * sums.rate[l];
+    }
+  }
+
+  HWY_INLINE void operator()(Offset c, const Vec<V>& place, const auto& law) const {
+    const Vec<V> away = load<V>(b.x, c.i * width) - place;
+    sums.elastic += V(law.stiffness / 2) * dot(away, away);
+    sums.growth += V(law.stiffness) * dot(away, load<V>(b.v, c.i * width));
+  }
+
+  HWY_INLINE void operator()(Path, const auto&) const {}  // only damps
+};
+
 }  // namespace body
 }  // namespace HWY_NAMESPACE
 }  // namespace softbody

@@ -48,6 +48,26 @@ struct Projection {
   Projection from(std::size_t lane) const { return {h, moves + lane, x0 + lane, d + lane, scratch + lane}; }
 };
 
+/// Bodies of one model side by side, the first `used` of them, in double.
+struct MovingBodies {
+  const BodyModel& model;
+  int used;
+  Field<const double> x, v;  // m, m/s
+
+  /// Returns those from a lane on.
+  MovingBodies from(std::size_t lane) const { return {model, used - int(lane), x + lane, v + lane}; }
+};
+
+/// Sums over the particles of the body in each lane, and what the forces inside it store.
+struct MotionSums {
+  DoubleLaneVector place, velocity;       // m, m/s
+  double square[lanes], fastest2[lanes];  // (m/s)^2, the sum and the largest of the squared speeds
+  double volume[lanes];                   // m^3, of closed meshes
+  double elastic[lanes], gas[lanes];      // J
+  double growth[lanes];                   // W, how fast these two grow
+  double strain[lanes];                   // the largest, of a spring
+};
+
 /// What a force of a coordinate finds once from all particles: the poses of the shapes that offsets are from.
 template <class F, class Real>
 struct HeldOf {};

@@ -67,6 +67,42 @@ struct Kernels {
         result[first + std::size_t(l)] = {volumes[l], area2[l], stretch[l], two_medians[l]};
     }
   }
+  static void measure_motion(const MovingBodies& all, MotionSums& sums) {
+    using D = Run<double, width>;
+    for (std::size_t l = 0; l < std::size_t(all.used); l += lanes_of<D>) {
+      const MovingBodies b = all.from(l);
+      Vec<D> place{}, velocity{};
+      D square{}, fastest2{};
+      for (std::size_t at = 0; at < b.model.mesh.vertices.size() * width; at += width) {
+        const Vec<D> u = load<D>(b.v, at);
+        place = place + load<D>(b.x, at);
+        velocity = velocity + u;
+        square += dot(u, u);
+        fastest2 = larger(dot(u, u), fastest2);
+      }
+      store(field(sums.place), l, place);
+      store(field(sums.velocity), l, velocity);
+      store(sums.square + l, square);
+      store(sums.fastest2 + l, fastest2);
+      StoredSums<D> stored{};
+      if (b.model.mesh.closed) volume_and_rate<D, width>(b, stored);
+      for_each_force(Forces{}, [&]<class F>(Name<F>) HWY_ATTR {
+        if constexpr (HasElements<F>)
+          if (const auto* d = data<F>(b.model)) {
+            HeldOf<F, double> held{};
+            hold<F, D, width>(*d, b.x, b.used, held);
+            visit<F, D>(b.model, *d, held, AddStored<D, width>{b, stored});
+          }
+      });
+      for (int k = 0; k < std::min(b.used, lanes_of<D>); ++k) {
+        sums.volume[l + std::size_t(k)] = stored.volume[k];
+        sums.gas[l + std::size_t(k)] = stored.gas[k];
+      }
+      store(sums.elastic + l, stored.elastic);
+      store(sums.growth + l, stored.growth + load<D>(stored.gas_growth));
+      store(sums.strain + l, stored.strain);
+    }
+  }
   static constexpr ForceKernels make() {
     ForceKernels kernels{};
     for_each_force(Forces{}, [&]<class F>(Name<F>) {
@@ -74,6 +110,7 @@ struct Kernels {
       if constexpr (is_projected<F>()) kernels.project[index_of<F>] = &Kernels::template project<F>;
     });
     kernels.measure_surfaces = &Kernels::measure_surfaces;
+    kernels.measure_motion = &Kernels::measure_motion;
     return kernels;
   }
 };

@@ -14,6 +14,7 @@ struct ForceKernels {
   std::array<void (*)(const LaneBodies<float>&, const Projection&), force_count> project;
   /// Measures the surface of the body in each lane. f: room for dV/dx, and zero.
   void (*measure_surfaces)(const LaneBodies<float>&, SurfaceShape*);
+  void (*measure_motion)(const MovingBodies&, MotionSums&);
 };
 const ForceKernels& force_kernels(int width);
 

@@ -118,7 +118,7 @@ double energy_gain(const BodyModel& p, const ImplicitWork& work, std::size_t lan
   if (!pushed)  // then how fast it flies has no part in it
     motion -= p.material[Material::mass] / 2 * (glm::dot(before_mean, before_mean) + glm::dot(after_mean, after_mean));
   if (!std::isfinite(gain)) return std::numeric_limits<double>::infinity();
-  return gain > share * motion + rounding * (elastic + before) ? gain : 0;
+  return from_nowhere(gain, motion, rounding * (elastic + before), share) ? gain : 0;
 }
 
 bool dissipate(const BodyModel& p, ImplicitWork& work, std::size_t lane, double energy, bool pushed) {

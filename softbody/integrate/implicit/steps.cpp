@@ -40,9 +40,11 @@ void add_impulses(const ImplicitWork& work, double h, std::size_t first_lane, co
   const BodyField sum{result.impulse, first_lane, 1};
   for (const PlaneContact& c : work.planes) {
     const std::size_t lane = c.at % implicit_lanes;
-    const glm::dvec3 impulse = h * glm::dot(c.force, c.normal) * c.normal;
+    const double push = glm::dot(c.force, c.normal);
+    const glm::dvec3 impulse = h * push * c.normal;
     sum.add(lane, impulse);
     result.returned[first_lane + lane] += float(c.restitution * glm::length(impulse));
+    result.work[first_lane + lane] += float(push * c.out);
   }
 }
 

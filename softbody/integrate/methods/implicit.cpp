@@ -24,7 +24,8 @@ void Motion::solve_implicit(const Worker& worker, const Batch& b, Quantity mean,
                           {.mean = field(array(mean)),
                            .rest = field(array(rest)),
                            .impulse = parts_.solids.impulse(b),
-                           .returned = parts_.solids.returned(b)},
+                           .returned = parts_.solids.returned(b),
+                           .work = parts_.solids.work(b)},
                           double(h));
   // What solids throw back is in the solve: for the velocities' contact nothing has come at them.
   parts_.solids.clear_velocities(b);
