@@ -26,7 +26,10 @@ class JointSolver {
   };
   static Impulse impulse_of(const ContactRow& row) { return {row.normal_impulse, row.friction_impulse}; }
 
-  std::vector<Impulse> before_, direction_;  // of each row
+  void start_again(std::span<ContactRow* const> rows, Field<float> v);
+  static void set(ContactRow& row, const Impulse& to, Field<float> v);
+
+  std::vector<Impulse> start_, before_, direction_;  // of each row
 };
 
 /// Returns true if a contact misses its target by more than its slack.
