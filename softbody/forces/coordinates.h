@@ -21,7 +21,8 @@ enum class Coordinate {
   /// The way of each particle from its place in a shape, which follows the body. The data have elements<Real>(), the
   /// shape, and `stiffness` (N/m).
   offset,
-  /// The way of each particle through space. The data have `damping` (N s/m), and there is no other force.
+  /// The way of each particle through space. The data have `damping` (N s/m), the same at any speed, and there is no
+  /// other force.
   path,
 };
 

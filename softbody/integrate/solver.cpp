@@ -168,8 +168,7 @@ void Solver::set_staggering(double h, bool first) {
   double& now = state_.ledger.staggering;
   const double before = now;
   now = integrator.staggered ? h : 0;
-  if (now > 0 && steps_.fixed())
-    now = !first ? before : reserve * h * bounds_.measure(integrator).stable > 1 ? 0 : h;
+  if (now > 0 && steps_.fixed()) now = !first ? before : reserve * h * bounds_.measure(integrator).stable > 1 ? 0 : h;
   if (std::abs(now - before) <= close * std::max(now, before)) {
     now = before;
     return;
