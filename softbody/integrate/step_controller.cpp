@@ -80,7 +80,8 @@ const StepPlan& StepController::plan(const StepBound& b, double left) {
   const double needed = seconds_ * std::max({1 / longest_step, b.passing, any_step ? 0 : b.stable});
   const int whole = int(std::ceil(std::min(needed, max_count) * nearly));
   plan_.needed = plan_.substeps > 0 ? std::min(plan_.needed, whole) : whole;
-  const double rate = any_step ? implicit_rate(b) : explicit_rate(b);
+  const double own = integrator.substeps_per_step / seconds_;
+  const double rate = std::max(own, any_step ? implicit_rate(b) : explicit_rate(b));
   double count = left / seconds_;
   if (fixed()) {
     count *= fixed_steps_ * integrator.substeps_per_step;
