@@ -33,14 +33,15 @@ glm::dvec3 middle_of(const softbody::World& world, collide::Index body) {
 bool SolidPassages::passed(const softbody::World& world, const glm::dvec3& from, const glm::dvec3& to,
                            double radius) const {
   const int parts = 1 + static_cast<int>(std::min(16 * glm::distance(from, to) / radius, 4000.0));
-  std::optional<glm::vec3> in, out;  // normals of the solid where the line goes in and comes out
-  for (int i = 1; i < parts; ++i) {
+  std::optional<glm::vec3> in;  // the solid's normal where the line went in
+  softbody::SolidDepth before = softbody::solid_depth(world.scene(), from);
+  for (int i = 1; i <= parts; ++i) {
     const softbody::SolidDepth at = softbody::solid_depth(world.scene(), glm::mix(from, to, double(i) / parts));
-    if (at.depth <= 0) continue;
-    if (!in) in = at.normal;
-    out = at.normal;
+    if (at.depth > 0 && !in) in = before.normal;
+    if (at.depth <= 0 && before.depth > 0 && in && glm::dot(*in, at.normal) < opposite) return true;
+    before = at;
   }
-  return in && glm::dot(*in, *out) < opposite;
+  return false;
 }
 
 bool SolidPassages::observe(const softbody::World& world) {

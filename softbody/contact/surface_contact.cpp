@@ -58,6 +58,7 @@ SurfaceContact::State SurfaceContact::save() const {
 void SurfaceContact::restore(const State& state) {
   candidates_.restore(state.candidates);
   thread_work_.resize(std::max(thread_work_.size(), std::size_t{1}));
+  for (ThreadWork& work : thread_work_) work.joint_work = 0;
   thread_work_[0].rows = state.rows;
   last_h_ = state.last_h;
 }

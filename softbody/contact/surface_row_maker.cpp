@@ -252,10 +252,10 @@ void SurfaceRowMaker::add_row(const Pair& pair, const ContactRow& corners, const
   row.push = std::max({0.0f, row.target, gap < 0 ? row.bias : 0.0f});
   if (cached.normal_impulse == 0 && gap + step_.h * speed < 0)
     row.target = std::max(row.target, law::rebound(-speed, pair.restitution));
-  row.slack = hair * distance / step_.h;
+  row.slack = hair * pair.distance / step_.h;
   row.friction = pair.friction;
   // Bodies that stand in each other's way cannot all be pushed out as they ask for: handed on in full, their impulses
-  // would grow with every substep_.
+  // would grow with every substep.
   const float kept = spare > 0 ? step_.h_ratio : push_kept * step_.h_ratio;
   row.normal_impulse = kept * cached.normal_impulse;
   row.friction_impulse = kept * (cached.friction_impulse - glm::dot(cached.friction_impulse, normal) * normal);

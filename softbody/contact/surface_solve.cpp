@@ -18,6 +18,7 @@ void solve_row(ContactRow& row, Field<float> v) {
   const float held =
       row.relative_stiffness / (1 + row.relative_stiffness) * (row.normal_impulse + row.mass * (row.bias - speed));
   const float normal_impulse = std::max({0.0f, held, row.normal_impulse + row.mass * (row.target - speed)});
+  row.work = 0;
   if (normal_impulse == 0 && row.normal_impulse == 0) return;
   const float push = normal_impulse - row.normal_impulse;
   row.normal_impulse = normal_impulse;
@@ -94,8 +95,10 @@ void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<
     solve_row(row, v);
     keep(row);
   });
-  thread_work_[static_cast<std::size_t>(thread)].joint_work = 0;
-  if (thread == 0) last_h_ = h;
+  if (thread == 0) {
+    for (ThreadWork& work : thread_work_) work.joint_work = 0;
+    last_h_ = h;
+  }
   if (few_rows()) barrier();
 }
 
@@ -126,7 +129,7 @@ void SurfaceContact::join_islands() {
   std::vector<Index> joined(candidates_.body_count());
   std::iota(joined.begin(), joined.end(), Index{0});
   const auto root = [&](Index body) {
-    while (joined[body] != body) body = joined[body];
+    while (joined[body] != body) body = joined[body] = joined[joined[body]];
     return body;
   };
   for (const Pair& p : pairs)

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 
@@ -29,7 +30,10 @@ class EnergyLedger {
   /// half a substep of this length, see BodyMeasures::conserved(). 0: the energy itself.
   double staggering = 0;
 
-  void book(WorkBy by, double joules) { accounts_[std::size_t(by)] += joules; }
+  /// Books nothing that is not finite: that shows in the bodies themselves, and may be gone with them.
+  void book(WorkBy by, double joules) {
+    if (std::isfinite(joules)) accounts_[std::size_t(by)] += joules;
+  }
   double booked(WorkBy by) const { return accounts_[std::size_t(by)]; }
   double total() const { return std::accumulate(accounts_.begin(), accounts_.end(), 0.0); }
 

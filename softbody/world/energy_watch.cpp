@@ -41,7 +41,8 @@ double rounding_energy(const World& world) {
 
 std::optional<EnergyChange> EnergyWatch::look(const World& world, const Measured& bodies) {
   assert(bodies.size() == world.bodies().count());
-  Look now{{}, {}, ledger(world).total(), active_energy(world, bodies)};
+  const Integrator* integrator = world.last_step().integrator;  // none before the first step
+  Look now{{}, {}, ledger(world).total(), active_energy(world, bodies), !integrator || integrator->conserves_energy};
   for (BodyId id = 0; id < bodies.size(); ++id) {
     now.numbers.push_back(world.body(id).number);
     now.energies.push_back(bodies[id].conserved(ledger(world).staggering));
@@ -52,7 +53,7 @@ std::optional<EnergyChange> EnergyWatch::look(const World& world, const Measured
                       .active = std::max(before->active, now.active),
                       .rounding = rounding_energy(world),
                       .body = 0,
-                      .conserved = world.last_step().integrator->conserves_energy};
+                      .conserved = before->conserved && now.conserved};
   double largest = -std::numeric_limits<double>::infinity();
   for (BodyId id = 0; id < bodies.size(); ++id) {
     const auto old = std::ranges::lower_bound(before->numbers, now.numbers[id]);

@@ -33,6 +33,7 @@ class EnergyWatch {
     std::vector<std::uint32_t> numbers;  // of the bodies, see BodyState; ascending
     std::vector<double> energies;        // J, theirs
     double booked, active;               // J; the latter of motion and deformation
+    bool conserved;                      // by the integrator
   };
   std::optional<Look> last_;
 };

@@ -85,7 +85,8 @@ class Run {
   void count_excess(const World& world) {
     available_ += softbody::ledger(world).total() - booked_;
     booked_ = softbody::ledger(world).total();
-    excess_ = std::max(0.0, excess_ + energy_.look(world, softbody::measure_bodies(world))->gain);
+    const double excess = excess_ + energy_.look(world, softbody::measure_bodies(world))->gain;
+    excess_ = excess < 0 ? 0 : excess;  // what is not a number stays
   }
 
   void add_reach(const World& world, reference::StabilitySample& s) {
