@@ -47,10 +47,10 @@ app: app/base app/files app/cli app/report app/window collide softbody engine
 # They include only each other of softbody, so that no change of the solver reaches app.
 public="
 mesh/limits mesh/mesh mesh/mesh_import mesh/mesh_source mesh/obj_file
-state/body state/energy_ledger state/lane_math state/lanes state/simd
+state/best_rotation state/body state/energy_ledger state/lane_math state/lanes state/simd
 model/key model/material model/body_model model/scene_error
 contact/contacts contact/keys contact/law contact/solid contact/solid_surface
-forces/best_rotation forces/body_measures forces/bound forces/coordinates forces/gas forces/grab forces/material_keys
+forces/body_measures forces/bound forces/coordinates forces/gas forces/grab forces/material_keys
 forces/shape_matching forces/springs
 scene/limits scene/scene scene/scene_write scene/solids scene/toml_table scene/toml_text
 integrate/integrators integrate/work integrate/plan

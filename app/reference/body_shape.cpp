@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "softbody/forces/best_rotation.h"
+#include "softbody/state/best_rotation.h"
 
 namespace app::reference {
 namespace {

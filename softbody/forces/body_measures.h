@@ -14,8 +14,8 @@ class State;
 /// Energies in J, without the energy that contacts store.
 struct Energy {
   double kinetic = 0;
-  double elastic = 0;  // springs and shape matching
-  double gas = 0;
+  double elastic = 0;  // of all forces inside bodies but:
+  double gas = 0;      // those that depend on the volume
   double gravity = 0;  // measured from the world's origin
   double deformation() const { return elastic + gas; }
   double total() const { return kinetic + elastic + gas + gravity; }

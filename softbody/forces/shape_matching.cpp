@@ -4,7 +4,7 @@
 
 #include <glm/mat3x3.hpp>
 
-#include "softbody/forces/best_rotation.h"
+#include "softbody/state/best_rotation.h"
 
 namespace softbody {
 

@@ -8,7 +8,7 @@
 namespace softbody {
 
 /// What things cost, in units of one particle in an explicit substep: about 10 ns on one thread, where 16 bodies share
-/// a block. `test_softbody --gtest_also_run_disabled_tests --gtest_filter=Work.*` measures it.
+/// a block. `soak` prints how long a unit takes.
 namespace work {
 inline constexpr double substep = 300;     // of a substep, beside its particles
 inline constexpr double bound = 2;         // of a particle, where its bound is measured

@@ -52,7 +52,10 @@ class Soak {
       for (int i = 0; i < frames_a_second && work < max_second_work; ++i) {
         const int before = demo_.session.world().frame();
         frame(i % picture_every == 0);
-        if (demo_.session.world().frame() != before) work += steps().spent();
+        if (demo_.session.world().frame() == before) continue;
+        work += steps().spent();
+        spent_ += steps().spent();
+        solve_ms_ += demo_.session.world().last_step().solve_ms;
       }
       if (work >= max_second_work) {
         ++shortened_seconds_;
@@ -78,8 +81,9 @@ class Soak {
 
   void print_progress(const std::string& scene, int seconds) const {
     std::printf(
-        "%-10s %4d s, %llu frames so far: at most %.2g of the budget, %llu pair tests, %.2f s of processor time; %s\n",
-        scene.c_str(), seconds, static_cast<unsigned long long>(frames_), work_,
+        "%-10s %4d s, %llu frames so far: at most %.2g of the budget, %.1f ns a unit of work, %llu pair tests, %.2f s "
+        "of processor time; %s\n",
+        scene.c_str(), seconds, static_cast<unsigned long long>(frames_), work_, 1e6 * solve_ms_ / spent_,
         static_cast<unsigned long long>(pair_tests_), slowest_, describe(resources()).c_str());
     std::fflush(stdout);
   }
@@ -197,8 +201,9 @@ class Soak {
   DemoRig demo_;
   Dice dice_{""};
   std::string last_action_ = "nothing";
-  collide::Index bodies_ = 0;  // of the scene at its start
-  double work_ = 0;            // of the frame with most, over its budget
+  collide::Index bodies_ = 0;        // of the scene at its start
+  double work_ = 0;                  // of the frame with most, over its budget
+  double spent_ = 0, solve_ms_ = 0;  // units of work; ms that they took
   int explosions_ = 0, explosions_by_itself_ = 0, shortened_seconds_ = 0;
   std::uint64_t frames_ = 0, pair_tests_ = 0;
   double slowest_ = 0;  // s of processor time

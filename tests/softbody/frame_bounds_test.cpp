@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <ctime>
-
 #include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_test_access.h"
@@ -211,27 +208,6 @@ TEST(MaxCandidates, EndTheFrame) {
   world.set_particles(1, near);
   world.step();
   EXPECT_EQ(world.last_step().seconds, world.frame_time());
-}
-
-/// Prints how long a unit of work takes, beside the detector's, where most of it is of one kind.
-TEST(Work, DISABLED_TakesAboutTenNanosecondsAUnit) {
-  for (const ContactSurfaceInfo& surface : contact_surfaces)
-    for (const std::string integrator : {"semi-implicit-euler", "implicit"})
-      for (const std::string key : {"D", "container", "star", "drop-3000"}) {
-        Scene scene = find_scene(key, SBCOLLIDE_SCENES);
-        scene.contact_surface = surface.value;
-        World world(scene, {.integrator = {integrator}});
-        run(world, 60);
-        double seconds = 0, work = 0;
-        for (int frame = 0; frame < 3; ++frame) {
-          const std::clock_t before = std::clock();
-          world.step();
-          seconds += double(std::clock() - before) / CLOCKS_PER_SEC - 1e-3 * world.last_step().detect_ms;
-          work += WorldTestAccess::solver(world).steps().spent();
-        }
-        std::printf("%-10s %-20s %-9s %6.1f ns\n", key.c_str(), integrator.c_str(), surface.key.data(),
-                    1e9 * seconds / work);
-      }
 }
 
 TEST(PenaltyContact, GrowsByTheSimulatedSecondsOfAShortFrame) {

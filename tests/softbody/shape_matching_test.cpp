@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "softbody/forces/best_rotation.h"
+#include "softbody/state/best_rotation.h"
 #include "softbody/forces/deformation.h"
 #include "softbody/forces/equilibrium.h"
 #include "softbody/forces/shape_matching.h"

@@ -8,7 +8,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "softbody/forces/best_rotation.h"
+#include "softbody/state/best_rotation.h"
 #include "softbody/integrate/implicit/planes.h"
 
 namespace softbody {

@@ -1,4 +1,4 @@
-#include "softbody/forces/best_rotation.h"
+#include "softbody/state/best_rotation.h"
 
 #include <array>
 #include <cmath>
