@@ -1,6 +1,6 @@
 #pragma once
 // Contacts that press on each other all at once: a heavy body on a light one that lies on a solid. Gauss and Seidel
-// need about as many sweeps there as the one is heavier than the other; conjugate gradients need the root of it.
+// need about as many sweeps there as the one is heavier than the other; conjugate gradients need fewer.
 
 #include <span>
 #include <vector>
