@@ -6,10 +6,10 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "softbody/state/best_rotation.h"
 #include "softbody/forces/deformation.h"
 #include "softbody/forces/equilibrium.h"
 #include "softbody/forces/shape_matching.h"
+#include "softbody/state/best_rotation.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

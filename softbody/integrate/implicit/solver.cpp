@@ -8,8 +8,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "softbody/state/best_rotation.h"
 #include "softbody/integrate/implicit/planes.h"
+#include "softbody/state/best_rotation.h"
 
 namespace softbody {
 namespace {
