@@ -127,7 +127,7 @@ double stable_step(double k_m, double c_m) {
   return 0.8 * (2 / omega) / (std::sqrt(1 + z * z) + z);  // sqrt(1 + z^2) - z, but exact for large z too
 }
 
-double stiffness_per_mass(const BodyModel& p, const SurfaceShape& surface) {
+double stiffness_per_mass(const BodyModel& p, const SurfaceShape& surface, Volumes volumes) {
   const ModelForces& f = *p.forces;
   const double others = f.pair_stiffness / p.particle_mass + f.offset_stiffness / p.particle_mass;
   if (f.pressure <= 0) return others;
@@ -143,8 +143,8 @@ double stiffness_per_mass(const BodyModel& p, const SurfaceShape& surface) {
   const double l = 2 * f.pair_stiffness, s = pull.slope * surface.area2;
   const double q = surface.area2 > 0 ? std::min(l, surface.stretch / surface.area2) : 0;
   const double both = (l + s) / 2 + std::sqrt((l - s) * (l - s) / 4 + s * q);
-  const double gas = both - l + std::abs(pull.value) * p.largest_degree * surface.two_medians / 6;
-  return others + gas / (2 * p.particle_mass);
+  const double turned = std::abs(pull.value) * p.largest_degree * surface.two_medians / 6;
+  return others + (turned + (volumes == Volumes::explicit_ ? both - l : 0)) / (2 * p.particle_mass);
 }
 
 SurfaceShape measure_surface(const BodyModel& p, const std::vector<glm::dvec3>& vertices) {

@@ -28,9 +28,12 @@ struct SurfaceShape {
 };
 SurfaceShape measure_surface(const BodyModel& model, const std::vector<glm::dvec3>& vertices);
 
+/// How forces that depend on the volume of a body act in a substep: as it is at its start, or in balance with its end.
+enum class Volumes { explicit_, implicit_ };
+
 /// Returns an upper bound of the stiffness over mass (1/s^2) that the forces inside a body of this shape cause at one
-/// particle.
-double stiffness_per_mass(const BodyModel& model, const SurfaceShape& surface);
+/// particle. Of Volumes::implicit_, without what resists a change of the volume.
+double stiffness_per_mass(const BodyModel& model, const SurfaceShape& surface, Volumes volumes = Volumes::explicit_);
 
 /// Returns the damping (N s/m) at one particle, for stable_step().
 double damping_bound(const BodyModel& model);

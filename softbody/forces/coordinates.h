@@ -12,8 +12,9 @@
 namespace softbody {
 
 enum class Coordinate {
-  /// The distance between two particles. The data have elements<Real>(): a list of laws with the particles i and j,
-  /// `stiffness` (N/m, the largest slope of pull()), `damping` (N s/m), pull(length) in N and stored(length) in J.
+  /// The distance between two particles. The data have elements<Real>(): a list of laws with the particles i < j in
+  /// ascending order, `stiffness` (N/m, the largest slope of pull()), `damping` (N s/m), pull(length) in N and
+  /// stored(length) in J.
   length,
   /// The volume inside the mesh. The data are a law that has pull(volume) in Pa, stored(volume) and
   /// stored_change(from, to) in J, and scale() in Pa, about the largest of its pressures.

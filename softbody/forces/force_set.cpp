@@ -35,6 +35,16 @@ void ForceSet::add_unprojected(const ForceBatch& b) const {
   add_if(b, []<class F>(Name<F>) { return is_unprojected<F>(); });
 }
 
+void ForceSet::advance(const ForceBatch& b, Volumes volumes) const {
+  add_if(b, []<class F>(Name<F>) { return !is_of_length<F>() && !is_of_volume<F>(); });
+  const auto h = static_cast<float>(b.h);
+  const glm::vec3 g = h * glm::vec3(b.gravity);
+  force_kernels(b.batch.width)
+      .kick(lanes_of(b),
+            {b.batch.particles(), h, h / float(b.batch.model->particle_mass), g.x, g.y, g.z, b.batch.moves.data()},
+            volumes == Volumes::implicit_, field(b.state.v, b.batch.base));
+}
+
 void ForceSet::project(const ForceBatch& b, Field<const float> x0, Field<float> d) const {
   const ForceKernels& kernels = force_kernels(b.batch.width);
   const LaneBodies<float> bodies = lanes_of(b);
@@ -56,15 +66,18 @@ void ForceSet::kick(const ForceBatch& b) const {
 
 ForceBound bound_of(const Batch& b, Field<const float> x, VectorArray& area) {
   const BodyModel& p = *b.model;
-  double stiffest = stiffness_per_mass(p, {});
-  if (p.forces->pressure > 0) {
-    for (auto& component : area) component.assign(b.values(), 0);
-    SurfaceShape shapes[lanes];
-    force_kernels(b.width).measure_surfaces({p, b.used, x, field(area)}, shapes);
-    for (std::size_t l = 0; l < std::size_t(b.used); ++l)
-      if (b.moves[l] > 0) stiffest = std::max(stiffest, stiffness_per_mass(p, shapes[l]));
+  const double springs = stiffness_per_mass(p, {});
+  ForceBound bound{springs, springs, damping_bound(p) / p.particle_mass};
+  if (p.forces->pressure <= 0) return bound;
+  for (auto& component : area) component.assign(b.values(), 0);
+  SurfaceShape shapes[lanes];
+  force_kernels(b.width).measure_surfaces({p, b.used, x, field(area)}, shapes);
+  for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
+    if (b.moves[l] <= 0) continue;
+    bound.stiffness = std::max(bound.stiffness, stiffness_per_mass(p, shapes[l]));
+    bound.implicit_volume = std::max(bound.implicit_volume, stiffness_per_mass(p, shapes[l], Volumes::implicit_));
   }
-  return {stiffest, damping_bound(p) / p.particle_mass};
+  return bound;
 }
 
 bool has_external_force(const BodyModel& model) {

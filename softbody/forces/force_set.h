@@ -7,8 +7,8 @@ namespace softbody {
 
 /// An upper bound of what forces do at one particle of the bodies of a batch: over mass, for stable_step().
 struct ForceBound {
-  double stiffness = 0;  // 1/s^2
-  double damping = 0;    // 1/s
+  double stiffness = 0, implicit_volume = 0;  // 1/s^2; the latter for Volumes::implicit_
+  double damping = 0;                         // 1/s
 };
 
 class ForceSet {
@@ -23,6 +23,9 @@ class ForceSet {
   void add(const ForceBatch& batch) const;
   /// The same without those that project() or kick() stands for.
   void add_unprojected(const ForceBatch& batch) const;
+  /// Changes velocities by all forces in a substep, v += h (f / m + g), see body::kick(). Forces must be 0, and are 0
+  /// after it.
+  void advance(const ForceBatch& batch, Volumes volumes) const;
   /// XPBD, on the displacements d in a step that started at x0, when the positions are x0 + d. It uses the forces as
   /// scratch. Forces that depend on the volume come first: what they move, the others see.
   void project(const ForceBatch& batch, Field<const float> x0, Field<float> d) const;

@@ -1,6 +1,7 @@
 #include "softbody/forces/springs.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -15,6 +16,7 @@ namespace softbody {
 std::optional<Springs::Data> Springs::join(const BodyModel& p, const std::vector<Edge>& pairs, double stiffness,
                                            double damping_ratio) {
   if (stiffness <= 0 || pairs.empty()) return {};
+  assert(std::ranges::is_sorted(pairs));
   Data data;
   std::vector<int> meeting(p.mesh.vertices.size(), 0);
   for (const auto& [i, j] : pairs) ++meeting[i], ++meeting[j];

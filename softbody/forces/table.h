@@ -72,6 +72,17 @@ concept HasElements = requires {
   typename F::Data;
 };
 
+template <class F>
+constexpr bool is_of_length() {
+  if constexpr (HasElements<F>) return F::coordinate == Coordinate::length;
+  return false;
+}
+template <class F>
+constexpr bool is_of_volume() {
+  if constexpr (HasElements<F>) return F::coordinate == Coordinate::volume;
+  return false;
+}
+
 /// True if the force changes velocities, in steps that are not made of forces alone.
 template <class F>
 concept Kicks = requires(const F& force, const ForceBatch& batch) {

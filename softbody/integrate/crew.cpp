@@ -1,25 +1,42 @@
 #include "softbody/integrate/crew.h"
 
+#include <algorithm>
+
 namespace softbody {
 
-Worker::Worker(const Crew& crew, int index) : crew_(crew), index_(index) {
-  assert(index >= 0 && index < crew.active());
-}
+Worker::Worker(const Crew& crew, int index) : Worker(crew, index, crew.joined(index), false) {}
 
-std::span<const Batch* const> Worker::batches() const {
-  const auto [begin, end] = part(crew_.moving().size());
-  return std::span(crew_.moving()).subspan(begin, end - begin);
+collide::Part Worker::part(std::size_t count) const {
+  return alone_ ? collide::Part{0, 0} : collide::part_of(count, index_, crew_.active());
 }
-
-collide::Part Worker::part(std::size_t count) const { return collide::part_of(count, index_, crew_.active()); }
 
 void Worker::barrier() const {
-  if (crew_.active() > 1) crew_.workers().barrier();
+  if (!alone_ && crew_.active() > 1) crew_.workers().barrier();
 }
 
 void Crew::take(std::vector<const Batch*> moving, std::size_t particles) {
   moving_ = std::move(moving);
   active_ = particles >= min_shared_ ? workers_.threads() : 1;
+  share([](const Batch&) { return 1; });
+}
+
+void Crew::share(const std::function<std::size_t(const Batch&)>& cost) {
+  joined_.clear(), alone_.clear(), cost_.clear();
+  std::size_t sum = 0;
+  for (const Batch* b : moving_) {
+    const std::size_t own = cost(*b);
+    (own > 0 ? joined_ : alone_).push_back(b);
+    if (own > 0) cost_.push_back(sum += own);
+  }
+}
+
+std::span<const Batch* const> Crew::joined(int thread) const {
+  assert(thread >= 0 && thread < active_);
+  const auto first = [&](int t) {  // of the batches whose middle lies in the thread's part of all costs
+    const std::size_t most = cost_.empty() ? 0 : cost_.back() * std::size_t(t) / std::size_t(active_);
+    return std::size_t(std::ranges::upper_bound(cost_, most) - cost_.begin());
+  };
+  return std::span(joined_).subspan(first(thread), first(thread + 1) - first(thread));
 }
 
 void Crew::run(const std::function<void(const Worker&)>& task) const {

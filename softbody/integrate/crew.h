@@ -14,39 +14,54 @@ namespace softbody {
 struct Batch;
 class Crew;
 
-/// One of the threads at work, as it sees itself.
+/// One of the threads at work, as it sees itself: it integrates some batches in step with the other threads, or one
+/// that no contact joins to others, by itself.
 class Worker {
  public:
   /// `index`: of the thread, from 0 to one below crew.active().
   Worker(const Crew& crew, int index);
+  /// Returns the same thread as it integrates only this batch. It shares no items then, and waits for nobody.
+  Worker alone_with(const Batch* const& batch) const { return {crew_, index_, std::span(&batch, 1), true}; }
 
   /// Returns the number of this thread. Thread 0 is always at work.
   int index() const { return index_; }
   /// Returns the moving batches that this thread integrates. No other thread writes to them.
-  std::span<const Batch* const> batches() const;
+  std::span<const Batch* const> batches() const { return batches_; }
+  bool is_alone() const { return alone_; }
   /// Returns this thread's part of `count` items, which all threads at work share.
   collide::Part part(std::size_t count) const;
   /// Waits until all threads at work have called it.
   void barrier() const;
 
  private:
+  Worker(const Crew& crew, int index, std::span<const Batch* const> batches, bool alone)
+      : crew_(crew), index_(index), batches_(batches), alone_(alone) {}
+
   const Crew& crew_;
   int index_;
+  std::span<const Batch* const> batches_;
+  bool alone_ = false;
 };
 
-/// Shares what moves in a frame among the threads. Who integrates what depends only on the number of threads.
+/// Shares what moves in a frame among the threads.
 class Crew {
  public:
   /// Fewer particles than `min_shared` are left to one thread: to share them would take longer.
   Crew(collide::Workers& workers, std::size_t min_shared) : workers_(workers), min_shared_(min_shared) {}
 
   /// Takes the batches that move in the coming frame, and how many particles they have in all. They must not be moved
-  /// in memory as long as anybody asks for them.
+  /// in memory as long as anybody asks for them. Until share() is called, all are joined, and cost the same.
   void take(std::vector<const Batch*> moving, std::size_t particles);
+  /// Takes what each batch that contacts join to others costs in a substep, and 0 for those that are alone.
+  void share(const std::function<std::size_t(const Batch&)>& cost);
   /// Returns the batches that move in the frame at hand.
   const std::vector<const Batch*>& moving() const { return moving_; }
   /// Returns how many threads are at work on them.
   int active() const { return active_; }
+  /// Returns the joined batches that a thread integrates.
+  std::span<const Batch* const> joined(int thread) const;
+  /// Returns those that are alone, for whichever thread has time.
+  const std::vector<const Batch*>& alone() const { return alone_; }
   /// Returns all threads that there are.
   collide::Workers& workers() const { return workers_; }
   /// Calls the task once on each thread at work. Returns when all calls have returned. Rethrows what one has thrown.
@@ -55,7 +70,8 @@ class Crew {
  private:
   collide::Workers& workers_;
   std::size_t min_shared_;
-  std::vector<const Batch*> moving_;
+  std::vector<const Batch*> moving_, joined_, alone_;
+  std::vector<std::size_t> cost_;  // of the joined batches up to each one
   int active_ = 1;
 };
 

@@ -13,6 +13,12 @@ void explicit_euler(Motion& motion, const Worker& worker, const Substep& substep
 /// Symplectic: v += h a(x, v), then x += h v. First order.
 void semi_implicit_euler(Motion& motion, const Worker& worker, const Substep& substep);
 
+/// The same, but that the gas acts implicitly in the one mode in which the volume changes, see Volumes. Breathing, by
+/// far the fastest oscillation of a ball of air, is damped within a few substeps instead of setting their length. First
+/// order (Ascher, Ruuth and Wetton 1995, "Implicit-explicit methods for time-dependent partial differential
+/// equations").
+void imex_euler(Motion& motion, const Worker& worker, const Substep& substep);
+
 /// v += h/2 a, x += h v, v += h/2 a at the new positions, where the dampers see the predicted velocity v + h/2 a of
 /// old: with a lagging one the second order is lost. One evaluation a step.
 void velocity_verlet(Motion& motion, const Worker& worker, const Substep& substep);

@@ -70,6 +70,17 @@ constexpr std::array all_integrators{
                .stable_step = stable_step,
                .staggered = true,
                .conserves_spin = true},
+    Integrator{.key = "imex-euler",
+               .name = "IMEX Euler",
+               .summary =
+                   "Semi-implicit Euler, but implicit where gas resists a change of the volume: far fewer steps, "
+                   "and no breathing.",
+               .order = 1,
+               .advance = imex_euler,
+               .stable_step = stable_step,
+               .implicit_volume = true,
+               .staggered = true,
+               .conserves_spin = true},
     Integrator{.key = "velocity-verlet",
                .name = "Velocity Verlet",
                .summary = "Second order at the price of semi-implicit Euler. Dampers use a predicted velocity.",

@@ -33,6 +33,7 @@ struct Integrator {
   int scratch = 0;               // copies of a field over all particles that it needs
   bool implicit = false;         // solves with the matrices of implicit/matrix.h
   bool automatic = false;        // chooses another integrator for each frame, see StepController
+  bool implicit_volume = false;  // forces that depend on the volume do not bound its steps
   bool by_damping = false;       // is stable only if every oscillation is damped enough
   bool staggered = false;        // its velocities belong to the middle of the last substep
   bool projects = false;         // moves particles to where forces have them, see Plan::unprojected()

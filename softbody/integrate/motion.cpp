@@ -25,6 +25,8 @@ void Motion::begin_frame(const Integrator& integrator, const glm::dvec3& gravity
   scratch_.resize(std::size_t(integrator.scratch));
   for (auto& one : scratch_)
     for (auto& c : one) c.resize(parts_.state.x[0].size());
+  for (const Batch& b : parts_.state.batches())
+    if (b.any_moves()) clear(b, forces);
 }
 
 void Motion::begin_substeps(const Integrator& integrator, float h) {
@@ -59,13 +61,13 @@ void Motion::pull(const Batch& b, float h) { forces_.kick(step_of(b, h)); }
 void Motion::kick(const Batch& b, float h) {
   const glm::vec3 g = h * glm::vec3(gravity_);
   state_kernels(b.width).kick(
-      used(b), {b.particles(), h / float(b.model->particle_mass), g.x, g.y, g.z, b.moves.data()}, f(b), v(b));
+      used(b), {b.particles(), h, h / float(b.model->particle_mass), g.x, g.y, g.z, b.moves.data()}, f(b), v(b));
 }
 
 void Motion::accelerations(const Batch& b) {
   const glm::vec3 g(gravity_);
   state_kernels(b.width).accelerate(
-      used(b), {b.particles(), float(1 / b.model->particle_mass), g.x, g.y, g.z, b.moves.data()}, f(b));
+      used(b), {b.particles(), 1, float(1 / b.model->particle_mass), g.x, g.y, g.z, b.moves.data()}, f(b));
 }
 
 void Motion::drift(const Batch& b, float h) {

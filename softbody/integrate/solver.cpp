@@ -1,6 +1,7 @@
 #include "softbody/integrate/solver.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "softbody/forces/body_measures.h"
@@ -58,11 +59,20 @@ void Solver::set_contacts(const DetectedContacts& detected, float thickness) {
 
 glm::dvec3 Solver::gravity() const { return has_gravity_ ? scene_.gravity : glm::dvec3(0.0); }
 
+/// Notes that these two may touch, or one its own surface.
+void Solver::join(BodyId a, BodyId b) {
+  for (const BodyId body : {a, b}) {
+    mark_pushed(body);
+    joined_[state_.body(body).batch] = true;
+  }
+}
+
 Solver::Frame Solver::begin_frame(double seconds) {
   contacts_.begin_frame();
   const double searches = contacts_.has_surfaces() ? contacts_.wake_hit_sleepers(seconds) : 0;
   solids_.begin_frame();
   pushed_.assign(state_.batches().size(), 0);
+  joined_.assign(state_.batches().size(), false);
   std::vector<const Batch*> moving;
   std::size_t particles = 0;
   for (const Batch& b : state_.batches()) {
@@ -84,13 +94,13 @@ Solver::Frame Solver::begin_frame(double seconds) {
        .near_solids = std::ranges::any_of(moving, [&](const Batch* b) { return !solids_.near(*b).empty(); }),
        .surface_contact = contacts_.has_surfaces(),
        .too_large = std::ranges::any_of(moving, [](const Batch* b) { return b->particles() > max_implicit_particles; }),
-       .rounding_velocity = steps_.automatic() ? bounds_.rounding_velocity(bound.stable) : 0,
+       .rounding = steps_.automatic() ? bounds_.rounding() : 0,
        .sleep_speed = scene_.sleep.speed},
       bound);
   steps_.spend(work::surface * searches);
   crew_.take(std::move(moving), particles);
   motion_.begin_frame(*steps_.plan().integrator, gravity());
-  for (const PenaltyPair& p : penalty_.pairs) mark_pushed(p.body_a), mark_pushed(p.body_b);
+  for (const PenaltyPair& p : penalty_.pairs) join(p.body_a, p.body_b);
   if (hand_.grab()) mark_pushed(hand_.grab()->body);
   for (const Batch* b : crew_.moving())
     if (has_external_force(*b->model)) pushed_[b->index] = ~0u;
@@ -127,7 +137,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   if (surfaces) {
     const double longest = frame.left / plan.substeps;
     steps_.spend(work::surface * contacts_.find(frame.left, longest, longest));
-    for (const collide::surface::SurfacePair& p : candidates.search().pairs()) mark_pushed(p.a), mark_pushed(p.b);
+    for (const collide::surface::SurfacePair& p : candidates.search().pairs()) join(p.a, p.b);
     frame.bound.passing = std::max(frame.bound.passing, double(candidates.substep_rate()));
     const int without = plan.substeps;
     plan = steps_.plan(frame.bound, frame.left);
@@ -168,7 +178,8 @@ void Solver::set_staggering(double h, bool first) {
   double& now = state_.ledger.staggering;
   const double before = now;
   now = integrator.staggered ? h : 0;
-  if (now > 0 && steps_.fixed()) now = !first ? before : reserve * h * bounds_.measure(integrator).stable > 1 ? 0 : h;
+  if (now > 0 && steps_.fixed())
+    now = !first ? before : reserve * h * stable_rate(bounds_.measure(integrator), integrator) > 1 ? 0 : h;
   if (std::abs(now - before) <= close * std::max(now, before)) {
     now = before;
     return;
@@ -194,19 +205,30 @@ void Solver::run(int count, float h, bool first, const std::function<void()>& af
   const auto holds_body = [&](const Batch* b) {
     return hand_.grab() && state_.body(hand_.grab()->body).batch == b->index;
   };
+  const auto advance = [&](const Worker& worker, int s) {
+    for (const Batch* b : worker.batches()) solids_.note_velocities(*b);
+    const bool holds = std::ranges::any_of(worker.batches(), holds_body);
+    if (holds) hand_.note_point(state_);
+    integrator.advance(motion_, worker, {h, first && s == 0});
+    if (holds) hand_.book_work(state_, double(h));
+  };
+  crew_.share([&](const Batch& b) {
+    if (!after_substep && !joined_[b.index]) return std::size_t{0};
+    return b.values() + std::size_t(work::penalty_pair / 2 * double(penalty_.ends_of(b).size()));
+  });
+  std::atomic<std::size_t> next = 0;
   crew_.run([&](const Worker& worker) {
     for (int s = 0; s < count; ++s) {
-      for (const Batch* b : worker.batches()) solids_.note_velocities(*b);
-      const bool holds = std::ranges::any_of(worker.batches(), holds_body);
-      if (holds) hand_.note_point(state_);
-      integrator.advance(motion_, worker, {h, first && s == 0});
-      if (holds) hand_.book_work(state_, double(h));
+      advance(worker, s);
       contacts_.advance(worker, h);
       if (!after_substep) continue;
       worker.barrier();
       if (worker.index() == 0) after_substep();
       worker.barrier();
     }
+    // Batches that are alone take all their substeps at once, while they are in the cache.
+    for (std::size_t i; (i = next++) < crew_.alone().size();)
+      for (int s = 0; s < count; ++s) advance(worker.alone_with(crew_.alone()[i]), s);
   });
 }
 

@@ -88,7 +88,8 @@ class Solver {
   };
 
   glm::dvec3 gravity() const;
-  void mark_pushed(BodyId body) { pushed_[state_.batch_of(body).index] |= 1u << state_.body(body).lane; }
+  void mark_pushed(BodyId body) { pushed_[state_.body(body).batch] |= 1u << state_.body(body).lane; }
+  void join(BodyId a, BodyId b);
   Frame begin_frame(double seconds);
   void take_substeps(Frame& frame, const std::function<void()>& after_substep);
   void set_staggering(double h, bool first);
@@ -110,6 +111,7 @@ class Solver {
   const collide::Bodies* vertices_ = nullptr;
   bool has_gravity_ = false;
   std::vector<unsigned> pushed_;  // of each batch, bits: lanes that something may push in this frame
+  std::vector<char> joined_;      // of each batch: whether contacts may join it to others, or act within it
   float last_substep_ = 0;        // s
 };
 

@@ -32,14 +32,17 @@ StepBound StepBounds::measure(const Integrator& integrator) {
   for (const Batch& b : state_.batches()) {
     if (!b.any_moves()) continue;
     const BodyModel& p = *b.model;
-    ForceBound force = bound_of(b, field(state_.x, b.base), area_);
-    if (!penalty_.pairs.empty())
-      force.stiffness += PenaltyLaw<double>::stiffness_bound(p.material[contact::stiffness]) / p.particle_mass;
+    const ForceBound force = bound_of(b, field(state_.x, b.base), area_);
+    const double contact = penalty_.pairs.empty()
+                               ? 0
+                               : PenaltyLaw<double>::stiffness_bound(p.material[contact::stiffness]) / p.particle_mass;
+    const auto rate = [&](double stiffness) { return 1 / integrator.stable_step(stiffness + contact, force.damping); };
     unsigned near = 0;  // bits: lanes
     for (const SolidArguments& solid : solids_.near(b)) near |= solid.near;
     const Extent motion = state_.extent(b, state_.v, state_.v);
     const double pace = 0.1 * p.radius;
-    bound.stable = std::max(bound.stable, 1 / integrator.stable_step(force.stiffness, force.damping));
+    bound.stable = std::max(bound.stable, rate(force.implicit_volume));
+    bound.breathing = std::max(bound.breathing, rate(force.stiffness));
     bound.deformation =
         std::max(bound.deformation, max_of_moving(b, [&](std::size_t l) { return motion.diagonal(l); }) / pace);
     bound.passing = std::max(
@@ -59,7 +62,7 @@ int StepBounds::trusted_substeps(double h) const {
   return static_cast<int>(trusted);
 }
 
-double StepBounds::rounding_velocity(double stable) const {
+double StepBounds::rounding() const {
   constexpr double rounding = 1.0 / (1 << 24);
   double farthest = 0;
   for (const Batch& b : state_.batches()) {
@@ -67,7 +70,7 @@ double StepBounds::rounding_velocity(double stable) const {
     const Extent extent = state_.extent(b, state_.x, state_.v);
     farthest = std::max(farthest, max_of_moving(b, [&](std::size_t l) { return max_coordinate(extent, l); }));
   }
-  return rounding * farthest * 1.6 * stable;  // the bound is 0.8 (2 / omega), or less
+  return rounding * farthest;
 }
 
 }  // namespace softbody

@@ -20,9 +20,8 @@ class StepBounds {
   /// Returns for how many substeps of h seconds measure() may be trusted. It is to be called again before the fastest
   /// body has moved a fifth of its radius, since a body that is being crushed gets stiffer.
   int trusted_substeps(double h) const;
-  /// Returns the speed (m/s) at which the fastest oscillation goes on by what is lost where positions are rounded to
-  /// floats. stable: the rate of explicit steps, 1/s.
-  double rounding_velocity(double stable) const;
+  /// Returns what is lost where positions are rounded to floats, in m.
+  double rounding() const;
 
  private:
   const State& state_;

@@ -13,10 +13,17 @@ namespace softbody {
 
 /// What bodies ask of their steps as they are now: the lowest rates (1/s) at which steps ...
 struct StepBound {
-  double stable = 0;       // ... are stable, of explicit integrators; 0 if all are
+  double stable = 0;       // ... are stable, but for breathing, of explicit integrators; 0 if all are
+  double breathing = 0;    // ... are stable, if gas resists changes of the volume explicitly
   double deformation = 0;  // ... keep up with the body that changes its shape fastest
   double passing = 0;      // ... keep up with the fastest body near a solid, and with surfaces that pass each other
 };
+
+/// Returns the lowest rate (1/s) at which the integrator's steps are stable.
+inline double stable_rate(const StepBound& bound, const Integrator& integrator) {
+  if (integrator.stable_at_any_step()) return 0;
+  return integrator.implicit_volume ? bound.stable : std::max(bound.stable, bound.breathing);
+}
 
 /// What else a frame depends on.
 struct FrameConditions {
@@ -24,9 +31,9 @@ struct FrameConditions {
   std::size_t particles = 0, moving = 0;  // of all bodies, and of those that move
   std::size_t penalty_pairs = 0;
   bool near_solids = false, surface_contact = false;
-  bool too_large = false;        // a body has too many particles for implicit steps
-  double rounding_velocity = 0;  // m/s, see StepBounds::rounding_velocity()
-  double sleep_speed = 0;        // m/s, below which bodies fall asleep
+  bool too_large = false;  // a body has too many particles for implicit steps
+  double rounding = 0;     // m, of positions
+  double sleep_speed = 0;  // m/s, below which bodies fall asleep
 };
 
 struct StepPlan {

@@ -25,8 +25,12 @@ void list_faces(BodyModel& p) {
   std::vector<std::vector<Index>> at(p.mesh.vertices.size());
   for (Index f = 0; f < p.mesh.triangles.size(); ++f)
     for (const Index corner : p.mesh.triangles[f]) at[corner].push_back(f);
-  for (const auto& faces : at) {
-    p.face.insert(p.face.end(), faces.begin(), faces.end());
+  for (Index vertex = 0; vertex < at.size(); ++vertex) {
+    for (const Index f : at[vertex]) {
+      const auto& [a, b, c] = p.mesh.triangles[f];
+      p.face.push_back(f);
+      p.opposite.push_back(vertex == a ? Edge{b, c} : vertex == b ? Edge{c, a} : Edge{a, b});
+    }
     p.first_face.push_back(static_cast<Index>(p.face.size()));
   }
 }

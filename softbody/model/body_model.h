@@ -27,6 +27,7 @@ struct BodyModel {
   std::shared_ptr<const collide::surface::Surface> surface;  // for surface contact
   double mean_edge = 0;                                      // m, at rest
   std::vector<Index> first_face{0}, face;     // triangles at each vertex, one list after another, see faces_of()
+  std::vector<Edge> opposite;                 // of each of these: the edge opposite the vertex, as the triangle turns
   bool rolls = false;                         // the mesh is closed, or has holes of less than a tenth of its area
   double particle_mass = 0;                   // kg
   double radius = 0;                          // m, bounding radius of the mesh
@@ -38,6 +39,10 @@ struct BodyModel {
   /// Returns the triangles at a vertex.
   std::span<const Index> faces_of(Index vertex) const {
     return std::span(face).subspan(first_face[vertex], first_face[vertex + 1] - first_face[vertex]);
+  }
+  /// Returns the edges opposite a vertex in its triangles.
+  std::span<const Edge> edges_opposite(Index vertex) const {
+    return std::span(opposite).subspan(first_face[vertex], first_face[vertex + 1] - first_face[vertex]);
   }
 };
 

@@ -29,6 +29,7 @@ Field<const Real> field(const LaneVectorOf<Real>& v) {
 
 struct KickArguments {
   std::size_t particles;
+  float h;             // s
   float h_over_mass;   // s/kg
   float gx, gy, gz;    // h * gravity, m/s
   const float* moves;  // a value a lane, 0 or 1

@@ -104,7 +104,7 @@ TEST_P(EveryKernel, OfForcesGivesTheSameBits) {
 
 TEST_P(EveryKernel, OfMotionGivesTheSameBits) {
   expect_the_same([&](int width, int first, Values, Values vs, Values fs, float*) {
-    state_kernels(width).kick(width, {n, 0.5f, 0.25f, -1, 2, moves + first}, fs, vs);
+    state_kernels(width).kick(width, {n, 1, 0.5f, 0.25f, -1, 2, moves + first}, fs, vs);
   });
   expect_the_same([&](int width, int first, Values xs, Values vs, Values, float*) {
     state_kernels(width).drift(width, n, 0.125f, moves + first, vs, xs);

@@ -117,7 +117,7 @@ TEST(StepController, ChoosesTheCheaperIntegrator) {
   EXPECT_FALSE(implicit(1500, c)) << "in a heap, more";
   EXPECT_TRUE(implicit(1e12, c)) << "whatever explicit substeps would take";
   c = ball;
-  c.rounding_velocity = 0.1, c.sleep_speed = 0.05;
+  c.rounding = 1e-5, c.sleep_speed = 0.05;
   EXPECT_TRUE(implicit(100, c)) << "rounding would keep it trembling";
   for (bool FrameConditions::*none : {&FrameConditions::surface_contact, &FrameConditions::too_large}) {
     c = ball;

@@ -19,6 +19,10 @@ namespace softbody {
 namespace HWY_NAMESPACE {
 namespace body {
 
+/// m^2: its inverse is finite, and times a pull of 0 it is 0.
+template <class Real>
+inline constexpr Real tiny_square = Real(1e-24);
+
 /// Signed volume by the divergence theorem: the sum of a . (b x c) / 6 over the faces. Corners are taken relative to
 /// one of them and summed in blocks, because rounding errors of the volume would make a body at rest pulsate.
 template <class V, int width>
@@ -111,6 +115,16 @@ HWY_INLINE void visit(const BodyModel& model, const typename F::Data& data, cons
   }
 }
 
+/// Returns the force on the first of two particles, dx and dv being those of the second from there: (pull(L) + c (dv .
+/// dx) / L) dx / L, so (pull(L) L + c dv . dx) dx / L^2, in which the root and the quotient do not wait for each other.
+/// Particles at the same place have no direction, and no force.
+template <class V>
+HWY_INLINE Vec<V> pull_between(const auto& law, const Vec<V>& dx, const Vec<V>& dv) {
+  const V square = dot(dx, dx), length = square_root(square);
+  const V pull = law.pull(length) * length + law.damping * dot(dv, dx);
+  return (pull * (Value<V>(1) / larger(square, V(tiny_square<Value<V>>)))) * dx;
+}
+
 /// Adds the forces of elements.
 template <class V, int width, class Motion>
 struct AddForces {
@@ -118,21 +132,16 @@ struct AddForces {
   const LaneBodies<Real>& b;
   const Motion& motion;
 
-  /// f = (pull(L) + c (dv . dx) / L) dx / L on i, minus that on j, so (pull(L) L + c dv . dx) dx / L^2, in which the
-  /// root and the quotient do not wait for each other. Particles at the same place have no direction, and no force.
   HWY_INLINE void operator()(Length c, const auto& law) const {
     const std::size_t i = c.i * width, j = c.j * width;
-    const V tiny = V(Real(1e-24));  // m^2: its inverse is finite, and times a pull of 0 it is 0
     const Vec<V> dx = load<V>(b.x, j) - load<V>(b.x, i);
-    const V square = dot(dx, dx), length = square_root(square);
-    V pull = law.pull(length) * length;
-    if constexpr (std::is_same_v<Motion, Moving>)
-      pull += law.damping * dot(load<V>(motion.v, j) - load<V>(motion.v, i), dx);
-    Vec<V> force = (pull * (Real(1) / larger(square, tiny))) * dx;
+    Vec<V> dv{};
+    if constexpr (std::is_same_v<Motion, Moving>) dv = load<V>(motion.v, j) - load<V>(motion.v, i);
+    Vec<V> force = pull_between<V>(law, dx, dv);
     if constexpr (std::is_same_v<Motion, SinceStart>)
       if (law.damping > 0) {
         const Vec<V> before = load<V>(motion.x, j) - load<V>(motion.x, i);
-        const V gone = dot(dx - before, before) / larger(dot(before, before), tiny);
+        const V gone = dot(dx - before, before) / larger(dot(before, before), V(tiny_square<Real>));
         force = force + (law.damping * motion.inverse_h * gone) * before;
       }
     store(b.f, i, load<V>(b.f, i) + force);
@@ -162,6 +171,102 @@ struct AddForces {
     }
   }
 };
+
+/// Calls at(law) for the elements of forces between two particles, a particle after the other: the lists ascend.
+template <class Real>
+class PairsOf {
+ public:
+  explicit PairsOf(const BodyModel& model) {
+    for_each_force(Forces{}, [&]<class F>(Name<F>) {
+      if constexpr (is_of_length<F>())
+        if (const auto* d = data<F>(model)) std::get<index_of<F>>(next_) = d->template elements<Real>();
+    });
+  }
+  /// Visits those whose first particle is i. To be called for each i, in ascending order.
+  template <class At>
+  HWY_INLINE void visit(Index i, const At& at) {
+    for_each_force(Forces{}, [&]<class F>(Name<F>) HWY_ATTR {
+      if constexpr (is_of_length<F>()) {
+        auto& next = std::get<index_of<F>>(next_);
+        std::size_t count = 0;
+        for (; count < next.size() && next[count].i == i; ++count) at(next[count]);
+        next = next.subspan(count);
+      }
+    });
+  }
+
+ private:
+  template <class... F>
+  static std::tuple<std::span<const LengthLawOf<F, Real>>...> lists_of(List<F...>);
+  decltype(lists_of(Forces{})) next_;
+};
+
+/// The change of velocity in a substep, v += h (f / m + g), in one pass over the particles. The forces between two of
+/// them act where the pass comes to the first one, which is complete then: nothing after it needs its velocity of old
+/// or its force. So the velocity gets its new value, and the place of the force takes A = dV/dx. The gas
+/// comes last, since its pressure depends on all particles: explicitly, or such as it is at the end of the substep, to
+/// first order in what the velocity u along the mode A changes of the volume,
+///
+///   P = (P0 + P' h A . u) / (1 - P' h^2 A . A / m),
+///
+/// a scalar for each body, stable at any h. The sum of A over a closed mesh is 0, so the momentum stays.
+template <class V, int width>
+HWY_INLINE void kick(const LaneBodies<float>& b, const KickArguments& k, bool implicit_volume, Field<float> v) {
+  constexpr std::size_t block = 16;  // of particles, summed by themselves as in volume()
+  const std::size_t particles = b.model.mesh.vertices.size();
+  const bool presses = b.model.forces->pressure > 0;
+  const V moves = load<V>(k.moves), scale = V(k.h_over_mass) * moves;
+  const Vec<V> g{k.gx * moves, k.gy * moves, k.gz * moves}, from = load<V>(b.x, 0);
+  PairsOf<float> pairs(b.model);
+  V three_volumes{}, flow{}, area2{};
+  for (std::size_t first = 0; first < particles; first += block) {
+    V part{};
+    for (auto i = static_cast<Index>(first); i < std::min(first + block, particles); ++i) {
+      const std::size_t at = i * width;
+      const Vec<V> x = load<V>(b.x, at), before = load<V>(v, at);
+      Vec<V> force = load<V>(b.f, at);
+      pairs.visit(i, [&](const auto& law) HWY_ATTR {
+        const std::size_t j = law.j * width;
+        const Vec<V> pull = pull_between<V>(law, load<V>(b.x, j) - x, load<V>(v, j) - before);
+        force = force + pull;
+        store(b.f, j, load<V>(b.f, j) - pull);
+      });
+      const Vec<V> u = before + scale * force + g;
+      store(v, at, u);
+      Vec<V> six_areas{};
+      if (presses)
+        for (const auto& [j, l] : b.model.edges_opposite(i))
+          six_areas = six_areas + cross(load<V>(b.x, j * width) - x, load<V>(b.x, l * width) - x);
+      const Vec<V> area = V(1.0f / 6) * six_areas;
+      store(b.f, at, area);
+      part += dot(area, x - from);
+      flow += dot(area, u);
+      area2 += dot(area, area);
+    }
+    three_volumes += part;
+  }
+  if (!presses) return;
+  float volume[lanes], rate[lanes], square[lanes], push[lanes]{};
+  store(volume, three_volumes / V(3.0f));
+  store(rate, flow);
+  store(square, area2);
+  for (int lane = 0; lane < std::min(b.used, lanes_of<V>); ++lane) {
+    Jet pull = 0;
+    for_each_force(Forces{}, [&]<class F>(Name<F>) {
+      if constexpr (is_of_volume<F>())
+        if (const auto* d = data<F>(b.model)) pull = pull + d->pull(Jet(double(volume[lane]), 1));
+    });
+    const double h = implicit_volume ? double(k.h) : 0;
+    const double pressure = -(pull.value + pull.slope * h * double(rate[lane])) /
+                            (1 + pull.slope * h * double(k.h_over_mass) * double(square[lane]));
+    push[lane] = static_cast<float>(pressure) * k.h_over_mass * k.moves[lane];
+  }
+  const V pushes = load<V>(push);
+  for (std::size_t at = 0; at < particles * width; at += width) {
+    store(v, at, load<V>(v, at) + pushes * load<V>(b.f, at));
+    store(b.f, at, Vec<V>{});
+  }
+}
 
 /// XPBD, one pass without accumulated multipliers (Macklin et al. 2016, eq. 18 and 26 times the stiffness): a law as a
 /// constraint of compliance 1 / k with its damper. Particles are at x0 + d. Their displacements d in this step are

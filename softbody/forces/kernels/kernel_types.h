@@ -68,6 +68,18 @@ struct MotionSums {
   double strain[lanes];                   // the largest, of a spring
 };
 
+/// The law of a force between two particles.
+template <class F, class Real>
+struct LengthLaw {
+  struct type {};
+};
+template <HasElements F, class Real>
+requires(F::coordinate == Coordinate::length) struct LengthLaw<F, Real> {
+  using type = std::remove_cvref_t<decltype(std::declval<typename F::Data>().template elements<Real>()[0])>;
+};
+template <class F, class Real>
+using LengthLawOf = typename LengthLaw<F, Real>::type;
+
 /// What a force of a coordinate finds once from all particles: the poses of the shapes that offsets are from.
 template <class F, class Real>
 struct HeldOf {};

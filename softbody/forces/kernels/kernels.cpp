@@ -41,6 +41,13 @@ struct Kernels {
       visit<F, V>(b.model, *d, {}, Project<V, width>{b, own, float(1 / b.model.particle_mass)});
     }
   }
+  static void kick(const LaneBodies<float>& all, const KickArguments& k, bool implicit_volume, Field<float> v) {
+    for (std::size_t l = 0; l < std::size_t(all.used); l += step) {
+      KickArguments own = k;
+      own.moves += l;
+      body::kick<V, width>(all.from(l), own, implicit_volume, v + l);
+    }
+  }
   static void measure_surfaces(const LaneBodies<float>& all, SurfaceShape* result) {
     const std::vector<Triangle>& faces = all.model.mesh.triangles;
     for (std::size_t first = 0; first < std::size_t(all.used); first += step) {
@@ -109,6 +116,7 @@ struct Kernels {
       if constexpr (HasElements<F>) kernels.add[index_of<F>] = &Kernels::template add<F>;
       if constexpr (is_projected<F>()) kernels.project[index_of<F>] = &Kernels::template project<F>;
     });
+    kernels.kick = &Kernels::kick;
     kernels.measure_surfaces = &Kernels::measure_surfaces;
     kernels.measure_motion = &Kernels::measure_motion;
     return kernels;

@@ -5,10 +5,7 @@ namespace softbody {
 
 void semi_implicit_euler(Motion& motion, const Worker& worker, const Substep& substep) {
   motion.contact_forces(worker, substep.h);
-  for (const Batch* batch : worker.batches()) {
-    motion.all_forces(*batch);
-    motion.kick(*batch, substep.h);
-  }
+  for (const Batch* batch : worker.batches()) motion.advance_velocities(*batch, substep.h, Volumes::explicit_);
   motion.contacts(worker, substep.h);
   for (const Batch* batch : worker.batches()) motion.drift(*batch, substep.h);
   worker.barrier();  // the next contact forces read the positions of all bodies

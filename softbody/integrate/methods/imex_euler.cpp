@@ -1,0 +1,14 @@
+#include "softbody/integrate/integrator_steps.h"
+#include "softbody/integrate/motion.h"
+
+namespace softbody {
+
+void imex_euler(Motion& motion, const Worker& worker, const Substep& substep) {
+  motion.contact_forces(worker, substep.h);
+  for (const Batch* batch : worker.batches()) motion.advance_velocities(*batch, substep.h, Volumes::implicit_);
+  motion.contacts(worker, substep.h);
+  for (const Batch* batch : worker.batches()) motion.drift(*batch, substep.h);
+  worker.barrier();  // the next contact forces read the positions of all bodies
+}
+
+}  // namespace softbody
