@@ -36,13 +36,14 @@ void ForceSet::add_unprojected(const ForceBatch& b) const {
 }
 
 void ForceSet::advance(const ForceBatch& b, Volumes volumes) const {
-  add_if(b, []<class F>(Name<F>) { return !is_of_length<F>() && !is_of_volume<F>(); });
+  add_if(b, []<class F>(Name<F>) { return !is_of_length<F>() && !is_of_volume<F>() && !Kicks<F>; });
   const auto h = static_cast<float>(b.h);
   const glm::vec3 g = h * glm::vec3(b.gravity);
   force_kernels(b.batch.width)
       .kick(lanes_of(b),
             {b.batch.particles(), h, h / float(b.batch.model->particle_mass), g.x, g.y, g.z, b.batch.moves.data()},
             volumes == Volumes::implicit_, field(b.state.v, b.batch.base));
+  kick(b);
 }
 
 void ForceSet::project(const ForceBatch& b, Field<const float> x0, Field<float> d) const {

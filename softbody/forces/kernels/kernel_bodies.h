@@ -201,15 +201,33 @@ class PairsOf {
   decltype(lists_of(Forces{})) next_;
 };
 
+/// A volume v that becomes v + drift + yield P in a step, P being a pressure that pushes the faces outwards in it.
+struct VolumeStep {
+  double volume, drift, yield;  // m^3, m^3, m^3/Pa
+};
+
+/// Returns the pressure P that a law has at the end of the step: P = -pull(v + drift + yield P), by Newton's method.
+/// The first iterate is enough where the volume hardly changes. pull: returns a Jet.
+inline double pressure_at_end(const VolumeStep& s, double start_volume, const auto& pull) {
+  constexpr int most = 8;
+  constexpr double little = 0.01, enough = 1e-4;  // of the starting volume
+  const auto change = [&](double pressure) { return s.drift + s.yield * pressure; };
+  double at = 0;  // change of the volume, where the law is made linear
+  for (int i = 0;; ++i) {
+    const Jet law = pull(s.volume + at);
+    const double pressure = -(law.value + law.slope * (s.drift - at)) / (1 + law.slope * s.yield);
+    const double next = change(pressure), off = std::abs(next - at);
+    if (i == most || off < (i == 0 ? little : enough) * start_volume) return pressure;
+    at = next;
+  }
+}
+
 /// The change of velocity in a substep, v += h (f / m + g), in one pass over the particles. The forces between two of
 /// them act where the pass comes to the first one, which is complete then: nothing after it needs its velocity of old
-/// or its force. So the velocity gets its new value, and the place of the force takes A = dV/dx. The gas
-/// comes last, since its pressure depends on all particles: explicitly, or such as it is at the end of the substep, to
-/// first order in what the velocity u along the mode A changes of the volume,
-///
-///   P = (P0 + P' h A . u) / (1 - P' h^2 A . A / m),
-///
-/// a scalar for each body, stable at any h. The sum of A over a closed mesh is 0, so the momentum stays.
+/// or its force. So the velocity gets its new value, and the place of the force takes A = dV/dx. The gas comes last,
+/// since its pressure depends on all particles: explicitly, or such as it is at the end of the substep, where the
+/// volume has become V + h A . (u + h P A / m). That is one number for each body, and stable at any h. The sum of A
+/// over a closed mesh is 0, so the momentum stays.
 template <class V, int width>
 HWY_INLINE void kick(const LaneBodies<float>& b, const KickArguments& k, bool implicit_volume, Field<float> v) {
   constexpr std::size_t block = 16;  // of particles, summed by themselves as in volume()
@@ -246,21 +264,24 @@ HWY_INLINE void kick(const LaneBodies<float>& b, const KickArguments& k, bool im
     three_volumes += part;
   }
   if (!presses) return;
-  float volume[lanes], rate[lanes], square[lanes], push[lanes]{};
-  store(volume, three_volumes / V(3.0f));
-  store(rate, flow);
-  store(square, area2);
-  for (int lane = 0; lane < std::min(b.used, lanes_of<V>); ++lane) {
-    Jet pull = 0;
+  float volumes[lanes], rates[lanes], squares[lanes], push[lanes]{};
+  store(volumes, three_volumes / V(3.0f));
+  store(rates, flow);
+  store(squares, area2);
+  const auto pull = [&](double volume) {  // of all laws, and how fast it grows
+    Jet sum = 0;
     for_each_force(Forces{}, [&]<class F>(Name<F>) {
       if constexpr (is_of_volume<F>())
-        if (const auto* d = data<F>(b.model)) pull = pull + d->pull(Jet(double(volume[lane]), 1));
+        if (const auto* d = data<F>(b.model)) sum = sum + d->pull(Jet(volume, 1));
     });
-    const double h = implicit_volume ? double(k.h) : 0;
-    const double pressure = -(pull.value + pull.slope * h * double(rate[lane])) /
-                            (1 + pull.slope * h * double(k.h_over_mass) * double(square[lane]));
-    push[lane] = static_cast<float>(pressure) * k.h_over_mass * k.moves[lane];
-  }
+    return sum;
+  };
+  const double h = implicit_volume ? double(k.h) : 0;
+  for (int lane = 0; lane < std::min(b.used, lanes_of<V>); ++lane)
+    push[lane] = k.h_over_mass * k.moves[lane] *
+                 static_cast<float>(pressure_at_end({double(volumes[lane]), h * double(rates[lane]),
+                                                     h * double(k.h_over_mass) * double(squares[lane])},
+                                                    b.model.start_volume, pull));
   const V pushes = load<V>(push);
   for (std::size_t at = 0; at < particles * width; at += width) {
     store(v, at, load<V>(v, at) + pushes * load<V>(b.f, at));
