@@ -10,6 +10,12 @@ LaneBodies<float> lanes_of(const ForceBatch& b) {
   return {*b.batch.model, b.batch.used, field(state.x, b.batch.base), field(b.state.f, b.batch.base)};
 }
 
+KickArguments arguments_of(const ForceBatch& b) {
+  const auto h = static_cast<float>(b.h);
+  const glm::vec3 g = h * glm::vec3(b.gravity);
+  return {b.batch.particles(), h, h / float(b.batch.model->particle_mass), g.x, g.y, g.z, b.batch.moves.data()};
+}
+
 }  // namespace
 
 /// takes(Name<F>{}): whether a force of the plan is added.
@@ -35,15 +41,15 @@ void ForceSet::add_unprojected(const ForceBatch& b) const {
   add_if(b, []<class F>(Name<F>) { return is_unprojected<F>(); });
 }
 
-void ForceSet::advance(const ForceBatch& b, Volumes volumes) const {
+void ForceSet::advance(const ForceBatch& b, Volumes how, LaneVolumes& volumes) const {
   add_if(b, []<class F>(Name<F>) { return !is_of_length<F>() && !is_of_volume<F>() && !Kicks<F>; });
-  const auto h = static_cast<float>(b.h);
-  const glm::vec3 g = h * glm::vec3(b.gravity);
-  force_kernels(b.batch.width)
-      .kick(lanes_of(b),
-            {b.batch.particles(), h, h / float(b.batch.model->particle_mass), g.x, g.y, g.z, b.batch.moves.data()},
-            volumes == Volumes::implicit_, field(b.state.v, b.batch.base));
+  force_kernels(b.batch.width).kick(lanes_of(b), arguments_of(b), how, field(b.state.v, b.batch.base), volumes);
   kick(b);
+}
+
+void ForceSet::press_again(const ForceBatch& b, LaneVolumes& volumes) const {
+  if (b.batch.model->forces->pressure <= 0) return;
+  force_kernels(b.batch.width).press_again(lanes_of(b), arguments_of(b), field(b.state.v, b.batch.base), volumes);
 }
 
 void ForceSet::project(const ForceBatch& b, Field<const float> x0, Field<float> d) const {

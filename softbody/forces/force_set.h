@@ -23,9 +23,10 @@ class ForceSet {
   void add(const ForceBatch& batch) const;
   /// The same without those that project() or kick() stands for.
   void add_unprojected(const ForceBatch& batch) const;
-  /// Changes velocities by all forces in a substep, v += h (f / m + g), see body::kick(). Forces must be 0, and are 0
-  /// after it.
-  void advance(const ForceBatch& batch, Volumes volumes) const;
+  /// Changes velocities by all forces in a substep, v += h (f / m + g). Forces must be 0. After it, they are scratch.
+  void advance(const ForceBatch& batch, Volumes how, LaneVolumes& volumes) const;
+  /// Changes velocities that contacts have changed since advance(), so that they fit the pressure at the end again.
+  void press_again(const ForceBatch& batch, LaneVolumes& volumes) const;
   /// XPBD, on the displacements d in a step that started at x0, when the positions are x0 + d. It uses the forces as
   /// scratch. Forces that depend on the volume come first: what they move, the others see.
   void project(const ForceBatch& batch, Field<const float> x0, Field<float> d) const;

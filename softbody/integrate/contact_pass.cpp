@@ -93,7 +93,7 @@ void ContactPass::apply(const Worker& worker, float h, float since_start) {
   };
   apply_surfaces(worker, h, since_start);
   solids();
-  if (!has_surfaces_ || surfaces_.candidates().empty() || worker.is_alone()) return;
+  if (!meets_others(worker)) return;
   for (int pass = 0; pass < max_passes; ++pass) {
     worker.barrier();
     if (!surfaces_.find_islands(worker.index(), crew_.active(), field(std::as_const(state_.v)),
@@ -122,7 +122,7 @@ void ContactPass::solve_island(int thread, const SurfaceContact::Island& island,
 }
 
 void ContactPass::apply_surfaces(const Worker& worker, float h, float since_start) {
-  if (!has_surfaces_ || surfaces_.candidates().empty() || worker.is_alone()) return;
+  if (!meets_others(worker)) return;
   const Field<const float> x = field(std::as_const(state_.x));
   worker.barrier();  // the velocities of all bodies are there
   surfaces_.make_rows(worker.index(), crew_.active(), x, field(state_.v),

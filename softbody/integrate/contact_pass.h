@@ -37,6 +37,14 @@ class ContactPass {
   /// Returns for how many substeps of h seconds the candidates may be taken, if they hold: at least one.
   int predicted_substeps(double left, double h) const;
 
+  /// True if the worker's bodies may be pushed by surfaces. Then its part of apply() waits for the other threads.
+  bool meets_others(const Worker& worker) const {
+    return has_surfaces_ && !surfaces_.candidates().empty() && !worker.is_alone();
+  }
+  /// True if apply() may change velocities of the batch.
+  bool may_touch(const Batch& batch) const {
+    return (has_surfaces_ && !surfaces_.candidates().empty()) || !solids_.near(batch).empty();
+  }
   /// Changes the velocities so that in a step of h from here surfaces do not pass through each other, nor particles
   /// into solids. The velocities of all batches must be there. Needs a barrier after it.
   void apply(const Worker& worker, float h) { apply(worker, h, 0); }

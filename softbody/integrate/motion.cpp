@@ -1,5 +1,6 @@
 #include "softbody/integrate/motion.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -25,8 +26,7 @@ void Motion::begin_frame(const Integrator& integrator, const glm::dvec3& gravity
   scratch_.resize(std::size_t(integrator.scratch));
   for (auto& one : scratch_)
     for (auto& c : one) c.resize(parts_.state.x[0].size());
-  for (const Batch& b : parts_.state.batches())
-    if (b.any_moves()) clear(b, forces);
+  volumes_.resize(parts_.state.batches().size());
 }
 
 void Motion::begin_substeps(const Integrator& integrator, float h) {
@@ -45,6 +45,25 @@ void Motion::contact_forces(const Worker& worker, float h) {
 void Motion::all_forces(const Batch& b) {
   clear(b, forces);
   forces_.add(step_of(b, h_));
+}
+
+void Motion::advance_velocities(const Batch& b, float h, Volumes how) {
+  clear(b, forces);
+  forces_.advance(step_of(b, h), how, volumes_[b.index]);
+}
+
+/// Contacts stop a part of what the pressure at the end was found for. Each time the pressure is found again, what is
+/// missing becomes less by the share of the surface that contacts hold.
+void Motion::contacts_under_pressure(const Worker& worker, float h) {
+  constexpr int times = 3;
+  contacts(worker, h);
+  const auto touches = [&](const Batch* b) { return parts_.contacts.may_touch(*b); };
+  if (std::ranges::none_of(worker.batches(), touches) && !parts_.contacts.meets_others(worker)) return;
+  for (int i = 0; i < times; ++i) {
+    for (const Batch* b : worker.batches())
+      if (touches(b)) forces_.press_again(step_of(*b, h), volumes_[b->index]);
+    contacts(worker, h);
+  }
 }
 
 void Motion::other_forces(const Batch& b) {

@@ -46,9 +46,8 @@ class Motion {
   /// slips.
   void contact_forces(const Worker& worker, float h);
   void all_forces(const Batch& batch);  // at the current positions and velocities
-  /// Does what all_forces() and kick() do together, faster. Wants the forces to be 0, as they are at the start of a
-  /// frame, and leaves them so.
-  void advance_velocities(const Batch& batch, float h, Volumes volumes) { forces_.advance(step_of(batch, h), volumes); }
+  /// Does what all_forces() and kick() do together, faster. The forces are scratch after it.
+  void advance_velocities(const Batch& batch, float h, Volumes how);
   void other_forces(const Batch& batch);    // all but those that project() and pull() stand for
   void kick(const Batch& batch, float h);   // v += h (f / m + g)
   void accelerations(const Batch& batch);   // f = f / m + g
@@ -56,6 +55,8 @@ class Motion {
   /// Changes the velocities so that in a step of h from here surfaces do not pass through each other, nor particles
   /// into solids. The velocities of all batches must be there. Needs a barrier after it.
   void contacts(const Worker& worker, float h) { parts_.contacts.apply(worker, h); }
+  /// Does the same after advance_velocities() with Volumes::implicit_, so that the pressure is the one at the end.
+  void contacts_under_pressure(const Worker& worker, float h);
   /// Does the same for the positions that a substep of h ends with.
   void contacts_at_end(const Worker& worker, float h) { parts_.contacts.apply_at_end(worker, h); }
   /// XPBD, on displacements d in this step of h, which starts at x0. Wants the positions to be x0 + d.
@@ -80,6 +81,7 @@ class Motion {
   MotionParts parts_;
   ForceSet forces_;
   std::vector<VectorArray> scratch_;
+  std::vector<LaneVolumes> volumes_;  // of each batch
   glm::dvec3 gravity_{0.0};
   float h_ = 0;
 };

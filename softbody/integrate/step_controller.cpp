@@ -63,8 +63,8 @@ void StepController::choose(const StepBound& b, const FrameConditions& c) {
   const double of_implicit = c.penalty_pairs > 0 ? work::implicit_in_contact
                              : c.near_solids     ? work::implicit_on_solids
                                                  : work::implicit_in_flight;
-  const double besides = std::max({accurate_rate, 1 / seconds_, b.passing, b.deformation, b.stable});
-  const bool gas_decides = besides < 0.9 * b.breathing;
+  // Contact of surfaces wants short steps. It acts after the gas, and would be solved again for each new pressure.
+  const bool gas_decides = !c.surfaces_near && std::max({accurate_rate, 1 / seconds_, b.stable}) < 0.9 * b.breathing;
   plan_.integrator = find_integrator(gas_decides ? "imex-euler" : "semi-implicit-euler");
   const double most = fixed() ? fixed_steps_ : of_implicit * std::max(1.0, seconds_ * implicit_rate(b));
   const bool cheaper = seconds_ * explicit_rate(b) <= most;

@@ -30,29 +30,31 @@ class Swing : public testing::TestWithParam<double> {};  // damping ratio
 
 /// Set going by another gas, down to none and up to almost twice as much.
 TEST_P(Swing, GainsNoEnergyInSubstepsThatTheWorldChooses) {
-  for (const double stiffness : {200.0, 2e4})
-    for (const double pressure : {0.0, 5e4, 9e4, 116e3, 13e4, 15e4, 2e5}) {
-      Material m = swinging_ball(stiffness, GetParam());
-      World world(lone_body(m), {.integrator = {"auto"}});
-      run(world, 5);
-      m[GasPressure::inside] = pressure;
-      world.set_material(0, m);
-      run(world, 3);  // the sudden force may bring the first substep's work besides
-      const auto energy = [&] {
-        const BodyMeasures b = measure_bodies(world)[0];
-        return std::pair(b.conserved(ledger(world).staggering), b.energy.kinetic);
-      };
-      double start = energy().first, motion = 0;
-      int most = world.last_step().substeps;
-      for (int frame = 0; frame < 120; ++frame) {
-        world.step();
-        const auto [total, kinetic] = energy();
-        motion = std::max(motion, kinetic);
-        // A swing that grows stiffer may get shorter steps, which conserve another energy, but only once.
-        if (world.last_step().substeps > most) start = std::max(start, total), most = world.last_step().substeps;
-        ASSERT_LE(total, start + 0.1 * motion) << stiffness << " N/m, " << pressure << " Pa, frame " << frame;
+  for (const std::string integrator : {"auto", "imex-euler"})
+    for (const double stiffness : {200.0, 2e4})
+      for (const double pressure : {0.0, 5e4, 9e4, 116e3, 13e4, 15e4, 2e5}) {
+        Material m = swinging_ball(stiffness, GetParam());
+        World world(lone_body(m), {.integrator = {integrator}});
+        run(world, 5);
+        m[GasPressure::inside] = pressure;
+        world.set_material(0, m);
+        run(world, 3);  // the sudden force may bring the first substep's work besides
+        const auto energy = [&] {
+          const BodyMeasures b = measure_bodies(world)[0];
+          return std::pair(b.conserved(ledger(world).staggering), b.energy.kinetic);
+        };
+        double start = energy().first, motion = 0;
+        int most = world.last_step().substeps;
+        for (int frame = 0; frame < 120; ++frame) {
+          world.step();
+          const auto [total, kinetic] = energy();
+          motion = std::max(motion, kinetic);
+          // A swing that grows stiffer may get shorter steps, which conserve another energy, but only once.
+          if (world.last_step().substeps > most) start = std::max(start, total), most = world.last_step().substeps;
+          ASSERT_LE(total, start + 0.1 * motion)
+              << integrator << ", " << stiffness << " N/m, " << pressure << " Pa, frame " << frame;
+        }
       }
-    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Damping, Swing, testing::Values(0.0, 0.005, 0.02));
@@ -127,7 +129,7 @@ TEST(ImplicitSteps, LeaveABurstRound) {
 TEST(ImplicitSteps, CountWhereTheIntegratorIsChosen) {
   World world = bursting("auto");
   world.step();
-  EXPECT_EQ(world.last_step().integrator->key, "semi-implicit-euler");
+  EXPECT_FALSE(world.last_step().integrator->implicit);
   EXPECT_GT(world.last_step().substeps, 150);
 }
 
@@ -223,7 +225,7 @@ TEST_F(HysteresisOfSubsteps, IsLimitedToTheSubstepsOfAFrame) {
     fast[0].velocity = {1e6, 0, 0};
     w->set_particles(0, fast);
     w->step();
-    ASSERT_EQ(w->last_step().integrator->key, "semi-implicit-euler");
+    ASSERT_FALSE(w->last_step().integrator->implicit);
     ASSERT_LT(w->last_step().seconds, w->frame_time());
     w->set_particles(0, before);
     w->step();

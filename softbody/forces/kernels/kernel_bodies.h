@@ -222,21 +222,19 @@ inline double pressure_at_end(const VolumeStep& s, double start_volume, const au
   }
 }
 
-/// The change of velocity in a substep, v += h (f / m + g), in one pass over the particles. The forces between two of
-/// them act where the pass comes to the first one, which is complete then: nothing after it needs its velocity of old
-/// or its force. So the velocity gets its new value, and the place of the force takes A = dV/dx. The gas comes last,
-/// since its pressure depends on all particles: explicitly, or such as it is at the end of the substep, where the
-/// volume has become V + h A . (u + h P A / m). That is one number for each body, and stable at any h. The sum of A
-/// over a closed mesh is 0, so the momentum stays.
+/// The change of velocity in a substep, v += h (f / m + g), but for the gas, in one pass over the particles. The forces
+/// between two of them act where the pass comes to the first one, which is complete then: nothing after it needs its
+/// velocity of old or its force. So the velocity gets its new value, and the place of the force takes A = dV/dx.
 template <class V, int width>
-HWY_INLINE void kick(const LaneBodies<float>& b, const KickArguments& k, bool implicit_volume, Field<float> v) {
+HWY_INLINE void kick(const LaneBodies<float>& b, const KickArguments& k, Field<float> v, LaneVolumes& volumes,
+                     std::size_t lane) {
   constexpr std::size_t block = 16;  // of particles, summed by themselves as in volume()
   const std::size_t particles = b.model.mesh.vertices.size();
   const bool presses = b.model.forces->pressure > 0;
   const V moves = load<V>(k.moves), scale = V(k.h_over_mass) * moves;
   const Vec<V> g{k.gx * moves, k.gy * moves, k.gz * moves}, from = load<V>(b.x, 0);
   PairsOf<float> pairs(b.model);
-  V three_volumes{}, flow{}, area2{};
+  V three_volumes{}, rate{}, square{};
   for (std::size_t first = 0; first < particles; first += block) {
     V part{};
     for (auto i = static_cast<Index>(first); i < std::min(first + block, particles); ++i) {
@@ -251,23 +249,40 @@ HWY_INLINE void kick(const LaneBodies<float>& b, const KickArguments& k, bool im
       });
       const Vec<V> u = before + scale * force + g;
       store(v, at, u);
+      if (!presses) continue;
       Vec<V> six_areas{};
-      if (presses)
-        for (const auto& [j, l] : b.model.edges_opposite(i))
-          six_areas = six_areas + cross(load<V>(b.x, j * width) - x, load<V>(b.x, l * width) - x);
+      for (const auto& [j, l] : b.model.edges_opposite(i))
+        six_areas = six_areas + cross(load<V>(b.x, j * width) - x, load<V>(b.x, l * width) - x);
       const Vec<V> area = V(1.0f / 6) * six_areas;
       store(b.f, at, area);
       part += dot(area, x - from);
-      flow += dot(area, u);
-      area2 += dot(area, area);
+      rate += dot(area, u);
+      square += dot(area, area);
     }
     three_volumes += part;
   }
-  if (!presses) return;
-  float volumes[lanes], rates[lanes], squares[lanes], push[lanes]{};
-  store(volumes, three_volumes / V(3.0f));
-  store(rates, flow);
-  store(squares, area2);
+  store(volumes.volume + lane, three_volumes / V(3.0f));
+  store(volumes.rate + lane, rate);
+  store(volumes.square + lane, square);
+  store(volumes.pressure + lane, V{});
+}
+
+/// Measures LaneVolumes::rate for the velocities v. f: A.
+template <class V, int width>
+HWY_INLINE void volume_rate(const LaneBodies<float>& b, Field<const float> v, float* result) {
+  V rate{};
+  for (std::size_t at = 0; at < b.model.mesh.vertices.size() * width; at += width)
+    rate += dot(load<V>(b.f, at), load<V>(v, at));
+  store(result, rate);
+}
+
+/// Changes the velocities by the gas, h P A / m: f: A. The pressure P depends on all particles, so that gas comes last:
+/// explicitly, or such as P is at the end of the substep, where the volume has become V + h A . (v + h P A / m). That
+/// is one number for each body, and stable at any h. The sum of A over a closed mesh is 0, so the momentum stays. What
+/// the velocities have of P already, volumes.pressure, is replaced.
+template <class V, int width>
+HWY_INLINE void press(const LaneBodies<float>& b, const KickArguments& k, bool implicit_volume, Field<float> v,
+                      LaneVolumes& volumes, std::size_t first) {
   const auto pull = [&](double volume) {  // of all laws, and how fast it grows
     Jet sum = 0;
     for_each_force(Forces{}, [&]<class F>(Name<F>) {
@@ -276,17 +291,19 @@ HWY_INLINE void kick(const LaneBodies<float>& b, const KickArguments& k, bool im
     });
     return sum;
   };
-  const double h = implicit_volume ? double(k.h) : 0;
-  for (int lane = 0; lane < std::min(b.used, lanes_of<V>); ++lane)
-    push[lane] = k.h_over_mass * k.moves[lane] *
-                 static_cast<float>(pressure_at_end({double(volumes[lane]), h * double(rates[lane]),
-                                                     h * double(k.h_over_mass) * double(squares[lane])},
-                                                    b.model.start_volume, pull));
-  const V pushes = load<V>(push);
-  for (std::size_t at = 0; at < particles * width; at += width) {
-    store(v, at, load<V>(v, at) + pushes * load<V>(b.f, at));
-    store(b.f, at, Vec<V>{});
+  const double h = implicit_volume ? double(k.h) : 0, h_over_mass = double(k.h_over_mass);
+  float push[lanes]{};
+  for (int l = 0; l < std::min(b.used, lanes_of<V>); ++l) {
+    const std::size_t lane = first + std::size_t(l);
+    const double yield = h * h_over_mass * double(volumes.square[lane]), before = double(volumes.pressure[lane]);
+    const VolumeStep step{double(volumes.volume[lane]), h * double(volumes.rate[lane]) - yield * before, yield};
+    const double pressure = pressure_at_end(step, b.model.start_volume, pull);
+    volumes.pressure[lane] = static_cast<float>(pressure);
+    push[l] = static_cast<float>(h_over_mass * (pressure - before)) * k.moves[l];
   }
+  const V pushes = load<V>(push);
+  for (std::size_t at = 0; at < b.model.mesh.vertices.size() * width; at += width)
+    store(v, at, load<V>(v, at) + pushes * load<V>(b.f, at));
 }
 
 /// XPBD, one pass without accumulated multipliers (Macklin et al. 2016, eq. 18 and 26 times the stiffness): a law as a

@@ -68,6 +68,14 @@ struct MotionSums {
   double strain[lanes];                   // the largest, of a spring
 };
 
+/// The volumes V of the bodies of a batch in a substep. A = dV/dx.
+struct LaneVolumes {
+  float volume[lanes];    // m^3, at its start
+  float rate[lanes];      // m^3/s, A . v
+  float square[lanes];    // m^4, A . A
+  float pressure[lanes];  // Pa, of the gas: that which the velocities v have felt already
+};
+
 /// The law of a force between two particles.
 template <class F, class Real>
 struct LengthLaw {

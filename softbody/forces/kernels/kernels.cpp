@@ -41,12 +41,28 @@ struct Kernels {
       visit<F, V>(b.model, *d, {}, Project<V, width>{b, own, float(1 / b.model.particle_mass)});
     }
   }
-  static void kick(const LaneBodies<float>& all, const KickArguments& k, bool implicit_volume, Field<float> v) {
+  /// Calls at(bodies, arguments, velocities, lane) for each run of lanes.
+  template <class At>
+  static void for_each_run(const LaneBodies<float>& all, const KickArguments& k, Field<float> v, const At& at) {
     for (std::size_t l = 0; l < std::size_t(all.used); l += step) {
       KickArguments own = k;
       own.moves += l;
-      body::kick<V, width>(all.from(l), own, implicit_volume, v + l);
+      at(all.from(l), own, v + l, l);
     }
+  }
+  static void kick(const LaneBodies<float>& all, const KickArguments& k, Volumes how, Field<float> v,
+                   LaneVolumes& volumes) {
+    const bool presses = all.model.forces->pressure > 0;
+    for_each_run(all, k, v, [&](const auto& b, const auto& own, Field<float> u, std::size_t lane) HWY_ATTR {
+      body::kick<V, width>(b, own, u, volumes, lane);
+      if (presses) body::press<V, width>(b, own, how == Volumes::implicit_, u, volumes, lane);
+    });
+  }
+  static void press_again(const LaneBodies<float>& all, const KickArguments& k, Field<float> v, LaneVolumes& volumes) {
+    for_each_run(all, k, v, [&](const auto& b, const auto& own, Field<float> u, std::size_t lane) HWY_ATTR {
+      volume_rate<V, width>(b, u, volumes.rate + lane);
+      body::press<V, width>(b, own, true, u, volumes, lane);
+    });
   }
   static void measure_surfaces(const LaneBodies<float>& all, SurfaceShape* result) {
     const std::vector<Triangle>& faces = all.model.mesh.triangles;
@@ -117,6 +133,7 @@ struct Kernels {
       if constexpr (is_projected<F>()) kernels.project[index_of<F>] = &Kernels::template project<F>;
     });
     kernels.kick = &Kernels::kick;
+    kernels.press_again = &Kernels::press_again;
     kernels.measure_surfaces = &Kernels::measure_surfaces;
     kernels.measure_motion = &Kernels::measure_motion;
     return kernels;

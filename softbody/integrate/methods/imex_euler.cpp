@@ -6,7 +6,7 @@ namespace softbody {
 void imex_euler(Motion& motion, const Worker& worker, const Substep& substep) {
   motion.contact_forces(worker, substep.h);
   for (const Batch* batch : worker.batches()) motion.advance_velocities(*batch, substep.h, Volumes::implicit_);
-  motion.contacts(worker, substep.h);
+  motion.contacts_under_pressure(worker, substep.h);
   for (const Batch* batch : worker.batches()) motion.drift(*batch, substep.h);
   worker.barrier();  // the next contact forces read the positions of all bodies
 }
