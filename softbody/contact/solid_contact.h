@@ -48,6 +48,8 @@ class SolidContact {
   void clear_velocities(const Batch& batch);
   /// Changes the velocities of a batch so that in a step of h seconds no particle enters a solid.
   void apply(const Batch& batch, float h);
+  /// True if it keeps faces and edges, too, off solids; see set_parts().
+  bool has_features() const { return has_features_; }
   /// Adds a row for each particle of a body that a solid may stop in this substep if it comes `travel` (m) nearer.
   void add_particle_rows(BodyId body, float travel, std::vector<ContactRow>& rows) const;
   /// Books the impulses of these rows as those of the solids. Threads may call it at once for different bodies.

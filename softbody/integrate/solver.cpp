@@ -93,7 +93,7 @@ Solver::Frame Solver::begin_frame(double seconds) {
        .penalty_pairs = penalty_.pairs.size(),
        .near_solids = std::ranges::any_of(moving, [&](const Batch* b) { return !solids_.near(*b).empty(); }),
        .surface_contact = contacts_.has_surfaces(),
-       .surfaces_near = contacts_.has_surfaces() &&
+       .surfaces_near = (contacts_.has_surfaces() || solids_.has_features()) &&
                         std::ranges::any_of(moving, [&](const Batch* b) { return contacts_.may_touch(*b); }),
        .too_large = std::ranges::any_of(moving, [](const Batch* b) { return b->particles() > max_implicit_particles; }),
        .rounding = steps_.automatic() ? bounds_.rounding() : 0,
