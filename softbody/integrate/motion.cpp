@@ -36,7 +36,9 @@ void Motion::begin_substeps(const Integrator& integrator, float h) {
 void Motion::contact_forces(const Worker& worker, float h) {
   PenaltyContact& penalty = parts_.penalty;
   if (penalty.pairs.empty()) return;
-  penalty.evaluate(worker.part(penalty.pairs.size()), field(parts_.state.x), field(parts_.state.v), h);
+  for (const Batch* b : worker.batches()) penalty.gather(*b, field(parts_.state.x), field(parts_.state.v));
+  worker.barrier();
+  penalty.evaluate(worker.part(penalty.pairs.size()), h);
   worker.barrier();
 }
 
