@@ -33,11 +33,14 @@ void Motion::begin_substeps(const Integrator& integrator, float h) {
       integrator.implicit ? std::numeric_limits<float>::infinity() : PenaltyContact::max_damped / h;
 }
 
+void Motion::publish(const Worker& worker) {
+  for (const Batch* b : worker.batches()) parts_.penalty.gather(*b, field(parts_.state.x), field(parts_.state.v));
+  worker.barrier();
+}
+
 void Motion::contact_forces(const Worker& worker, float h) {
   PenaltyContact& penalty = parts_.penalty;
   if (penalty.pairs.empty()) return;
-  for (const Batch* b : worker.batches()) penalty.gather(*b, field(parts_.state.x), field(parts_.state.v));
-  worker.barrier();
   penalty.evaluate(worker.part(penalty.pairs.size()), h);
   worker.barrier();
 }

@@ -6,7 +6,7 @@ namespace softbody {
 void explicit_euler(Motion& motion, const Worker& worker, const Substep& substep) {
   if (substep.first) {  // the velocities at hand may be another step's
     motion.contacts(worker, substep.h);
-    worker.barrier();
+    motion.publish(worker);
   }
   motion.contact_forces(worker, substep.h);
   for (const Batch* batch : worker.batches()) {
@@ -15,7 +15,7 @@ void explicit_euler(Motion& motion, const Worker& worker, const Substep& substep
     motion.kick(*batch, substep.h);
   }
   motion.contacts_at_end(worker, substep.h);
-  worker.barrier();
+  motion.publish(worker);
 }
 
 }  // namespace softbody

@@ -45,7 +45,7 @@ void implicit_step(Motion& motion, const Worker& worker, const Substep& substep)
     motion.drift(*batch, substep.h);
     motion.add(*batch, velocities, 1, rest);
   }
-  worker.barrier();
+  motion.publish(worker);
 }
 
 }  // namespace softbody

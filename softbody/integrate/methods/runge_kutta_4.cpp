@@ -35,7 +35,7 @@ void runge_kutta_4(Motion& motion, const Worker& worker, const Substep& substep)
     motion.contact_forces(worker, s == 0 ? h : 0);  // friction's springs slip once a step
     for (const Batch* batch : worker.batches()) motion.all_forces(*batch);
     for (const Batch* batch : worker.batches()) stage(motion, *batch, weight[s], ahead[s] * h);
-    worker.barrier();
+    motion.publish(worker);
   }
   for (const Batch* batch : worker.batches()) motion.copy(*batch, mean_v, velocities);
   motion.contacts(worker, h);
@@ -46,7 +46,7 @@ void runge_kutta_4(Motion& motion, const Worker& worker, const Substep& substep)
     motion.add(*batch, velocities, h, mean_a);
   }
   motion.contacts_at_end(worker, h);
-  worker.barrier();
+  motion.publish(worker);
 }
 
 }  // namespace softbody

@@ -11,7 +11,7 @@ void semi_implicit_euler(Motion& motion, const Worker& worker, const Substep& su
   }
   motion.contacts(worker, substep.h);
   for (const Batch* batch : worker.batches()) motion.drift(*batch, substep.h);
-  worker.barrier();  // the next contact forces read the positions of all bodies
+  motion.publish(worker);
 }
 
 }  // namespace softbody

@@ -16,7 +16,7 @@ void velocity_verlet(Motion& motion, const Worker& worker, const Substep& subste
     motion.copy(*batch, velocities, scratch(0));
     motion.kick(*batch, half);  // the prediction
   }
-  worker.barrier();
+  motion.publish(worker);
   motion.contact_forces(worker, substep.h);
   for (const Batch* batch : worker.batches()) {
     motion.all_forces(*batch);
@@ -24,7 +24,7 @@ void velocity_verlet(Motion& motion, const Worker& worker, const Substep& subste
     motion.kick(*batch, half);
   }
   motion.contacts_at_end(worker, substep.h);
-  worker.barrier();
+  motion.publish(worker);
 }
 
 }  // namespace softbody

@@ -19,7 +19,7 @@ void xpbd(Motion& motion, const Worker& worker, const Substep& substep) {
   }
   motion.contacts(worker, substep.h);
   for (const Batch* batch : worker.batches()) motion.drift(*batch, substep.h);
-  worker.barrier();
+  motion.publish(worker);
 }
 
 }  // namespace softbody
