@@ -1,6 +1,7 @@
 #include "softbody/forces/penalty_contact.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -25,48 +26,75 @@ PenaltyLaw<Real> law_of(const PenaltyContact& c, const PenaltyPair& p) {
 
 }  // namespace
 
+/// What one of the threads does that share the search for pairs.
+struct PenaltyContact::Share {
+  int thread = 0, threads = 1;
+  collide::Workers* workers = nullptr;
+  std::vector<Totals>& totals;  // of all threads, and one more
+
+  collide::Part part(std::size_t count) const { return collide::part_of(count, thread, threads); }
+  /// Returns the totals of the threads before this one, when each has stated its own. Calls prepare(sums) once, before
+  /// any thread goes on.
+  Totals before(const Totals& own, const std::function<void(const Totals&)>& prepare) const {
+    totals[std::size_t(thread) + 1] = own;
+    barrier();
+    if (thread == 0) {
+      totals[0] = {};
+      for (std::size_t i = 1; i < totals.size(); ++i)
+        totals[i].first += totals[i - 1].first, totals[i].second += totals[i - 1].second;
+      prepare(totals.back());
+    }
+    barrier();
+    return totals[std::size_t(thread)];
+  }
+  void barrier() const {
+    if (workers) workers->barrier();
+  }
+};
+
 void PenaltyContact::find(const DetectedContacts& detected, const State& state, float layer,
                           collide::Workers& workers) {
   thickness = layer;
   if (detected.contacts.empty()) return pairs.clear();
-  const auto acts = [&](const collide::Contact& c) {
-    return state.body(detected.vertex_body[c.a]).moves() || state.body(detected.vertex_body[c.b]).moves();
-  };
   const std::vector<collide::Contact> before = std::exchange(pairs.contact, {});
   const VectorArray stretch = std::exchange(pairs.stretch, {});
-  std::vector<std::size_t> first(std::size_t(workers.threads()) + 1, 0);  // pair of each thread
+  std::vector<Totals> totals(std::size_t(workers.threads()) + 1);
   workers.run([&](int thread) {
-    const auto of_thread = [&](std::size_t count) { return collide::part_of(count, thread, workers.threads()); };
-    const collide::Part part = of_thread(detected.contacts.size());
-    const auto own = std::span(detected.contacts).subspan(part.begin, part.end - part.begin);
-    first[std::size_t(thread) + 1] = std::size_t(std::ranges::count_if(own, acts));
-    workers.barrier();
-    if (thread == 0) {
-      std::partial_sum(first.begin(), first.end(), first.begin());
-      pairs.resize(first.back());
+    const Share share{thread, workers.threads(), &workers, totals};
+    take(share, detected, state);
+    share.barrier();
+    group(share, state.x[0].size(), state.batches());
+    share.barrier();
+    const collide::Part batches = share.part(state.batches().size());
+    for (const Batch& batch : state.batches().subspan(batches.begin, batches.end - batches.begin)) {
+      gather(batch, field(state.x), field(state.v));
+      set_traits(state, batch);
     }
-    workers.barrier();
-    std::size_t i = first[std::size_t(thread)];
-    for (const collide::Contact& c : own) {
-      if (!acts(c)) continue;
-      pairs.contact[i] = c;
-      pairs.body_a[i] = detected.vertex_body[c.a], pairs.body_b[i] = detected.vertex_body[c.b];
-      ++i;
-    }
-    locate({first[std::size_t(thread)], i}, detected.vertices, state);
-    workers.barrier();
-    if (thread == 0) group(state.x[0].size(), state.batches());
-    workers.barrier();
-    const collide::Part batches = of_thread(state.batches().size());
-    for (std::size_t b = batches.begin; b < batches.end; ++b) {
-      gather(state.batches()[b], field(state.x), field(state.v));
-      set_traits(state, state.batches()[b]);
-    }
-    workers.barrier();
-    penalty_kernels().prepare(of_thread(pairs.size()), pairs, motion_.data(), traits_.data());
-    workers.barrier();
-    carry_over(of_thread(pairs.size()), before, stretch);
+    share.barrier();
+    penalty_kernels().prepare(share.part(pairs.size()), pairs, motion_.data(), traits_.data());
+    share.barrier();
+    carry_over(share.part(pairs.size()), before, stretch);
   });
+}
+
+/// Takes the contacts of bodies that move.
+void PenaltyContact::take(const Share& share, const DetectedContacts& detected, const State& state) {
+  const auto body = [&](Index vertex) { return detected.vertex_body[vertex]; };
+  const auto acts = [&](const collide::Contact& c) {
+    return state.body(body(c.a)).moves() || state.body(body(c.b)).moves();
+  };
+  const collide::Part part = share.part(detected.contacts.size());
+  const auto own = std::span(detected.contacts).subspan(part.begin, part.end - part.begin);
+  const auto count = std::size_t(std::ranges::count_if(own, acts));
+  const std::size_t first = share.before({count, 0}, [&](const Totals& all) { pairs.resize(all.first); }).first;
+  std::size_t i = first;
+  for (const collide::Contact& c : own) {
+    if (!acts(c)) continue;
+    pairs.contact[i] = c;
+    pairs.body_a[i] = body(c.a), pairs.body_b[i] = body(c.b);
+    ++i;
+  }
+  locate({first, i}, detected.vertices, state);
 }
 
 void PenaltyContact::locate(collide::Part part, const collide::Bodies& vertices, const State& state) {
@@ -86,34 +114,56 @@ void PenaltyContact::locate(const collide::Bodies& vertices, const State& state)
 }
 
 void PenaltyContact::group(std::size_t slots, std::span<const Batch> batches) {
+  std::vector<Totals> totals(2);
+  group(Share{.totals = totals}, slots, batches);
+}
+
+/// Each thread finds the particles in its part of the slots: the ends of their pairs stay in order.
+void PenaltyContact::group(const Share& share, std::size_t slots, std::span<const Batch> batches) {
   assert(slots <= std::numeric_limits<std::uint32_t>::max());
-  count_.assign(slots, 0);
-  for (std::size_t i = 0; i < pairs.size(); ++i) ++count_[pairs.slot_a[i]], ++count_[pairs.slot_b[i]];
-  slot_.clear();
-  first_end_.assign(1, 0);
-  for (std::uint32_t slot = 0; slot < slots; ++slot) {
-    if (count_[slot] == 0) continue;
-    first_end_.push_back(first_end_.back() + count_[slot]);
-    count_[slot] = std::uint32_t(slot_.size());  // now the number of the particle
-    slot_.push_back(slot);
+  const auto [low, high] = share.part(slots);
+  const auto for_each_end = [&, first = low, count = high - low](const auto& use) {
+    for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+      if (pairs.slot_a[i] - first < count) use(pairs.slot_a[i], pairs.a[i], PenaltyEnd{i, 0});
+      if (pairs.slot_b[i] - first < count) use(pairs.slot_b[i], pairs.b[i], PenaltyEnd{i, 1});
+    }
+  };
+  std::vector<std::uint32_t> of_slot(high - low, 0);  // the number of its ends, and then that of its particle
+  Totals own{};                                       // particles, ends
+  for_each_end([&, first = low](std::uint32_t slot, std::uint32_t&, PenaltyEnd) {
+    own.first += of_slot[slot - first]++ == 0;
+    ++own.second;
+  });
+  const auto [first, first_end] = share.before(own, [&](const Totals& all) {
+    slot_.resize(all.first);
+    first_end_.resize(all.first + 1);
+    first_end_.back() = std::uint32_t(all.second);
+    motion_.resize(all.first), traits_.resize(all.first);
+    ends_.resize(all.second);
+    force.resize(pairs.a.size());
+    stored_.resize(pairs.a.size() / lanes);
+    of_batch_.resize(batches.size());
+  });
+  auto particle = std::uint32_t(first), end = std::uint32_t(first_end);
+  for (std::size_t i = 0; i < of_slot.size(); ++i) {
+    if (of_slot[i] == 0) continue;
+    slot_[particle] = std::uint32_t(low + i);
+    first_end_[particle] = end;
+    end += std::exchange(of_slot[i], particle++);
   }
-  std::vector<std::uint32_t> next = first_end_;
-  ends_.resize(2 * pairs.size());
-  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
-    pairs.a[i] = count_[pairs.slot_a[i]], pairs.b[i] = count_[pairs.slot_b[i]];
-    ends_[next[pairs.a[i]]++] = {i, 0};
-    ends_[next[pairs.b[i]]++] = {i, 1};
-  }
-  of_batch_.clear();
-  for (const Batch& b : batches) {
-    const auto at = [&](std::size_t slot) {
-      return std::size_t(std::ranges::lower_bound(slot_, slot) - slot_.begin());
-    };
-    of_batch_.push_back({at(b.base), at(b.base + b.values())});
-  }
-  motion_.resize(slot_.size()), traits_.resize(slot_.size());
-  force.resize(pairs.a.size());
-  stored_.resize(pairs.a.size() / lanes);
+  std::vector<std::uint32_t> next(first_end_.begin() + std::ptrdiff_t(first),
+                                  first_end_.begin() + std::ptrdiff_t(first + own.first));
+  for_each_end([&, from = low, base = first](std::uint32_t slot, std::uint32_t& of_pair, PenaltyEnd one) {
+    of_pair = of_slot[slot - from];
+    ends_[next[of_pair - base]++] = one;
+  });
+  share.barrier();
+  const auto at = [this](std::size_t slot) {
+    return std::size_t(std::ranges::lower_bound(slot_, slot) - slot_.begin());
+  };
+  const auto [begin, last] = share.part(batches.size());
+  for (std::size_t i = begin; i < last; ++i)
+    of_batch_[i] = {at(batches[i].base), at(batches[i].base + batches[i].values())};
 }
 
 void PenaltyContact::set_traits(const State& state, const Batch& batch) {

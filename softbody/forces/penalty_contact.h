@@ -10,6 +10,7 @@
 
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "collide/core/detector.h"
@@ -84,12 +85,16 @@ class PenaltyContact {
   void carry_over(collide::Part part, std::span<const collide::Contact> before, const VectorArray& stretch);
 
  private:
+  struct Share;
+  using Totals = std::pair<std::size_t, std::size_t>;
   /// Those of a batch, in the order of their slots.
   collide::Part particles_of(const Batch& batch) const {
     return pairs.empty() ? collide::Part{} : of_batch_[batch.index];
   }
   void gather(collide::Part particles, Field<const float> x, Field<const float> v);
   void locate(collide::Part part, const collide::Bodies& vertices, const State& state);
+  void take(const Share& share, const DetectedContacts& detected, const State& state);
+  void group(const Share& share, std::size_t slots, std::span<const Batch> batches);
   void set_traits(const State& state, const Batch& batch);
 
   // Of each particle that has pairs.
@@ -99,7 +104,6 @@ class PenaltyContact {
   std::vector<PenaltyEnd> ends_;                // of the pairs of each particle, in their order
   std::vector<collide::Part> of_batch_;         // the particles of each batch
   std::vector<double> stored_;                  // J, of each block of pairs
-  std::vector<std::uint32_t> count_;            // scratch
 };
 
 }  // namespace softbody
