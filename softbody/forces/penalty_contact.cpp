@@ -206,6 +206,7 @@ void PenaltyContact::adapt(Material& material, const MeshSource& source) {
 
 void PenaltyContact::add(const ForceBatch& b) const {
   const auto [begin, end] = particles_of(b.batch);
+  if (begin == end) return;
   penalty_kernels().add(std::span(slot_).subspan(begin, end - begin), first_end_.data() + begin, ends_.data(),
                         force.data(), field(b.state.f));
 }

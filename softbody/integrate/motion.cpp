@@ -33,10 +33,7 @@ void Motion::begin_substeps(const Integrator& integrator, float h) {
       integrator.implicit ? std::numeric_limits<float>::infinity() : PenaltyContact::max_damped / h;
 }
 
-void Motion::publish(const Worker& worker) {
-  for (const Batch* b : worker.batches()) parts_.penalty.gather(*b, field(parts_.state.x), field(parts_.state.v));
-  worker.barrier();
-}
+void Motion::show(const Batch& b) { parts_.penalty.gather(b, field(parts_.state.x), field(parts_.state.v)); }
 
 void Motion::contact_forces(const Worker& worker, float h) {
   PenaltyContact& penalty = parts_.penalty;

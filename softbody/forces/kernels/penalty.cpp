@@ -127,10 +127,14 @@ void set_normals(const Batch& batch, Field<const float> x, std::span<const std::
 void add(std::span<const std::uint32_t> slots, const std::uint32_t* first_end, const PenaltyEnd* ends,
          const glm::vec4* force, Field<float> f) {
   using One = Wide<float, 4>;
+  constexpr std::uint32_t ahead = 32;  // ends, of pairs that stand anywhere
+  const std::uint32_t last = first_end[slots.size()];
   for (std::size_t i = 0; i < slots.size(); ++i) {
     One sum(0.0f);
-    for (std::uint32_t e = first_end[i]; e < first_end[i + 1]; ++e)
+    for (std::uint32_t e = first_end[i]; e < first_end[i + 1]; ++e) {
+      hwy::Prefetch(force + ends[std::min(e + ahead, last - 1)].pair);
       sum += One(ends[e].sign()) * load<One>(&force[ends[e].pair].x);
+    }
     float more[4];
     store(more, sum);
     softbody::add(f, slots[i], {more[0], more[1], more[2]});

@@ -19,7 +19,7 @@ struct PenaltyStep {
 /// The end of a pair that a force acts on.
 struct PenaltyEnd {
   std::uint32_t pair : 31, at_b : 1;
-  float sign() const { return at_b ? -1.0f : 1.0f; }  // of the force on a
+  float sign() const { return 1.0f - 2.0f * float(at_b); }  // of the force on a
 };
 
 struct PenaltyKernels {

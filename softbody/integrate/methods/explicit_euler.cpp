@@ -6,7 +6,8 @@ namespace softbody {
 void explicit_euler(Motion& motion, const Worker& worker, const Substep& substep) {
   if (substep.first) {  // the velocities at hand may be another step's
     motion.contacts(worker, substep.h);
-    motion.publish(worker);
+    for (const Batch* batch : worker.batches()) motion.show(*batch);
+    worker.barrier();
   }
   motion.contact_forces(worker, substep.h);
   for (const Batch* batch : worker.batches()) {
@@ -15,7 +16,8 @@ void explicit_euler(Motion& motion, const Worker& worker, const Substep& substep
     motion.kick(*batch, substep.h);
   }
   motion.contacts_at_end(worker, substep.h);
-  motion.publish(worker);
+  for (const Batch* batch : worker.batches()) motion.show(*batch);
+  worker.barrier();
 }
 
 }  // namespace softbody

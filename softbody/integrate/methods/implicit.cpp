@@ -44,8 +44,9 @@ void implicit_step(Motion& motion, const Worker& worker, const Substep& substep)
   for (const Batch* batch : worker.batches()) {
     motion.drift(*batch, substep.h);
     motion.add(*batch, velocities, 1, rest);
+    motion.show(*batch);
   }
-  motion.publish(worker);
+  worker.barrier();
 }
 
 }  // namespace softbody

@@ -34,8 +34,11 @@ void runge_kutta_4(Motion& motion, const Worker& worker, const Substep& substep)
   for (std::size_t s = 0; s < 4; ++s) {
     motion.contact_forces(worker, s == 0 ? h : 0);  // friction's springs slip once a step
     for (const Batch* batch : worker.batches()) motion.all_forces(*batch);
-    for (const Batch* batch : worker.batches()) stage(motion, *batch, weight[s], ahead[s] * h);
-    motion.publish(worker);
+    for (const Batch* batch : worker.batches()) {
+      stage(motion, *batch, weight[s], ahead[s] * h);
+      motion.show(*batch);
+    }
+    worker.barrier();
   }
   for (const Batch* batch : worker.batches()) motion.copy(*batch, mean_v, velocities);
   motion.contacts(worker, h);
@@ -46,7 +49,8 @@ void runge_kutta_4(Motion& motion, const Worker& worker, const Substep& substep)
     motion.add(*batch, velocities, h, mean_a);
   }
   motion.contacts_at_end(worker, h);
-  motion.publish(worker);
+  for (const Batch* batch : worker.batches()) motion.show(*batch);
+  worker.barrier();
 }
 
 }  // namespace softbody

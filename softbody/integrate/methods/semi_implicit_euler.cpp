@@ -10,8 +10,11 @@ void semi_implicit_euler(Motion& motion, const Worker& worker, const Substep& su
     motion.kick(*batch, substep.h);
   }
   motion.contacts(worker, substep.h);
-  for (const Batch* batch : worker.batches()) motion.drift(*batch, substep.h);
-  motion.publish(worker);
+  for (const Batch* batch : worker.batches()) {
+    motion.drift(*batch, substep.h);
+    motion.show(*batch);
+  }
+  worker.barrier();
 }
 
 }  // namespace softbody

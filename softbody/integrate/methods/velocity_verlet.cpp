@@ -15,8 +15,9 @@ void velocity_verlet(Motion& motion, const Worker& worker, const Substep& subste
     motion.drift(*batch, substep.h);
     motion.copy(*batch, velocities, scratch(0));
     motion.kick(*batch, half);  // the prediction
+    motion.show(*batch);
   }
-  motion.publish(worker);
+  worker.barrier();
   motion.contact_forces(worker, substep.h);
   for (const Batch* batch : worker.batches()) {
     motion.all_forces(*batch);
@@ -24,7 +25,8 @@ void velocity_verlet(Motion& motion, const Worker& worker, const Substep& subste
     motion.kick(*batch, half);
   }
   motion.contacts_at_end(worker, substep.h);
-  motion.publish(worker);
+  for (const Batch* batch : worker.batches()) motion.show(*batch);
+  worker.barrier();
 }
 
 }  // namespace softbody
