@@ -28,11 +28,12 @@ PenaltyLaw<Real> law_of(const PenaltyContact& c, const PenaltyPair& p) {
 
 /// What one of the threads does that share the search for pairs.
 struct PenaltyContact::Share {
-  int thread = 0, threads = 1;
-  collide::Workers* workers = nullptr;
+  int thread;
+  collide::Workers* workers;    // nullptr: it is alone
   std::vector<Totals>& totals;  // of all threads, and one more
 
-  collide::Part part(std::size_t count) const { return collide::part_of(count, thread, threads); }
+  static int threads(const collide::Workers* workers) { return workers ? workers->threads() : 1; }
+  collide::Part part(std::size_t count) const { return collide::part_of(count, thread, threads(workers)); }
   /// Returns the totals of the threads before this one, when each has stated its own. Calls prepare(sums) once, before
   /// any thread goes on.
   Totals before(const Totals& own, const std::function<void(const Totals&)>& prepare) const {
@@ -53,14 +54,14 @@ struct PenaltyContact::Share {
 };
 
 void PenaltyContact::find(const DetectedContacts& detected, const State& state, float layer,
-                          collide::Workers& workers) {
+                          collide::Workers* workers) {
   thickness = layer;
   if (detected.contacts.empty()) return pairs.clear();
   const std::vector<collide::Contact> before = std::exchange(pairs.contact, {});
   const VectorArray stretch = std::exchange(pairs.stretch, {});
-  std::vector<Totals> totals(std::size_t(workers.threads()) + 1);
-  workers.run([&](int thread) {
-    const Share share{thread, workers.threads(), &workers, totals};
+  std::vector<Totals> totals(std::size_t(Share::threads(workers)) + 1);
+  const auto task = [&](int thread) {
+    const Share share{thread, workers, totals};
     take(share, detected, state);
     share.barrier();
     group(share, state.x[0].size(), state.batches());
@@ -74,7 +75,11 @@ void PenaltyContact::find(const DetectedContacts& detected, const State& state, 
     penalty_kernels().prepare(share.part(pairs.size()), pairs, motion_.data(), traits_.data());
     share.barrier();
     carry_over(share.part(pairs.size()), before, stretch);
-  });
+  };
+  if (workers)
+    workers->run(task);
+  else
+    task(0);
 }
 
 /// Takes the contacts of bodies that move.
@@ -115,7 +120,7 @@ void PenaltyContact::locate(const collide::Bodies& vertices, const State& state)
 
 void PenaltyContact::group(std::size_t slots, std::span<const Batch> batches) {
   std::vector<Totals> totals(2);
-  group(Share{.totals = totals}, slots, batches);
+  group(Share{0, nullptr, totals}, slots, batches);
 }
 
 /// Each thread finds the particles in its part of the slots: the ends of their pairs stay in order.

@@ -44,11 +44,11 @@ class PenaltyContact {
   LaneArray<glm::vec4> force;                                   // on a, of the current substep, N
 
   /// Takes the contacts for the coming frame, and hands the friction springs of those that were there before on to
-  /// them. thickness: of the contact layer, m. The contacts ascend.
-  void find(const DetectedContacts& detected, const State& state, float thickness, collide::Workers& workers);
+  /// them. thickness: of the contact layer, m. The contacts ascend. workers: nullptr if there are too few to share.
+  void find(const DetectedContacts& detected, const State& state, float thickness, collide::Workers* workers);
   /// Finds again where the bodies' particles stand in the state's arrays, and how far apart their origins are.
   void locate(const collide::Bodies& vertices, const State& state);
-  /// Finds which particles the pairs join, from their slots; all are below `slots`.
+  /// Finds the particles that the pairs join by their slots, which are below `slots`.
   void group(std::size_t slots, std::span<const Batch> batches);
   /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up.
   void remove(BodyId body, Index first, Index count);
@@ -73,7 +73,7 @@ class PenaltyContact {
   std::span<const PenaltyEnd> ends_of(const Batch& batch) const;
   /// Returns what the law stores, in J.
   double energy(const PenaltyPair& pair, Field<const float> x) const;
-  /// Returns an upper bound of the work (J) that a pair does while its particles move `way` m at most.
+  /// Returns an upper bound of the work (J) that a pair does on one particle while the other moves by `way` (m).
   double max_work(const PenaltyPair& pair, Field<const float> x, double way) const;
   /// Returns upper bounds of how fast the force on a falls with the motion of a in the coming `seconds`, in N/m.
   struct Slopes {
