@@ -1,7 +1,9 @@
 #include "softbody/forces/penalty_contact.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -12,138 +14,192 @@
 namespace softbody {
 namespace {
 
-/// Returns the unit vector along v, or up if v has no length.
-glm::vec3 direction(const glm::vec3& v) {
-  const float length = glm::length(v);
-  return length > 0 ? v / length : glm::vec3(0, 1, 0);
-}
-
-glm::vec3 vertex_normal(const State& state, BodyId body, Index vertex) {
-  const BodyModel& p = state.model(body);
-  const auto place = [&](Index i) { return read(field(state.x), state.slot(body, i)); };
-  glm::vec3 sum(0.0f);  // of the faces' normals times twice their areas
-  for (const Index face : p.faces_of(vertex)) {
-    const auto& [a, b, c] = p.mesh.triangles[face];
-    const glm::vec3 corner = place(a);
-    sum += glm::cross(place(b) - corner, place(c) - corner);
-  }
-  return direction(sum);
-}
-
 /// Returns the way from b to a, in m.
 glm::vec3 between(const PenaltyPair& p, Field<const float> x) {
   return read(x, p.slot_a) - read(x, p.slot_b) + p.offset;
 }
 
-/// How the two particles of a pair stand and move.
-struct Meeting {
-  Meeting(const PenaltyPair& p, Field<const float> x, Field<const float> v)
-      : normal(p.normal),
-        d(between(p, x)),
-        velocity(read(v, p.slot_a) - read(v, p.slot_b)),
-        s(glm::dot(d, normal)),
-        u(glm::dot(velocity, normal)) {}
-  float d2() const { return glm::dot(d, d); }
-  glm::vec3 slip() const { return velocity - u * normal; }
-
-  glm::vec3 normal;
-  glm::vec3 d, velocity;  // of a from b, m and m/s
-  float s, u;             // of these, along n
-};
-
-glm::vec3 contact_normal(const State& state, const PenaltyPair& pair) {
-  const glm::vec3 way = direction(between(pair, field(state.x)));
-  const bool surfaces =
-      pair.body_a != pair.body_b && state.model(pair.body_a).mesh.closed && state.model(pair.body_b).mesh.closed;
-  if (!surfaces) return way;
-  const glm::vec3 apart =
-      vertex_normal(state, pair.body_b, pair.vertex_b) - vertex_normal(state, pair.body_a, pair.vertex_a);
-  return glm::length(apart) > 0.5f ? glm::normalize(apart) : way;  // surfaces that face the same way tell nothing
+template <class Real>
+PenaltyLaw<Real> law_of(const PenaltyContact& c, const PenaltyPair& p) {
+  return {Real(p.stiffness), Real(c.thickness), Real(p.friction), Real(c.damper_limit * p.damped_mass)};
 }
 
 }  // namespace
 
-void PenaltyContact::find(const DetectedContacts& detected, const State& state, float layer) {
+/// What one of the threads does that share the search for pairs.
+struct PenaltyContact::Share {
+  int thread;
+  collide::Workers* workers;    // nullptr: it is alone
+  std::vector<Totals>& totals;  // of all threads, and one more
+
+  static int threads(const collide::Workers* workers) { return workers ? workers->threads() : 1; }
+  collide::Part part(std::size_t count) const { return collide::part_of(count, thread, threads(workers)); }
+  /// Returns the totals of the threads before this one, when each has stated its own. Calls prepare(sums) once, before
+  /// any thread goes on.
+  Totals before(const Totals& own, const std::function<void(const Totals&)>& prepare) const {
+    totals[std::size_t(thread) + 1] = own;
+    barrier();
+    if (thread == 0) {
+      totals[0] = {};
+      for (std::size_t i = 1; i < totals.size(); ++i)
+        totals[i].first += totals[i - 1].first, totals[i].second += totals[i - 1].second;
+      prepare(totals.back());
+    }
+    barrier();
+    return totals[std::size_t(thread)];
+  }
+  void barrier() const {
+    if (workers) workers->barrier();
+  }
+};
+
+void PenaltyContact::find(const DetectedContacts& detected, const State& state, float layer,
+                          collide::Workers* workers) {
   thickness = layer;
-  const std::vector<PenaltyPair> before = std::exchange(pairs, {});
-  add_pairs(detected, state);
-  carry_over(before);
-  force.resize(pairs.size());
-  group(state);
+  if (detected.contacts.empty()) return pairs.clear();
+  const std::vector<collide::Contact> before = std::exchange(pairs.contact, {});
+  const VectorArray stretch = std::exchange(pairs.stretch, {});
+  std::vector<Totals> totals(std::size_t(Share::threads(workers)) + 1);
+  const auto task = [&](int thread) {
+    const Share share{thread, workers, totals};
+    take(share, detected, state);
+    share.barrier();
+    group(share, state.x[0].size(), state.batches());
+    share.barrier();
+    const collide::Part batches = share.part(state.batches().size());
+    for (const Batch& batch : state.batches().subspan(batches.begin, batches.end - batches.begin)) {
+      gather(batch, field(state.x), field(state.v));
+      set_traits(state, batch);
+    }
+    share.barrier();
+    penalty_kernels().prepare(share.part(pairs.size()), pairs, motion_.data(), traits_.data());
+    share.barrier();
+    carry_over(share.part(pairs.size()), before, stretch);
+  };
+  if (workers)
+    workers->run(task);
+  else
+    task(0);
 }
 
-void PenaltyContact::add_pairs(const DetectedContacts& detected, const State& state) {
-  const auto& [vertices, vertex_body, contacts] = detected;
-  const auto still = [&state, bodies = vertex_body](const collide::Contact& c) {
-    return !state.body(bodies[c.a]).moves() && !state.body(bodies[c.b]).moves();
+/// Takes the contacts of bodies that move.
+void PenaltyContact::take(const Share& share, const DetectedContacts& detected, const State& state) {
+  const auto body = [&](Index vertex) { return detected.vertex_body[vertex]; };
+  const auto acts = [&](const collide::Contact& c) {
+    return state.body(body(c.a)).moves() || state.body(body(c.b)).moves();
   };
-  const auto of_bodies = [&state](const Key& value) {
-    std::vector<double> values;
-    for (BodyId body = 0; body < state.body_count(); ++body) values.push_back(state.model(body).material[value]);
-    return values;
-  };
-  const std::vector<double> stiffness = of_bodies(contact::stiffness), friction = of_bodies(contact::friction);
-  std::vector<std::uint32_t> contacts_of(vertex_body.size(), 0);  // of each vertex
-  for (const collide::Contact& c : contacts) {
-    if (still(c)) continue;
-    ++contacts_of[c.a];
-    ++contacts_of[c.b];
+  const collide::Part part = share.part(detected.contacts.size());
+  const auto own = std::span(detected.contacts).subspan(part.begin, part.end - part.begin);
+  const auto count = std::size_t(std::ranges::count_if(own, acts));
+  const std::size_t first = share.before({count, 0}, [&](const Totals& all) { pairs.resize(all.first); }).first;
+  std::size_t i = first;
+  for (const collide::Contact& c : own) {
+    if (!acts(c)) continue;
+    pairs.contact[i] = c;
+    pairs.body_a[i] = body(c.a), pairs.body_b[i] = body(c.b);
+    ++i;
   }
-  for (const collide::Contact& c : contacts) {
-    if (still(c)) continue;
-    const BodyId a = vertex_body[c.a], b = vertex_body[c.b];
-    const Index va = c.a - vertices.first[a], vb = c.b - vertices.first[b];
-    const auto damped_mass = [&](BodyId body, Index contact_vertex) {
-      return state.body(body).moves() ? state.model(body).particle_mass / double(contacts_of[contact_vertex])
-                                      : std::numeric_limits<double>::infinity();
-    };
-    PenaltyPair& pair = pairs.emplace_back(PenaltyPair{
-        .contact = c,
-        .body_a = a,
-        .body_b = b,
-        .vertex_a = va,
-        .vertex_b = vb,
-        .slot_a = state.slot(a, va),
-        .slot_b = state.slot(b, vb),
-        .offset = glm::vec3(state.body(a).origin - state.body(b).origin),
-        .normal = {},
-        .stiffness = float(std::min(stiffness[a], stiffness[b]) / double(std::max(contacts_of[c.a], contacts_of[c.b]))),
-        .friction = float(law::common_friction(friction[a], friction[b])),
-        .damped_mass = 0});
-    pair.damped_mass =
-        float(std::min(damped_mass(a, c.a), damped_mass(b, c.b)) / std::sqrt(1 + pair.friction * pair.friction));
-    pair.normal = contact_normal(state, pair);
+  locate({first, i}, detected.vertices, state);
+}
+
+void PenaltyContact::locate(collide::Part part, const collide::Bodies& vertices, const State& state) {
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    const BodyId a = pairs.body_a[i], b = pairs.body_b[i];
+    pairs.slot_a[i] = std::uint32_t(state.slot(a, pairs.contact[i].a - vertices.first[a]));
+    pairs.slot_b[i] = std::uint32_t(state.slot(b, pairs.contact[i].b - vertices.first[b]));
+    const glm::vec3 offset(state.body(a).origin - state.body(b).origin);
+    for (int k = 0; k < 3; ++k) pairs.offset[std::size_t(k)][i] = offset[k];
   }
 }
 
-void PenaltyContact::locate(const State& state) {
-  for (PenaltyPair& p : pairs) {
-    p.slot_a = state.slot(p.body_a, p.vertex_a);
-    p.slot_b = state.slot(p.body_b, p.vertex_b);
-    p.offset = glm::vec3(state.body(p.body_a).origin - state.body(p.body_b).origin);
+void PenaltyContact::locate(const collide::Bodies& vertices, const State& state) {
+  locate({0, pairs.size()}, vertices, state);
+  group(state.x[0].size(), state.batches());
+  gather(field(state.x), field(state.v));
+}
+
+void PenaltyContact::group(std::size_t slots, std::span<const Batch> batches) {
+  std::vector<Totals> totals(2);
+  group(Share{0, nullptr, totals}, slots, batches);
+}
+
+/// Each thread finds the particles in its part of the slots: the ends of their pairs stay in order.
+void PenaltyContact::group(const Share& share, std::size_t slots, std::span<const Batch> batches) {
+  assert(slots <= std::numeric_limits<std::uint32_t>::max());
+  const auto [low, high] = share.part(slots);
+  const auto for_each_end = [&, first = low, count = high - low](const auto& use) {
+    for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+      if (pairs.slot_a[i] - first < count) use(pairs.slot_a[i], pairs.a[i], PenaltyEnd{i, 0});
+      if (pairs.slot_b[i] - first < count) use(pairs.slot_b[i], pairs.b[i], PenaltyEnd{i, 1});
+    }
+  };
+  std::vector<std::uint32_t> of_slot(high - low, 0);  // the number of its ends, and then that of its particle
+  Totals own{};                                       // particles, ends
+  for_each_end([&, first = low](std::uint32_t slot, std::uint32_t&, PenaltyEnd) {
+    own.first += of_slot[slot - first]++ == 0;
+    ++own.second;
+  });
+  const auto [first, first_end] = share.before(own, [&](const Totals& all) {
+    slot_.resize(all.first);
+    first_end_.resize(all.first + 1);
+    first_end_.back() = std::uint32_t(all.second);
+    motion_.resize(all.first), traits_.resize(all.first);
+    ends_.resize(all.second);
+    force.resize(pairs.a.size());
+    stored_.resize(pairs.a.size() / lanes);
+    of_batch_.resize(batches.size());
+  });
+  auto particle = std::uint32_t(first), end = std::uint32_t(first_end);
+  for (std::size_t i = 0; i < of_slot.size(); ++i) {
+    if (of_slot[i] == 0) continue;
+    slot_[particle] = std::uint32_t(low + i);
+    first_end_[particle] = end;
+    end += std::exchange(of_slot[i], particle++);
   }
+  std::vector<std::uint32_t> next(first_end_.begin() + std::ptrdiff_t(first),
+                                  first_end_.begin() + std::ptrdiff_t(first + own.first));
+  for_each_end([&, from = low, base = first](std::uint32_t slot, std::uint32_t& of_pair, PenaltyEnd one) {
+    of_pair = of_slot[slot - from];
+    ends_[next[of_pair - base]++] = one;
+  });
+  share.barrier();
+  const auto at = [this](std::size_t slot) {
+    return std::size_t(std::ranges::lower_bound(slot_, slot) - slot_.begin());
+  };
+  const auto [begin, last] = share.part(batches.size());
+  for (std::size_t i = begin; i < last; ++i)
+    of_batch_[i] = {at(batches[i].base), at(batches[i].base + batches[i].values())};
+}
+
+void PenaltyContact::set_traits(const State& state, const Batch& batch) {
+  const collide::Part part = particles_of(batch);
+  const BodyModel& model = *batch.model;
+  const auto stiffness = float(model.material[contact::stiffness]), friction = float(model.material[contact::friction]);
+  const auto mass = float(model.particle_mass);
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    const std::size_t lane = (slot_[i] - batch.base) % std::size_t(batch.width);
+    const auto contacts = float(first_end_[i + 1] - first_end_[i]);
+    constexpr float none = std::numeric_limits<float>::quiet_NaN();
+    traits_[i] = {
+        glm::vec4(none, none, none, contacts),
+        glm::vec4(stiffness, friction, batch.moves[lane] > 0 ? mass / contacts : std::numeric_limits<float>::infinity(),
+                  float(batch.body[lane]))};
+  }
+  if (model.mesh.closed)
+    penalty_kernels().set_normals(batch, field(state.x, batch.base),
+                                  std::span(slot_).subspan(part.begin, part.end - part.begin),
+                                  traits_.data() + part.begin);
+}
+
+void PenaltyContact::gather(collide::Part particles, Field<const float> x, Field<const float> v) {
+  for (std::size_t i = particles.begin; i < particles.end; ++i)
+    motion_[i] = {glm::vec4(read(x, slot_[i]), 0), glm::vec4(read(v, slot_[i]), 0)};
 }
 
 std::span<const PenaltyEnd> PenaltyContact::ends_of(const Batch& b) const {
-  if (pairs.empty()) return {};
-  return std::span(ends).subspan(first_end[b.index], first_end[b.index + 1] - first_end[b.index]);
-}
-
-/// Fills `ends`.
-void PenaltyContact::group(const State& state) {
-  const auto batch_of = [&](BodyId body) { return state.body(body).batch; };
-  first_end.assign(state.batches().size() + 1, 0);
-  for (const PenaltyPair& p : pairs) {
-    ++first_end[batch_of(p.body_a) + 1];
-    ++first_end[batch_of(p.body_b) + 1];
-  }
-  for (std::size_t b = 0; b + 1 < first_end.size(); ++b) first_end[b + 1] += first_end[b];
-  std::vector<std::uint32_t> next(first_end.begin(), first_end.end() - 1);
-  ends.resize(2 * pairs.size());
-  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
-    ends[next[batch_of(pairs[i].body_a)]++] = {pairs[i].slot_a, i, 1.0f};
-    ends[next[batch_of(pairs[i].body_b)]++] = {pairs[i].slot_b, i, -1.0f};
-  }
+  const auto [begin, end] = particles_of(b);
+  if (begin == end) return {};
+  return std::span(ends_).subspan(first_end_[begin], first_end_[end] - first_end_[begin]);
 }
 
 /// The given stiffness is for the particles of the paper's sphere. If a body has more particles, more of them share a
@@ -154,73 +210,59 @@ void PenaltyContact::adapt(Material& material, const MeshSource& source) {
 }
 
 void PenaltyContact::add(const ForceBatch& b) const {
-  const Field<float> f = field(b.state.f);
-  for (const PenaltyEnd& end : ends_of(b.batch)) softbody::add(f, end.slot, end.sign * force[end.pair]);
+  const auto [begin, end] = particles_of(b.batch);
+  if (begin == end) return;
+  penalty_kernels().add(std::span(slot_).subspan(begin, end - begin), first_end_.data() + begin, ends_.data(),
+                        force.data(), field(b.state.f));
 }
 
-template <class Real>
-PenaltyLaw<Real> PenaltyContact::law_of(const PenaltyPair& pair) const {
-  return {Real(pair.stiffness), Real(thickness), Real(pair.friction), Real(damper_limit * pair.damped_mass)};
-}
-template PenaltyLaw<double> PenaltyContact::law_of(const PenaltyPair&) const;
-
-void PenaltyContact::evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds) {
-  for (std::size_t i = part.begin; i < part.end; ++i) {
-    PenaltyPair& p = pairs[i];
-    const PenaltyLaw pair_law = law_of<float>(p);
-    const Meeting m(p, x, v);
-    const float at_rest = pair_law.push_at_rest(m.s, m.d2());
-    if (at_rest <= 0) {
-      force[i] = p.stretch = glm::vec3(0.0f);
-      continue;
-    }
-    const float push = pair_law.push(at_rest, m.u);
-    p.stretch += seconds * m.slip();
-    const glm::vec3 asked = pair_law.drag(p.stretch, m.slip());
-    const glm::vec3 drag = law::within_cone(asked, p.friction * push);
-    if (drag != asked) p.stretch = drag / p.stiffness;
-    force[i] = push * p.normal - drag;
-  }
-}
+double PenaltyContact::energy() const { return std::accumulate(stored_.begin(), stored_.end(), 0.0); }
 
 void PenaltyContact::remove(BodyId body, Index first, Index count) {
-  std::erase_if(pairs, [body](const PenaltyPair& p) { return p.body_a == body || p.body_b == body; });
-  for (PenaltyPair& p : pairs) {
+  PenaltyPairs kept;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    PenaltyPair p = pairs[i];
+    if (p.body_a == body || p.body_b == body) continue;
     for (BodyId* id : {&p.body_a, &p.body_b}) *id -= *id > body;
     for (Index* vertex : {&p.contact.a, &p.contact.b}) *vertex -= *vertex > first ? count : 0;
+    kept.push_back(p);
   }
+  pairs = std::move(kept);
 }
 
 PenaltyContact::Slopes PenaltyContact::slopes(const PenaltyPair& p, Field<const float> x, Field<const float> v,
                                               float seconds) const {
-  const PenaltyLaw pair_law = law_of<float>(p);
-  const Meeting m(p, x, v);
-  const float at_rest = pair_law.push_at_rest(m.s, m.d2());
+  const PenaltyLaw law = law_of<float>(*this, p);
+  const glm::vec3 d = between(p, x);
+  const float s = glm::dot(d, p.normal), u = glm::dot(read(v, p.slot_a) - read(v, p.slot_b), p.normal);
+  const float at_rest = law.push_at_rest(s, glm::dot(d, d));
   if (at_rest <= 0) return {};
-  return {pair_law.slope_bound(m.s, m.d2(), m.u), pair_law.damper(at_rest) / seconds, p.stiffness,
-          pair_law.sticking_damper() / seconds};
+  return {law.slope_bound(s, glm::dot(d, d), u), law.damper(at_rest) / seconds, p.stiffness,
+          law.sticking_damper() / seconds};
 }
 
 double PenaltyContact::energy(const PenaltyPair& p, Field<const float> x) const {
   const glm::dvec3 d(between(p, x)), stretch(p.stretch);
   const double s = glm::dot(d, glm::dvec3(p.normal));
-  const PenaltyLaw pair_law = law_of<double>(p);
-  return pair_law.stored(s, glm::dot(d, d) - s * s) + pair_law.stored_by_friction(glm::dot(stretch, stretch));
+  const PenaltyLaw law = law_of<double>(*this, p);
+  return law.stored(s, glm::dot(d, d) - s * s) + law.stored_by_friction(glm::dot(stretch, stretch));
 }
 
-double PenaltyContact::energy(Field<const float> x) const {
-  double sum = 0;
-  for (const PenaltyPair& p : pairs) sum += energy(p, x);
-  return sum;
+double PenaltyContact::max_work(const PenaltyPair& p, Field<const float> x, double way) const {
+  return PenaltyLaw<double>::approach_limit * energy(p, x) + law_of<double>(*this, p).max_force() * way;
 }
 
-void PenaltyContact::carry_over(std::span<const PenaltyPair> before) {
-  auto old = before.begin();
-  for (PenaltyPair& p : pairs) {
-    while (old != before.end() && old->contact < p.contact) ++old;
-    if (old == before.end()) return;
-    if (old->contact != p.contact) continue;
-    p.stretch = old->stretch - glm::dot(old->stretch, p.normal) * p.normal;  // the normal may have turned
+void PenaltyContact::carry_over(collide::Part part, std::span<const collide::Contact> before,
+                                const VectorArray& stretch) {
+  if (part.begin == part.end) return;
+  auto old = std::ranges::lower_bound(before, pairs.contact[part.begin]);
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    while (old != before.end() && *old < pairs.contact[i]) ++old;
+    const bool known = old != before.end() && *old == pairs.contact[i];
+    const glm::vec3 normal = read(field(std::as_const(pairs.normal)), i);
+    const glm::vec3 was = known ? read(field(stretch), std::size_t(old - before.begin())) : glm::vec3(0.0f);
+    const glm::vec3 now = was - glm::dot(was, normal) * normal;  // the normal may have turned
+    for (int k = 0; k < 3; ++k) pairs.stretch[std::size_t(k)][i] = now[k];
   }
 }
 

@@ -4,21 +4,20 @@
 // Between closed bodies n comes from the surfaces' normals, so that a particle that has slipped through is still pushed
 // out; elsewhere it is the line between the two. The stiffness is shared among the contacts of a particle: a wide
 // contact layer is not stiffer.
+//
+// In a substep each thread gathers the particles of its batches, which stand side by side then; all threads evaluate
+// the pairs; and each adds their forces to the particles of its batches, in the order of the pairs.
 
-#include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "collide/core/detector.h"
 #include "softbody/forces/force.h"
+#include "softbody/forces/kernels/penalty.h"
 
 namespace softbody {
-
-template <class Real>
-struct PenaltyLaw;
 
 /// Contacts that a detector has found.
 struct DetectedContacts {
@@ -27,34 +26,12 @@ struct DetectedContacts {
   const std::vector<collide::Contact>& contacts;
 };
 
-struct PenaltyPair {
-  collide::Contact contact;  // the two vertices, over the whole world
-  BodyId body_a, body_b;
-  Index vertex_a, vertex_b;    // of their bodies
-  std::size_t slot_a, slot_b;  // in the state's arrays
-  glm::vec3 offset;            // origin of a minus origin of b, m
-  glm::vec3 normal;            // unit, from b to a
-  float stiffness;             // N/m
-  float friction;              // Coulomb
-  float damped_mass;           // kg, see PenaltyContact::max_damped
-  glm::vec3 stretch{0.0f};     // of the friction spring, m: how far a has slipped along b
-};
-
-/// The end of a pair that falls to one batch.
-struct PenaltyEnd {
-  std::size_t slot;
-  std::uint32_t pair;
-  float sign;  // +1 for a, -1 for b
-};
-
-struct PenaltyContact {
+class PenaltyContact {
+ public:
   static constexpr std::string_view key = "contact-response";
   static constexpr bool internal = false;
   static const char* why_not(const ForceFacts& facts) { return facts.why_no_vertex_contact; }
   static void adapt(Material& material, const MeshSource& source);
-
-  /// Adds the forces that evaluate() has found.
-  void add(const ForceBatch& batch) const;
 
   /// The largest share of a pair's relative velocity that a damper takes away in a substep, if the pair has the damped
   /// mass: that of its lighter particle, over the number of contacts there. All dampers on a particle together add no
@@ -63,39 +40,70 @@ struct PenaltyContact {
   static constexpr float max_damped = 0.36f;
   float damper_limit = std::numeric_limits<float>::infinity();  // 1/s, of a damper over the damped mass
   float thickness = 0;                                          // of the contact layer, m
-  std::vector<PenaltyPair> pairs;
-  std::vector<glm::vec3> force;          // on a, of the current substep, N
-  std::vector<PenaltyEnd> ends;          // grouped by batch
-  std::vector<std::uint32_t> first_end;  // batches + 1 offsets into ends
+  PenaltyPairs pairs;                                           // their contacts ascend
+  LaneArray<glm::vec4> force;                                   // on a, of the current substep, N
 
-  /// Evaluates the forces of the pairs in `part` and stretches their friction springs by `seconds` of slip.
-  void evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds);
-  template <class Real>
-  PenaltyLaw<Real> law_of(const PenaltyPair& pair) const;
+  /// Takes the contacts for the coming frame, and hands the friction springs of those that were there before on to
+  /// them. thickness: of the contact layer, m. The contacts ascend. workers: nullptr if there are too few to share.
+  void find(const DetectedContacts& detected, const State& state, float thickness, collide::Workers* workers);
+  /// Finds again where the bodies' particles stand in the state's arrays, and how far apart their origins are.
+  void locate(const collide::Bodies& vertices, const State& state);
+  /// Finds the particles that the pairs join by their slots, which are below `slots`.
+  void group(std::size_t slots, std::span<const Batch> batches);
+  /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up.
+  void remove(BodyId body, Index first, Index count);
+
+  /// Notes where the particles are that have pairs, and how fast: all of them, or those of a batch.
+  void gather(Field<const float> x, Field<const float> v) { gather(collide::Part{0, slot_.size()}, x, v); }
+  void gather(const Batch& batch, Field<const float> x, Field<const float> v) { gather(particles_of(batch), x, v); }
+  /// Evaluates the forces of the pairs in `part` on the gathered particles, and stretches their friction springs by
+  /// `seconds` of slip.
+  void evaluate(collide::Part part, float seconds) {
+    penalty_kernels().evaluate(part, pairs, motion_.data(), {thickness, damper_limit, seconds}, force.data());
+  }
+  /// Adds the forces that evaluate() has found.
+  void add(const ForceBatch& batch) const;
+  /// Measures what the pairs in `part` store, for energy().
+  void measure(collide::Part part) {
+    penalty_kernels().measure(part, pairs, motion_.data(), thickness, stored_.data());
+  }
+  double energy() const;  // J, of all pairs, measured
+
+  /// Returns the ends of pairs that fall to a batch.
+  std::span<const PenaltyEnd> ends_of(const Batch& batch) const;
   /// Returns what the law stores, in J.
   double energy(const PenaltyPair& pair, Field<const float> x) const;
-  double energy(Field<const float> x) const;  // J, of all pairs
+  /// Returns an upper bound of the work (J) that a pair does on one particle while the other moves by `way` (m).
+  double max_work(const PenaltyPair& pair, Field<const float> x, double way) const;
   /// Returns upper bounds of how fast the force on a falls with the motion of a in the coming `seconds`, in N/m.
   struct Slopes {
     float spring, damper;                // along n
     float across_spring, across_damper;  // while it sticks
   };
   Slopes slopes(const PenaltyPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
-  /// Takes the contacts for the coming frame, and hands the friction springs of those that were there before on to
-  /// them. thickness: of the contact layer, m. The contacts ascend.
-  void find(const DetectedContacts& detected, const State& state, float thickness);
-  /// Hands the friction springs of `before` on to the same contacts of `pairs`; both ascend.
-  void carry_over(std::span<const PenaltyPair> before);
-  /// Finds again where the bodies' particles stand in the state's arrays, and how far apart their origins are.
-  void locate(const State& state);
-  /// Returns the ends of pairs that fall to a batch.
-  std::span<const PenaltyEnd> ends_of(const Batch& batch) const;
-  /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up.
-  void remove(BodyId body, Index first, Index count);
+  /// Hands the friction springs of the contacts `before` on to the same contacts of a part of the pairs; both ascend.
+  void carry_over(collide::Part part, std::span<const collide::Contact> before, const VectorArray& stretch);
 
  private:
-  void add_pairs(const DetectedContacts& detected, const State& state);
-  void group(const State& state);
+  struct Share;
+  using Totals = std::pair<std::size_t, std::size_t>;
+  /// Those of a batch, in the order of their slots.
+  collide::Part particles_of(const Batch& batch) const {
+    return pairs.empty() ? collide::Part{} : of_batch_[batch.index];
+  }
+  void gather(collide::Part particles, Field<const float> x, Field<const float> v);
+  void locate(collide::Part part, const collide::Bodies& vertices, const State& state);
+  void take(const Share& share, const DetectedContacts& detected, const State& state);
+  void group(const Share& share, std::size_t slots, std::span<const Batch> batches);
+  void set_traits(const State& state, const Batch& batch);
+
+  // Of each particle that has pairs.
+  std::vector<std::uint32_t> slot_;             // in the state's arrays; ascend
+  std::vector<std::uint32_t> first_end_;        // and one more
+  LaneArray<PenaltyParticle> motion_, traits_;  // see penalty_kernels()
+  std::vector<PenaltyEnd> ends_;                // of the pairs of each particle, in their order
+  std::vector<collide::Part> of_batch_;         // the particles of each batch
+  std::vector<double> stored_;                  // J, of each block of pairs
 };
 
 }  // namespace softbody

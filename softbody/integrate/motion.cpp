@@ -35,10 +35,12 @@ void Motion::begin_substeps(const Integrator& integrator, float h) {
       integrator.implicit ? std::numeric_limits<float>::infinity() : PenaltyContact::max_damped / h;
 }
 
+void Motion::show(const Batch& b) { parts_.penalty.gather(b, field(parts_.state.x), field(parts_.state.v)); }
+
 void Motion::contact_forces(const Worker& worker, float h) {
   PenaltyContact& penalty = parts_.penalty;
   if (penalty.pairs.empty()) return;
-  penalty.evaluate(worker.part(penalty.pairs.size()), field(parts_.state.x), field(parts_.state.v), h);
+  penalty.evaluate(worker.part(penalty.pairs.size()), h);
   worker.barrier();
 }
 

@@ -42,8 +42,10 @@ class Motion {
   /// h: of the coming substeps of this integrator, s.
   void begin_substeps(const Integrator& integrator, float h);
 
+  /// Shows contact_forces() a batch as it is now. Needs a barrier after it.
+  void show(const Batch& batch);
   /// Evaluates the penalty contacts of the worker's part, for all_forces() of all batches. h: s, for which friction
-  /// slips.
+  /// slips. The batches are those of the start of a frame, or of the last show().
   void contact_forces(const Worker& worker, float h);
   void all_forces(const Batch& batch);  // at the current positions and velocities
   /// Does what all_forces() and kick() do together, faster. The forces are scratch after it.

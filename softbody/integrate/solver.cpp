@@ -17,7 +17,7 @@ constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a mome
 }  // namespace
 
 std::size_t SolverState::bytes() const {
-  return bodies.bytes() + bytes_of(penalty_pairs) + bytes_of(pushes) + surface.bytes();
+  return bodies.bytes() + penalty_pairs.bytes() + bytes_of(pushes) + surface.bytes();
 }
 
 Solver::Solver(const Scene& scene, const Crew& crew)
@@ -54,17 +54,15 @@ void Solver::remove(BodyId body) {
 }
 
 void Solver::set_contacts(const DetectedContacts& detected, float thickness) {
-  penalty_.find(detected, state_, thickness);
+  penalty_.find(detected, state_, thickness, crew_.active() > 1 ? &crew_.workers() : nullptr);
 }
 
 glm::dvec3 Solver::gravity() const { return has_gravity_ ? scene_.gravity : glm::dvec3(0.0); }
 
-/// Notes that these two may touch, or one its own surface.
-void Solver::join(BodyId a, BodyId b) {
-  for (const BodyId body : {a, b}) {
-    mark_pushed(body);
-    joined_[state_.body(body).batch] = true;
-  }
+/// Notes that this one may touch others, or itself.
+void Solver::join(BodyId body) {
+  mark_pushed(body);
+  joined_[state_.body(body).batch] = true;
 }
 
 Solver::Frame Solver::begin_frame(double seconds) {
@@ -102,16 +100,24 @@ Solver::Frame Solver::begin_frame(double seconds) {
   steps_.spend(work::surface * searches);
   crew_.take(std::move(moving), particles);
   motion_.begin_frame(*steps_.plan().integrator, gravity());
-  for (const PenaltyPair& p : penalty_.pairs) join(p.body_a, p.body_b);
+  for (const auto* bodies : {&penalty_.pairs.body_a, &penalty_.pairs.body_b})
+    for (const BodyId body : *bodies) join(body);
   if (hand_.grab()) mark_pushed(hand_.grab()->body);
   for (const Batch* b : crew_.moving())
     if (has_external_force(*b->model)) pushed_[b->index] = ~0u;
   return {seconds, particles, bound};
 }
 
+/// Returns what the pairs of the frame hold at its start or after the last substep, in J.
+double Solver::penalty_energy() {
+  if (penalty_.pairs.empty()) return 0;
+  crew_.run([&](const Worker& worker) { penalty_.measure(worker.part(penalty_.pairs.size())); });
+  return penalty_.energy();
+}
+
 FrameResult Solver::advance(double seconds, const std::function<void()>& after_substep) {
   Frame frame = begin_frame(seconds);
-  const double held = penalty_.energy(field(state_.x));
+  const double held = penalty_energy();
   if (!crew_.moving().empty()) {
     do take_substeps(frame, after_substep);
     while (frame.left > 0 && steps_.may_go_on());
@@ -121,7 +127,7 @@ FrameResult Solver::advance(double seconds, const std::function<void()>& after_s
     frame.left = 0;
   }
   solids_.end_frame();
-  state_.ledger.book(WorkBy::penalty, held - penalty_.energy(field(state_.x)));
+  state_.ledger.book(WorkBy::penalty, held - penalty_energy());
   return {frame.substeps, seconds - frame.left};
 }
 
@@ -139,7 +145,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   if (surfaces) {
     const double longest = frame.left / plan.substeps;
     steps_.spend(work::surface * contacts_.find(frame.left, longest, longest));
-    for (const collide::surface::SurfacePair& p : candidates.search().pairs()) join(p.a, p.b);
+    for (const collide::surface::SurfacePair& p : candidates.search().pairs()) join(p.a), join(p.b);
     frame.bound.passing = std::max(frame.bound.passing, double(candidates.substep_rate()));
     const int without = plan.substeps;
     plan = steps_.plan(frame.bound, frame.left);

@@ -29,7 +29,7 @@ struct FrameResult {
 struct SolverState {
   State bodies;
   float penalty_thickness = 0;  // m
-  std::vector<PenaltyPair> penalty_pairs;
+  PenaltyPairs penalty_pairs;
   std::vector<SolidPush> pushes;
   SurfaceContact::State surface;
   SubstepHysteresis substep_hysteresis;
@@ -89,7 +89,8 @@ class Solver {
 
   glm::dvec3 gravity() const;
   void mark_pushed(BodyId body) { pushed_[state_.body(body).batch] |= 1u << state_.body(body).lane; }
-  void join(BodyId a, BodyId b);
+  void join(BodyId body);
+  double penalty_energy();
   Frame begin_frame(double seconds);
   void take_substeps(Frame& frame, const std::function<void()>& after_substep);
   void set_staggering(double h, bool first);

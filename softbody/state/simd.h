@@ -191,6 +191,55 @@ HWY_INLINE Lane<T, n> select_bits(std::uint64_t bits, Lane<T, n> values) {
       hn::IfThenElseZero(hn::LoadMaskBits(tag, reinterpret_cast<const std::uint8_t*>(&bits)), values.raw));
 }
 
+/// Four values a lane, in a register each.
+template <class V>
+struct Quad {
+  V x, y, z, w;
+};
+
+#if HWY_TARGET == HWY_SCALAR
+template <class V>
+HWY_INLINE Quad<V> gather_quads(const float* table, std::size_t stride, const std::uint32_t* index) {
+  const float* row = table + stride * index[0];
+  return {load<V>(row), load<V>(row + 1), load<V>(row + 2), load<V>(row + 3)};
+}
+#else
+/// Loads the first four floats of every fourth row, side by side.
+template <class D>
+HWY_INLINE hn::Vec<D> gather_blocks(D tag, const float* table, std::size_t stride, const std::uint32_t* index) {
+  if constexpr (hn::MaxLanes(D()) == 4) {
+    return hn::LoadU(tag, table + stride * index[0]);
+  } else {
+    const hn::Half<D> half;
+    return hn::Combine(tag, gather_blocks(half, table, stride, index + hn::MaxLanes(half)),
+                       gather_blocks(half, table, stride, index));
+  }
+}
+
+/// Loads the first four floats of each lane's row of a table. index: the lanes' rows, which begin `stride` floats after
+/// each other.
+template <class V>
+HWY_INLINE Quad<V> gather_quads(const float* table, std::size_t stride, const std::uint32_t* index) {
+  const typename V::Tag tag;
+  const hn::Repartition<std::uint64_t, typename V::Tag> twos;
+  const auto rows = [=](int i) HWY_ATTR { return gather_blocks(tag, table, stride, index + i); };
+  const auto xy01 = hn::BitCast(twos, hn::InterleaveLower(tag, rows(0), rows(1))),
+             xy23 = hn::BitCast(twos, hn::InterleaveLower(tag, rows(2), rows(3))),
+             zw01 = hn::BitCast(twos, hn::InterleaveUpper(tag, rows(0), rows(1))),
+             zw23 = hn::BitCast(twos, hn::InterleaveUpper(tag, rows(2), rows(3)));
+  return {V(hn::BitCast(tag, hn::InterleaveLower(twos, xy01, xy23))),
+          V(hn::BitCast(tag, hn::InterleaveUpper(twos, xy01, xy23))),
+          V(hn::BitCast(tag, hn::InterleaveLower(twos, zw01, zw23))),
+          V(hn::BitCast(tag, hn::InterleaveUpper(twos, zw01, zw23)))};
+}
+#endif
+
+/// Stores four values for each lane, one lane after another.
+template <class V>
+HWY_INLINE void store_quads(float* p, const Quad<V>& q) {
+  hn::StoreInterleaved4(q.x.raw, q.y.raw, q.z.raw, q.w.raw, typename V::Tag(), p);
+}
+
 template <int n>
 HWY_INLINE Lane<double, n> widened(Lane<float, n> v) {
   return Lane<double, n>(hn::PromoteTo(typename Lane<double, n>::Tag(), v.raw));

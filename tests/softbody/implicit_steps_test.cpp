@@ -163,8 +163,6 @@ struct PairRig : BatchRig {
       PenaltyPair pair{.contact = {5, 1000 + other},
                        .body_a = 0,
                        .body_b = other,
-                       .vertex_a = 5,
-                       .vertex_b = 0,
                        .slot_a = base + 5 * lanes + 1,
                        .slot_b = other * lanes,
                        .offset = glm::vec3(0.0f),
@@ -172,11 +170,12 @@ struct PairRig : BatchRig {
                        .stiffness = 100,
                        .friction = 0.5f,
                        .damped_mass = 1};
-      ends.push_back({pair.slot_a, std::uint32_t(penalty.pairs.size()), 1});
+      ends.push_back({std::uint32_t(penalty.pairs.size()), 0});
       penalty.pairs.push_back(pair);
     }
-    penalty.force.resize(2);
-    penalty.evaluate({0, 2}, std::as_const(x).field(), std::as_const(v).field(), float(h));
+    penalty.group(x.x.size(), {});
+    penalty.gather(x.field(), v.field());
+    penalty.evaluate({0, 2}, float(h));
   }
   std::vector<PenaltyEnd> ends;
 };

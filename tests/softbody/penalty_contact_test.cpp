@@ -5,10 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
+#include <random>
 
 #include "softbody/forces/penalty_law.h"
+#include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
+#include "tests/support/world_test_access.h"
 
 namespace softbody::test {
 namespace {
@@ -21,8 +25,6 @@ struct Pair {
     penalty.pairs.push_back({.contact = {0, 1},
                              .body_a = 0,
                              .body_b = 1,
-                             .vertex_a = 0,
-                             .vertex_b = 1,
                              .slot_a = 0,
                              .slot_b = 1,
                              .offset = offset,
@@ -30,12 +32,13 @@ struct Pair {
                              .stiffness = 100,
                              .friction = float(friction),
                              .damped_mass = 1});
-    penalty.force.resize(1);
+    penalty.group(2, {});
   }
   /// The force on a after `seconds` at this velocity, which stretches the friction spring.
   glm::dvec3 force(const glm::dvec3& velocity, double seconds = 0) {
     v.set(0, 0, velocity);
-    penalty.evaluate({0, 1}, std::as_const(x).field(), std::as_const(v).field(), float(seconds));
+    penalty.gather(x.field(), v.field());
+    penalty.evaluate({0, 1}, float(seconds));
     return glm::dvec3(penalty.force[0]);
   }
   PenaltyContact penalty;
@@ -130,12 +133,13 @@ TEST(PenaltyContact, FrictionSpringsArePassedOnToTheSameContactAcrossItsNewNorma
   pair.force({0.2, 0, 0}, 0.1);
   PenaltyContact next;
   for (const collide::Contact c : {collide::Contact{0, 0}, {0, 1}, {0, 2}}) {
-    PenaltyPair& same = next.pairs.emplace_back(pair.penalty.pairs[0]);
+    PenaltyPair same = pair.penalty.pairs[0];
     same.contact = c;
     same.normal = glm::normalize(glm::vec3(1, 1, 0));
     same.stretch = glm::vec3(0.0f);
+    next.pairs.push_back(same);
   }
-  next.carry_over(pair.penalty.pairs);
+  next.carry_over({0, 3}, pair.penalty.pairs.contact, pair.penalty.pairs.stretch);
   EXPECT_EQ(next.pairs[0].stretch, glm::vec3(0.0f));
   EXPECT_NEAR(glm::distance(next.pairs[1].stretch, glm::vec3(0.01f, -0.01f, 0)), 0, 1e-6);
   EXPECT_EQ(next.pairs[2].stretch, glm::vec3(0.0f));
@@ -144,8 +148,9 @@ TEST(PenaltyContact, FrictionSpringsArePassedOnToTheSameContactAcrossItsNewNorma
 TEST(PenaltyContact, FrictionSpringsStayWithTheirContactsWhenAnEarlierBodyIsRemoved) {
   PenaltyContact penalty;
   const auto add = [&](const collide::Contact& contact, BodyId a, BodyId b, float stretch) {
-    PenaltyPair& pair = penalty.pairs.emplace_back();
+    PenaltyPair pair{};
     pair.contact = contact, pair.body_a = a, pair.body_b = b, pair.stretch = glm::vec3(stretch, 0, 0);
+    penalty.pairs.push_back(pair);
   };
   // Bodies of five vertices, of which the second is removed.
   add({2, 7}, 0, 1, 1);
@@ -154,14 +159,15 @@ TEST(PenaltyContact, FrictionSpringsStayWithTheirContactsWhenAnEarlierBodyIsRemo
   add({10, 17}, 2, 3, 4);
   penalty.remove(1, 5, 5);
   ASSERT_EQ(penalty.pairs.size(), 2u);
-  EXPECT_EQ(std::pair(penalty.pairs[0].body_a, penalty.pairs[0].body_b), std::pair(BodyId{0}, BodyId{1}));
-  EXPECT_EQ(std::pair(penalty.pairs[1].body_a, penalty.pairs[1].body_b), std::pair(BodyId{1}, BodyId{2}));
+  EXPECT_EQ(penalty.pairs.body_a, (std::vector<BodyId>{0, 1}));
+  EXPECT_EQ(penalty.pairs.body_b, (std::vector<BodyId>{1, 2}));
   PenaltyContact next;
   for (const collide::Contact c : {collide::Contact{3, 6}, {5, 12}}) {
-    next.pairs.emplace_back().contact = c;
-    next.pairs.back().normal = glm::vec3(0, 1, 0);
+    PenaltyPair pair{};
+    pair.contact = c, pair.normal = glm::vec3(0, 1, 0);
+    next.pairs.push_back(pair);
   }
-  next.carry_over(penalty.pairs);
+  next.carry_over({0, 2}, penalty.pairs.contact, penalty.pairs.stretch);
   EXPECT_EQ(next.pairs[0].stretch, glm::vec3(2, 0, 0));
   EXPECT_EQ(next.pairs[1].stretch, glm::vec3(4, 0, 0));
 }
@@ -176,9 +182,11 @@ TEST(PenaltyLaw, ItsSlopesAndBoundHoldTheDerivativeOfItsPush) {
         pair.force({0, u, 0});  // writes the velocity
         const PenaltyContact::Slopes slopes = pair.penalty.slopes(pair.penalty.pairs[0], std::as_const(pair.x).field(),
                                                                   std::as_const(pair.v).field(), 0.01f);
-        const Jet d2(s * s + across * across, 2 * s);
-        const double fall =
-            -PenaltyLaw<double>{k, h}.push_at_rest(Jet(s, 1), d2).slope * PenaltyLaw<double>::damping(u);
+        const auto push = [&](double at) {
+          return PenaltyLaw<double>{k, h}.push_at_rest(at, at * at + across * across);
+        };
+        constexpr double e = 1e-7;
+        const double fall = (push(s - e) - push(s + e)) / (2 * e) * PenaltyLaw<double>::damping(u);
         EXPECT_LE(fall, double(slopes.spring) * (1 + 1e-5)) << "s " << s << " across " << across << " u " << u;
         steepest = std::max(steepest, fall);
       }
@@ -229,6 +237,146 @@ TEST(PenaltyContact, ItsLimitedDampersLeaveTheStaticPushAlone) {
     limited.penalty.damper_limit = 1e6f;
     EXPECT_NEAR(limited.force({0, 0.5, 0}).y, free.force({0, 0.5, 0}).y, 1e-5);
   }
+}
+
+/// Many pairs of random particles: near and far, in front of the surface and behind it, that stick and that slide.
+struct RandomPairs {
+  static constexpr std::size_t particles = 5, count = 203;
+  RandomPairs() {
+    x.randomise(random, 0.03), v.randomise(random, 0.3);
+    penalty.thickness = 0.05f;
+    penalty.damper_limit = 200;
+    std::uniform_int_distribution<std::uint32_t> slot(0, particles * lanes - 1);
+    std::uniform_real_distribution<float> value(0, 1);
+    const auto vector = [&](float size) {
+      return size * (2.0f * glm::vec3(value(random), value(random), value(random)) - 1.0f);
+    };
+    for (std::size_t i = 0; i < count; ++i)
+      penalty.pairs.push_back({.contact = {},
+                               .body_a = 0,
+                               .body_b = 1,
+                               .slot_a = slot(random),
+                               .slot_b = slot(random),
+                               .offset = vector(0.02f),
+                               .normal = glm::normalize(vector(1)),
+                               .stiffness = 100 * value(random),
+                               .friction = i % 5 == 0 ? 0 : 2 * value(random),
+                               .damped_mass = 0.01f * value(random),
+                               .stretch = vector(0.01f)});
+    penalty.group(particles * lanes, {});
+    penalty.gather(x.field(), v.field());
+  }
+  void evaluate(const std::vector<std::size_t>& first) {  // pairs of each part
+    for (std::size_t part = 0; part + 1 < first.size(); ++part) {
+      penalty.evaluate({first[part], first[part + 1]}, seconds);
+      penalty.measure({first[part], first[part + 1]});
+    }
+  }
+  body::Vec<double> way(std::size_t i, const LaneField& field) const {
+    const auto at = [&](std::uint32_t slot) { return glm::dvec3(read(field.field(), slot)); };
+    const glm::dvec3 d = at(penalty.pairs.slot_a[i]) - at(penalty.pairs.slot_b[i]);
+    return {d.x, d.y, d.z};
+  }
+
+  static constexpr float seconds = 0.002f;
+  std::mt19937 random{5};
+  LaneField x{particles}, v{particles};
+  PenaltyContact penalty;
+};
+
+class PairsInLanes : public tests::OnEveryTarget {};
+
+TEST_P(PairsInLanes, FollowTheLaw) {
+  RandomPairs pairs;
+  const PenaltyPairs before = pairs.penalty.pairs;
+  pairs.evaluate({0, RandomPairs::count});
+  int behind = 0, apart = 0, sticking = 0, sliding = 0;
+  double stored = 0;
+  for (std::size_t i = 0; i < RandomPairs::count; ++i) {
+    using Vector = body::Vec<double>;
+    const PenaltyPair p = before[i];
+    const auto vector = [](const glm::vec3& a) { return Vector{a.x, a.y, a.z}; };
+    const Vector d = pairs.way(i, pairs.x) + vector(p.offset), n = vector(p.normal);
+    const PenaltyLaw<double> law{p.stiffness, pairs.penalty.thickness, p.friction,
+                                 double(pairs.penalty.damper_limit) * p.damped_mass};
+    const auto energy = [&](const Vector& stretch) {
+      const double s = dot(d, n);
+      return law.stored(s, dot(d, d) - s * s) + law.stored_by_friction(dot(stretch, stretch));
+    };
+    Vector stretch = vector(p.stretch);
+    const Vector force = law.force(d, pairs.way(i, pairs.v), n, double(pairs.seconds), stretch);
+    const PenaltyPair after = pairs.penalty.pairs[i];
+    EXPECT_NEAR(glm::distance(glm::dvec3(pairs.penalty.force[i]), {force.x, force.y, force.z}), 0, 1e-5) << i;
+    EXPECT_NEAR(glm::distance(glm::dvec3(after.stretch), {stretch.x, stretch.y, stretch.z}), 0, 1e-7) << i;
+    EXPECT_NEAR(pairs.penalty.energy(after, pairs.x.field()), energy(stretch), 1e-7) << i;
+    stored += energy(stretch);
+    if (dot(force, force) == 0) {
+      ++apart;
+      continue;
+    }
+    behind += dot(d, n) < 0;
+    const Vector u = pairs.way(i, pairs.v), slip = u - dot(u, n) * n,
+                 moved = stretch - vector(p.stretch) - double(pairs.seconds) * slip;
+    ++(std::sqrt(dot(moved, moved)) < 1e-9 ? sticking : sliding);
+  }
+  EXPECT_NEAR(pairs.penalty.energy(), stored, 1e-5 * stored);
+  for (const int kind : {behind, apart, sticking, sliding}) EXPECT_GT(kind, 20);
+}
+
+/// In any parts.
+TEST_P(PairsInLanes, GiveTheSameBits) {
+  const auto results = [](const std::vector<std::size_t>& first) {
+    RandomPairs pairs;
+    pairs.evaluate(first);
+    std::vector<float> all;
+    for (const auto& component : pairs.penalty.pairs.stretch)
+      all.insert(all.end(), component.begin(), component.begin() + RandomPairs::count);
+    for (std::size_t i = 0; i < RandomPairs::count; ++i)
+      for (int k = 0; k < 3; ++k) all.push_back(pairs.penalty.force[i][k]);
+    return std::pair(all, pairs.penalty.energy());
+  };
+  const auto own = results({0, 7, 7, 100, 112, RandomPairs::count});
+  const tests::UseTarget simplest(tests::targets().back());
+  EXPECT_EQ(own, results({0, RandomPairs::count}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, PairsInLanes, testing::ValuesIn(tests::targets()), tests::target_name);
+
+/// A block of balls that fall into each other, a heavy sheet that lies on them, and one ball that is held.
+std::unique_ptr<World> crowd(int threads) {
+  Scene scene = lone_body(gas_ball());
+  for (int i = 1; i < 20; ++i) add_body(scene, {0.93 * (i % 3), 0.93 * (i / 9), 0.93 * (i / 3 % 3)}, {0, -0.1 * i, 0});
+  scene.bodies[3].release = 1000;
+  scene.bodies[5].mesh = {.kind = "grid", .columns = 9, .rows = 9, .width = 2, .depth = 2};
+  auto world = std::make_unique<World>(scene, World::Options{.threads = threads, .min_shared_particles = 0});
+  run(*world, 4);
+  return world;
+}
+
+void expect_the_same(const World& a, const World& b) {
+  const PenaltyPairs &of_a = WorldTestAccess::solver(a).penalty_contact().pairs,
+                     &of_b = WorldTestAccess::solver(b).penalty_contact().pairs;
+  ASSERT_GT(of_a.size(), 200u);
+  EXPECT_EQ(of_a.contact, of_b.contact);
+  for (std::size_t i = 0; i < of_a.size(); ++i) {
+    const PenaltyPair p = of_a[i], q = of_b[i];
+    EXPECT_EQ(p.normal, q.normal);
+    EXPECT_EQ(p.stretch, q.stretch);
+    EXPECT_EQ(std::tuple(p.stiffness, p.friction, p.damped_mass), std::tuple(q.stiffness, q.friction, q.damped_mass));
+  }
+  EXPECT_EQ(a.state_hash(), b.state_hash());
+  EXPECT_EQ(a.state().ledger.booked(WorkBy::penalty), b.state().ledger.booked(WorkBy::penalty));
+}
+
+TEST(PenaltyContact, IsTheSameOnAnyNumberOfThreads) {
+  const auto alone = crowd(1);
+  for (const int threads : {2, 3}) expect_the_same(*alone, *crowd(threads));
+}
+
+TEST_P(PairsInLanes, AreFoundWithTheSameBits) {
+  const auto own = crowd(1);
+  const tests::UseTarget simplest(tests::targets().back());
+  expect_the_same(*own, *crowd(1));
 }
 
 }  // namespace

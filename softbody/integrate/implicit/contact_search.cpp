@@ -6,7 +6,6 @@
 
 #include "softbody/contact/law.h"
 #include "softbody/contact/solid_shapes.h"
-#include "softbody/forces/penalty_law.h"
 
 namespace softbody {
 namespace {
@@ -55,20 +54,20 @@ LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, I
   work.penalty_pairs.clear();
   const auto velocity = [&](std::size_t slot) { return glm::dvec3(read(b.v, slot)); };
   for (const PenaltyEnd& end : b.ends) {
-    const std::size_t in_batch = end.slot - b.base, lane = in_batch % std::size_t(b.width) - b.first_lane;
+    const PenaltyPair pair = b.penalty.pairs[end.pair];
+    const auto [slot, other_slot] =
+        end.at_b ? std::pair(pair.slot_b, pair.slot_a) : std::pair(pair.slot_a, pair.slot_b);
+    const std::size_t in_batch = slot - b.base, lane = in_batch % std::size_t(b.width) - b.first_lane;
     if (lane >= implicit_lanes || !moving[lane]) continue;
     const std::size_t at = in_batch / std::size_t(b.width) * implicit_lanes + lane;
-    const PenaltyPair& pair = b.penalty.pairs[end.pair];
     const PenaltyContact::Slopes slopes = b.penalty.slopes(pair, b.x, b.v, float(h));
     if (slopes.spring <= 0) continue;
-    const auto [other, slot] = end.sign > 0 ? std::pair(pair.body_b, pair.slot_b) : std::pair(pair.body_a, pair.slot_a);
-    LinearPenaltyPair s{.at = at, .normal = double(end.sign) * glm::dvec3(pair.normal), .slopes = slopes};
-    s.force = double(end.sign) * glm::dvec3(b.penalty.force[end.pair]);
+    LinearPenaltyPair s{.at = at, .normal = double(end.sign()) * glm::dvec3(pair.normal), .slopes = slopes};
+    s.force = double(end.sign()) * glm::dvec3(b.penalty.force[end.pair]);
     s.friction = double(pair.friction);
-    s.partner = b.is_moving(other) ? h * velocity(slot) : glm::dvec3(0.0);
-    s.start_separation = h * velocity(end.slot) - s.partner;
-    const PenaltyLaw<double> pair_law = b.penalty.law_of<double>(pair);
-    s.max_work = pair_law.approach_limit * b.penalty.energy(pair, b.x) + pair_law.max_force() * glm::length(s.partner);
+    s.partner = b.is_moving(end.at_b ? pair.body_a : pair.body_b) ? h * velocity(other_slot) : glm::dvec3(0.0);
+    s.start_separation = h * velocity(slot) - s.partner;
+    s.max_work = b.penalty.max_work(pair, b.x, glm::length(s.partner));
     work.penalty_pairs.push_back(s);
     in_contact.set(lane);
   }

@@ -6,6 +6,7 @@ namespace softbody {
 void explicit_euler(Motion& motion, const Worker& worker, const Substep& substep) {
   if (substep.first) {  // the velocities at hand may be another step's
     motion.contacts(worker, substep.h);
+    for (const Batch* batch : worker.batches()) motion.show(*batch);
     worker.barrier();
   }
   motion.contact_forces(worker, substep.h);
@@ -15,6 +16,7 @@ void explicit_euler(Motion& motion, const Worker& worker, const Substep& substep
     motion.kick(*batch, substep.h);
   }
   motion.contacts_at_end(worker, substep.h);
+  for (const Batch* batch : worker.batches()) motion.show(*batch);
   worker.barrier();
 }
 

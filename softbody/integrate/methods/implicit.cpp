@@ -44,6 +44,7 @@ void implicit_step(Motion& motion, const Worker& worker, const Substep& substep)
   for (const Batch* batch : worker.batches()) {
     motion.drift(*batch, substep.h);
     motion.add(*batch, velocities, 1, rest);
+    motion.show(*batch);
   }
   worker.barrier();
 }

@@ -34,7 +34,10 @@ void runge_kutta_4(Motion& motion, const Worker& worker, const Substep& substep)
   for (std::size_t s = 0; s < 4; ++s) {
     motion.contact_forces(worker, s == 0 ? h : 0);  // friction's springs slip once a step
     for (const Batch* batch : worker.batches()) motion.all_forces(*batch);
-    for (const Batch* batch : worker.batches()) stage(motion, *batch, weight[s], ahead[s] * h);
+    for (const Batch* batch : worker.batches()) {
+      stage(motion, *batch, weight[s], ahead[s] * h);
+      motion.show(*batch);
+    }
     worker.barrier();
   }
   for (const Batch* batch : worker.batches()) motion.copy(*batch, mean_v, velocities);
@@ -46,6 +49,7 @@ void runge_kutta_4(Motion& motion, const Worker& worker, const Substep& substep)
     motion.add(*batch, velocities, h, mean_a);
   }
   motion.contacts_at_end(worker, h);
+  for (const Batch* batch : worker.batches()) motion.show(*batch);
   worker.barrier();
 }
 

@@ -15,6 +15,7 @@ void velocity_verlet(Motion& motion, const Worker& worker, const Substep& subste
     motion.drift(*batch, substep.h);
     motion.copy(*batch, velocities, scratch(0));
     motion.kick(*batch, half);  // the prediction
+    motion.show(*batch);
   }
   worker.barrier();
   motion.contact_forces(worker, substep.h);
@@ -24,6 +25,7 @@ void velocity_verlet(Motion& motion, const Worker& worker, const Substep& subste
     motion.kick(*batch, half);
   }
   motion.contacts_at_end(worker, substep.h);
+  for (const Batch* batch : worker.batches()) motion.show(*batch);
   worker.barrier();
 }
 

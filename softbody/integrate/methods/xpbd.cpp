@@ -18,7 +18,10 @@ void xpbd(Motion& motion, const Worker& worker, const Substep& substep) {
     motion.pull(*batch, substep.h);
   }
   motion.contacts(worker, substep.h);
-  for (const Batch* batch : worker.batches()) motion.drift(*batch, substep.h);
+  for (const Batch* batch : worker.batches()) {
+    motion.drift(*batch, substep.h);
+    motion.show(*batch);
+  }
   worker.barrier();
 }
 
