@@ -211,12 +211,19 @@ void Solver::run(int count, float h, bool first, const std::function<void()>& af
 }
 
 void Solver::finish_frame(double seconds) {
-  for (BodyId id = 0; id < state_.body_count(); ++id) {
-    if (!state_.body(id).moves()) continue;
-    resistance_.apply(state_.model(id), state_.field_of(id, state_.x), state_.field_of(id, state_.v), solids_.push(id),
-                      seconds, state_.memory(id).impact);
-    state_.recentre(id);
-  }
+  crew_.run([&](const Worker& worker) {
+    for (const Batch* b : worker.batches()) {
+      std::array<SolidPush, lanes> pushes;
+      std::array<double, lanes> impacts{};
+      for (std::size_t l = 0; l < std::size_t(b->used); ++l) {
+        pushes[l] = solids_.push(b->body[l]);
+        impacts[l] = state_.memory(b->body[l]).impact;
+      }
+      resistance_.apply({*b, field(state_.x, b->base), field(state_.v, b->base)}, pushes, seconds, impacts);
+      for (std::size_t l = 0; l < std::size_t(b->used); ++l) state_.memory(b->body[l]).impact = impacts[l];
+      state_.recentre(*b);
+    }
+  });
 }
 
 SolverState Solver::save() const {

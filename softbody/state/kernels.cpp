@@ -136,25 +136,26 @@ void rigid_sums(std::size_t used, std::size_t particles, ConstField x, ConstFiel
 }
 
 template <int width>
-void add_rigid(std::size_t used, std::size_t particles, const RigidChange& change, ConstField x, Field<float> v) {
+void change_rigidly(std::size_t used, std::size_t particles, const RigidChange& change, ConstField x, Field<float> v) {
   using V = Run<double, width>;
   using F = Run<float, width, lanes_of<V>>;
   for (std::size_t first = 0; first < used; first += lanes_of<V>) {
     const auto acts = load<F>(change.acts + first) > F{};
+    const V keep = load<V>(change.keep + first);
     const Vec<V> push = load<V>(field(change.push), first), spin = load<V>(field(change.spin), first);
     const Vec<V> centre = widened(load<F>(x, first)) + load<V>(field(change.about), first);
     for (std::size_t at = first; at < particles * width; at += width) {
       const Vec<F> before = load<F>(v, at);
-      const Vec<V> after = widened(before) + push + cross(spin, widened(load<F>(x, at)) - centre);
+      const Vec<V> after = keep * widened(before) + push + cross(spin, widened(load<F>(x, at)) - centre);
       store(v, at, select(acts, narrowed(after), before));
     }
   }
 }
 
 template <int width>
-constexpr StateKernels table{clear<width>,      copy<width>,       add<width>,        scale<width>,
-                             square_sum<width>, kick<width>,       accelerate<width>, drift<width>,
-                             extent<width>,     rigid_sums<width>, add_rigid<width>};
+constexpr StateKernels table{clear<width>,      copy<width>,       add<width>,           scale<width>,
+                             square_sum<width>, kick<width>,       accelerate<width>,    drift<width>,
+                             extent<width>,     rigid_sums<width>, change_rigidly<width>};
 
 const StateKernels& Table(int width) {
   return with_width(width, [](auto w) -> const StateKernels& { return table<w>; });

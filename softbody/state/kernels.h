@@ -26,7 +26,8 @@ struct StateKernels {
   void (*extent)(std::size_t used, std::size_t particles, Field<const float> boxed, Field<const float> measured,
                  Extent&);
   void (*rigid_sums)(std::size_t used, std::size_t particles, Field<const float> x, Field<const float> v, RigidSums&);
-  void (*add_rigid)(std::size_t used, std::size_t particles, const RigidChange&, Field<const float> x, Field<float> v);
+  void (*change_rigidly)(std::size_t used, std::size_t particles, const RigidChange&, Field<const float> x,
+                         Field<float> v);
 };
 
 const StateKernels& state_kernels(int width);

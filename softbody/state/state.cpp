@@ -141,13 +141,15 @@ void State::set_particles(BodyId id, std::span<const Particle> particles) {
 /// The origin moves when the first particle, which starts no further than the radius from it, is further than one and a
 /// half radii away. It moves by a multiple of 1/64 m, which floats of that size hold without loss: rounding further out
 /// would keep stiff bodies trembling.
-void State::recentre(BodyId id) {
-  Body& body = bodies_[id];
-  const glm::dvec3 away(read(field(x), slot(id, 0)));
-  if (glm::length(away) <= 1.5 * model(id).radius) return;
-  const glm::dvec3 shift = glm::round(away * 64.0) / 64.0;
-  body.origin += shift;
-  for (Index i = 0; i < model(id).mesh.vertices.size(); ++i) field_of(id, x).add(i, -shift);
+void State::recentre(const Batch& b) {
+  for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
+    const BodyField at{field(x, b.base), l, std::size_t(b.width)};
+    const glm::dvec3 away = at(0);
+    if (b.moves[l] <= 0 || glm::length(away) <= 1.5 * b.model->radius) continue;
+    const glm::dvec3 shift = glm::round(away * 64.0) / 64.0;
+    bodies_[b.body[l]].origin += shift;
+    for (std::size_t i = 0; i < b.particles(); ++i) at.add(i, -shift);
+  }
 }
 
 Extent State::extent(const Batch& b, const VectorArray& boxed, const VectorArray& measured) const {

@@ -31,6 +31,12 @@ struct Batch {
   bool any_moves() const;
 };
 
+/// A batch with its positions and velocities (m and m/s).
+struct BatchView {
+  const Batch& batch;
+  Field<float> x, v;
+};
+
 /// What World, Sleep and Resistance remember of a body from one frame to the next.
 struct BodyMemory {
   int release = 0;               // the frame until which it is pinned
@@ -74,8 +80,8 @@ class State {
   void set_asleep(BodyId body, bool asleep);
   /// Sets all particles of a body, one for each vertex, finite. The body's origin goes to their middle.
   void set_particles(BodyId body, std::span<const Particle> particles);
-  /// Moves the body's origin after its particles if they have gone far.
-  void recentre(BodyId body);
+  /// Moves the origins of a batch's bodies that move after their particles, where these have gone far.
+  void recentre(const Batch& batch);
   BodyMemory& memory(BodyId body) { return bodies_[body].memory; }
 
   std::span<const Batch> batches() const { return batches_; }

@@ -132,9 +132,10 @@ TEST_P(EveryKernel, OfRigidMotionGivesTheSameBits) {
     RigidChange change{};
     for (int l = 0; l < width; ++l) {
       change.acts[l] = moves[first + l];
+      change.keep[l] = 0.9;
       change.push.x[l] = 0.1 * (first + l), change.spin.y[l] = 3, change.about.z[l] = 0.25;
     }
-    state_kernels(width).add_rigid(width, n, change, xs, vs);
+    state_kernels(width).change_rigidly(width, n, change, xs, vs);
   });
 }
 
