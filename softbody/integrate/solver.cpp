@@ -226,6 +226,14 @@ void Solver::finish_frame(double seconds) {
   });
 }
 
+void Solver::write_positions(Field<float> to) const {
+  crew_.run([&](const Worker& worker) {
+    const collide::Part part = worker.part(state_.batches().size());
+    for (const Batch& b : state_.batches().subspan(part.begin, part.end - part.begin))
+      state_.write_positions(b, vertices_->first, to);
+  });
+}
+
 SolverState Solver::save() const {
   return {state_.saved(),   penalty_.thickness,          penalty_.pairs,
           solids_.pushes(), contacts_.surfaces().save(), steps_.hysteresis()};

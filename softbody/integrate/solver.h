@@ -71,6 +71,8 @@ class Solver {
   /// Ends a frame of `seconds`, after advance(): applies what resists the bodies' motion as a whole, and lets their
   /// origins follow.
   void finish_frame(double seconds);
+  /// Writes the positions of all particles in the world, in the order of the world's vertices.
+  void write_positions(Field<float> to) const;
   double last_substep() const { return double(last_substep_); }  // s, how long it was
 
   SolverState save() const;

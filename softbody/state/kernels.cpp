@@ -111,6 +111,43 @@ void extent(std::size_t used, std::size_t particles, ConstField boxed, ConstFiel
   }
 }
 
+/// Of one component. Four particles of four lanes are a square of which rows become columns.
+template <int width>
+void unpack(std::size_t used, std::size_t particles, const float* a, const double* offset, const std::size_t* first,
+            float* to) {
+  using V = Run<double, width>;
+  using F = Run<float, width, lanes_of<V>>;
+  constexpr std::size_t side = std::min({width, register_lanes<float>, 4});
+  for (std::size_t i = 0; i < particles; i += side) {
+    const std::size_t rows = std::min(side, particles - i);
+    float square[side * width];
+    for (std::size_t r = 0; r < rows; ++r)
+      for (std::size_t l = 0; l < used; l += lanes_of<V>)
+        store(square + r * width + l, narrowed(widened(load<F>(a + (i + r) * width + l)) + load<V>(offset + l)));
+    for (std::size_t l = 0; l < used; l += side) {
+      const std::size_t columns = std::min(side, used - l);
+      if constexpr (side == 4)
+        if (rows == side) {
+          Lane<float, 4> turned[side];
+          for (std::size_t r = 0; r < side; ++r) turned[r] = load<Lane<float, 4>>(square + r * width + l);
+          transpose(turned);
+          for (std::size_t c = 0; c < columns; ++c) store(to + first[l + c] + i, turned[c]);
+          continue;
+        }
+      for (std::size_t c = 0; c < columns; ++c)
+        for (std::size_t r = 0; r < rows; ++r) to[first[l + c] + i + r] = square[r * width + l + c];
+    }
+  }
+}
+
+template <int width>
+void unpack(std::size_t used, std::size_t particles, ConstField a, const DoubleLaneVector& offset,
+            const std::size_t* first, Field<float> to) {
+  unpack<width>(used, particles, a.x, offset.x, first, to.x);
+  unpack<width>(used, particles, a.y, offset.y, first, to.y);
+  unpack<width>(used, particles, a.z, offset.z, first, to.z);
+}
+
 /// Computes with floats as many at a time as a register holds doubles.
 template <int width>
 void rigid_sums(std::size_t used, std::size_t particles, ConstField x, ConstField v, RigidSums& sums) {
@@ -153,9 +190,9 @@ void change_rigidly(std::size_t used, std::size_t particles, const RigidChange& 
 }
 
 template <int width>
-constexpr StateKernels table{clear<width>,      copy<width>,       add<width>,           scale<width>,
-                             square_sum<width>, kick<width>,       accelerate<width>,    drift<width>,
-                             extent<width>,     rigid_sums<width>, change_rigidly<width>};
+constexpr StateKernels table{clear<width>,      copy<width>,   add<width>,        scale<width>,
+                             square_sum<width>, kick<width>,   accelerate<width>, drift<width>,
+                             extent<width>,     unpack<width>, rigid_sums<width>, change_rigidly<width>};
 
 const StateKernels& Table(int width) {
   return with_width(width, [](auto w) -> const StateKernels& { return table<w>; });

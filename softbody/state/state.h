@@ -103,10 +103,15 @@ class State {
   Extent extent(const Batch& batch, const VectorArray& boxed, const VectorArray& measured) const;
   std::size_t particle_count() const;  // of all bodies, whether they move or not
   Particle particle(BodyId body, Index vertex) const;
-  /// Returns the largest speed of a body's particles in m/s; infinity if one is not finite.
-  double max_particle_speed(BodyId body) const;
-  /// Writes the positions in the world, bodies in the order of their ids. Every span has one value for each vertex.
-  void world_positions(std::span<float> x, std::span<float> y, std::span<float> z) const;
+  /// Returns the largest speed of a particle, in m/s, for the body in each lane; infinity if one is not finite.
+  std::array<double, lanes> max_particle_speeds(const Batch& batch) const;
+  double max_particle_speed(BodyId body) const {
+    return max_particle_speeds(batch_of(body))[std::size_t(bodies_[body].lane)];
+  }
+  /// Write the positions of a batch's bodies in the world, and their velocities, one body after another: those of each
+  /// from first[id] on.
+  void write_positions(const Batch& batch, std::span<const Index> first, Field<float> to) const;
+  void write_velocities(const Batch& batch, std::span<const Index> first, Field<float> to) const;
   /// Returns FNV-1a over the bits of origins, positions and velocities in the order of the ids.
   std::uint64_t hash() const;
 

@@ -105,7 +105,7 @@ void World::Parts::arrive() {
 void World::Parts::update_positions() {
   const std::size_t n = bodies.vertex_count();
   positions.x.resize(n), positions.y.resize(n), positions.z.resize(n);
-  solver.state().world_positions(positions.x, positions.y, positions.z);
+  solver.write_positions({positions.x.data(), positions.y.data(), positions.z.data()});
 }
 
 void World::Parts::detect() {

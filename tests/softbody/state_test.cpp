@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "tests/softbody/helpers.h"
@@ -65,6 +66,15 @@ TEST_F(StateOfTwoModels, StopsBodiesThatFallAsleep) {
   EXPECT_TRUE(state.body(4).moves());
   EXPECT_FALSE(state.body(5).moves());
   EXPECT_EQ(state.max_particle_speed(5), 5) << "a pinned body keeps its velocity until it is released";
+}
+
+TEST_F(StateOfTwoModels, CallsABodyThatIsNotFiniteInfinitelyFast) {
+  for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1e30f}) {
+    State broken = state;
+    broken.v[2][broken.slot(3, 5)] = value;
+    EXPECT_EQ(broken.max_particle_speed(3), std::numeric_limits<double>::infinity()) << value;
+    EXPECT_EQ(broken.max_particle_speed(4), 4);
+  }
 }
 
 TEST_F(StateOfTwoModels, RecentresWithoutLoss) {
