@@ -111,31 +111,32 @@ void extent(std::size_t used, std::size_t particles, ConstField boxed, ConstFiel
   }
 }
 
-/// Of one component. Four particles of four lanes are a square of which rows become columns.
+/// Of one component. It takes as many particles at a time as fill a line of the cache, by squares of four particles and
+/// four lanes, of which rows become columns.
 template <int width>
 void unpack(std::size_t used, std::size_t particles, const float* a, const double* offset, const std::size_t* first,
             float* to) {
   using V = Run<double, width>;
   using F = Run<float, width, lanes_of<V>>;
-  constexpr std::size_t side = std::min({width, register_lanes<float>, 4});
-  for (std::size_t i = 0; i < particles; i += side) {
-    const std::size_t rows = std::min(side, particles - i);
-    float square[side * width];
+  constexpr std::size_t most = 16, side = std::min({width, register_lanes<float>, 4});
+  float block[most * width];
+  for (std::size_t i = 0; i < particles; i += most) {
+    const std::size_t rows = std::min(most, particles - i);
     for (std::size_t r = 0; r < rows; ++r)
       for (std::size_t l = 0; l < used; l += lanes_of<V>)
-        store(square + r * width + l, narrowed(widened(load<F>(a + (i + r) * width + l)) + load<V>(offset + l)));
+        store(block + r * width + l, narrowed(widened(load<F>(a + (i + r) * width + l)) + load<V>(offset + l)));
     for (std::size_t l = 0; l < used; l += side) {
       const std::size_t columns = std::min(side, used - l);
+      std::size_t r = 0;
       if constexpr (side == 4)
-        if (rows == side) {
-          Lane<float, 4> turned[side];
-          for (std::size_t r = 0; r < side; ++r) turned[r] = load<Lane<float, 4>>(square + r * width + l);
-          transpose(turned);
-          for (std::size_t c = 0; c < columns; ++c) store(to + first[l + c] + i, turned[c]);
-          continue;
+        for (; r + side <= rows; r += side) {
+          Lane<float, 4> square[side];
+          for (std::size_t k = 0; k < side; ++k) square[k] = load<Lane<float, 4>>(block + (r + k) * width + l);
+          transpose(square);
+          for (std::size_t c = 0; c < columns; ++c) store(to + first[l + c] + i + r, square[c]);
         }
-      for (std::size_t c = 0; c < columns; ++c)
-        for (std::size_t r = 0; r < rows; ++r) to[first[l + c] + i + r] = square[r * width + l + c];
+      for (; r < rows; ++r)
+        for (std::size_t c = 0; c < columns; ++c) to[first[l + c] + i + r] = block[r * width + l + c];
     }
   }
 }
