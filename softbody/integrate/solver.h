@@ -91,6 +91,7 @@ class Solver {
 
   glm::dvec3 gravity() const;
   void mark_pushed(BodyId body) { pushed_[state_.batch_of(body).index] |= 1u << state_.body(body).lane; }
+  void add_solids(double seconds);
   Frame begin_frame(double seconds);
   void take_substeps(Frame& frame, const std::function<void()>& after_substep);
   void set_staggering(double h, bool first);
