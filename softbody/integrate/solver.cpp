@@ -227,19 +227,28 @@ void Solver::run(int count, float h, bool first, const std::function<void()>& af
   });
 }
 
-void Solver::finish_frame(double seconds) {
-  for_each_index(crew_, crew_.moving().size(), [&](std::size_t i) {
-    const Batch& b = *crew_.moving()[i];
-    std::array<SolidPush, lanes> pushes;
-    std::array<double, lanes> impacts{};
-    for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
-      pushes[l] = solids_.push(b.body[l]);
-      impacts[l] = state_.memory(b.body[l]).impact;
-    }
-    resistance_.apply({b, field(state_.x, b.base), field(state_.v, b.base)}, pushes, seconds, impacts);
-    for (std::size_t l = 0; l < std::size_t(b.used); ++l) state_.memory(b.body[l]).impact = impacts[l];
-    state_.recentre(b);
+void Solver::finish_frame(double seconds, Field<float> places) {
+  const std::span<const Batch> batches = state_.batches();
+  for_each_index(crew_, batches.size(), [&](std::size_t i) {
+    if (batches[i].any_moves()) finish(batches[i], seconds);
+    state_.write_positions(batches[i], vertices_->first, places);  // while they are in the cache
   });
+}
+
+void Solver::finish(const Batch& b, double seconds) {
+  std::array<SolidPush, lanes> pushes;
+  std::array<double, lanes> impacts{};
+  for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
+    pushes[l] = solids_.push(b.body[l]);
+    impacts[l] = state_.memory(b.body[l]).impact;
+  }
+  resistance_.apply({b, field(state_.x, b.base), field(state_.v, b.base)}, pushes, seconds, impacts);
+  state_.recentre(b);
+  const std::array<double, lanes> speeds = state_.max_particle_speeds(b);
+  for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
+    state_.memory(b.body[l]).impact = impacts[l];
+    if (b.moves[l] > 0) state_.memory(b.body[l]).speed = speeds[l];
+  }
 }
 
 void Solver::write_positions(Field<float> to) const {

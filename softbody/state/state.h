@@ -43,6 +43,7 @@ struct BodyMemory {
   int calm_frames = 0;           // for how many frames it has been slow enough to sleep
   bool may_lie_in_solid = true;  // it has been placed there, or solids have been moved, and not come out since
   double impact = 0;             // m/s, the speed with which it came upon the solids that it touches
+  double speed = 0;              // m/s, of its fastest particle, as of the end of the last frame in which it moved
 };
 
 struct Body {

@@ -36,16 +36,11 @@ void Sleep::settle(State& state, std::span<const BodyId> vertex_body, const std:
   for (const collide::Contact& c : contacts) join(vertex_body[c.a], vertex_body[c.b]);
   for (const collide::surface::ItemPair& pair : interactions) join(pair.a, pair.b);
   std::vector<int> calm(count, std::numeric_limits<int>::max());  // of each island: the calm frames of its latest body
-  for (const Batch& batch : state.batches()) {
-    if (!batch.any_moves()) continue;
-    const std::array<double, lanes> speeds = state.max_particle_speeds(batch);
-    for (std::size_t l = 0; l < std::size_t(batch.used); ++l) {
-      if (batch.moves[l] <= 0) continue;
-      int& frames = state.memory(batch.body[l]).calm_frames;
-      frames = speeds[l] < rule_.speed ? frames + 1 : 0;
-      int& least = calm[root(batch.body[l])];
-      least = std::min(least, frames);
-    }
+  for (BodyId b = 0; b < count; ++b) {
+    if (!state.body(b).moves()) continue;
+    BodyMemory& memory = state.memory(b);
+    memory.calm_frames = memory.speed < rule_.speed ? memory.calm_frames + 1 : 0;
+    calm[root(b)] = std::min(calm[root(b)], memory.calm_frames);
   }
   for (BodyId b = 0; b < count; ++b)
     if (state.body(b).moves() && calm[root(b)] >= rule_.frames) state.set_asleep(b, true);
