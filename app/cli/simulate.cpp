@@ -134,7 +134,9 @@ std::string ratio_text(const softbody::Measures& measures, double ratio) {
   return measures.has_volume ? fmt::format("{:.3f}", ratio) : "-";
 }
 
-/// Prints about twenty lines for any number of frames.
+/// Returns how many frames a table goes on by from line to line: it has about twenty lines for any number of frames.
+int table_stride(int frames) { return std::max(1, frames / 20); }
+
 void print_table(const softbody::World& world, const std::vector<FrameRow>& rows) {
   std::cout << fmt::format("{}, {}, bodies: {}, vertices: {}; contacts between bodies, inside one, with solids\n",
                            world.scene().name, world.method().name, world.bodies().count(),
@@ -143,10 +145,7 @@ void print_table(const softbody::World& world, const std::vector<FrameRow>& rows
     std::cout << "note: " << warning << '\n';
   std::cout
       << "  frame  detect ms  solve ms  between  inside   solid     energy J   V min   V max    deepest m  speed m/s\n";
-  const std::size_t stride = std::max<std::size_t>(1, rows.size() / 20);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if ((i + 1) % stride != 0 && i + 1 != rows.size()) continue;
-    const FrameRow& r = rows[i];
+  for (const FrameRow& r : rows) {
     const softbody::Measures& m = r.measures;
     std::cout << fmt::format("{:7} {:10.3f} {:9.3f} {:8} {:7} {:7} {:>12.4f} {:>7} {:>7} {:>12.2e} {:>10.4f}{}\n",
                              r.frame, r.step.detect_ms, r.step.solve_ms, r.bodies, r.self, r.solid, m.energy,
@@ -299,19 +298,21 @@ void simulate(const Options& options) {
   const bool progress = !options.json_lines || !isatty(STDOUT_FILENO);
   compare::WorldOracle oracle(options.oracle ? options.threads : 1);
   if (options.oracle) oracle.crossings(world);  // keeps the start positions of the first frame
+  const int stride = options.json || options.json_lines ? 1 : table_stride(options.frames);
   std::vector<FrameRow> rows;
-  if (!options.json_lines) rows.reserve(static_cast<std::size_t>(options.frames));
   while (world.frame() < options.frames) {
     world.step();
-    FrameRow row = measure_row(world);
-    if (options.oracle)
-      row.oracle = collide::oracle::figures_of(world.positions(), oracle.overlaps(world), oracle.crossings(world));
     pictures.take(world);
     obj_sequence.take(world);
-    if (options.json_lines)
-      print_line(to_json(row));
-    else
-      rows.push_back(std::move(row));
+    if (world.frame() % stride == 0 || world.frame() == options.frames) {
+      FrameRow row = measure_row(world);
+      if (options.oracle)
+        row.oracle = collide::oracle::figures_of(world.positions(), oracle.overlaps(world), oracle.crossings(world));
+      if (options.json_lines)
+        print_line(to_json(row));
+      else
+        rows.push_back(std::move(row));
+    }
     if (progress && world.frame() % 10 == 0)
       show_progress(fmt::format("frame {} of {}", world.frame(), options.frames));
   }

@@ -49,8 +49,9 @@ void Session::add_picture(double seconds) {
 
 void Session::exchange() {
   constexpr float late_ms = 25;  // fewer than 40 pictures a second
-  // The workers rest longer while pictures come late.
-  const int rests = simulation.history.frame_ms.median(15) > late_ms ? 10 : 2;
+  // The workers rest longer while pictures come late, and where steps need the cores that they would take.
+  const bool late = simulation.history.frame_ms.median(15) > late_ms;
+  const int rests = late || simulation.step_ms() > 500 * world().frame_time() ? 10 : 2;
   comparison.exchange(world(), simulation.revision(), simulation.world_number(), rests);
   surfaces.exchange(world(), simulation.before_last_step(), simulation.revision(), rests);
   // With its first report of another world the comparison has let go of the one before; all others did so earlier.

@@ -1,5 +1,6 @@
 #include "softbody/forces/body_measures.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -14,11 +15,19 @@ namespace {
 class WideMotion {
  public:
   /// Takes `count` values of each component from `first` on, of which each is `stride` after the one before.
-  WideMotion(const State& state, std::size_t first, std::size_t stride, std::size_t count) : size_(count) {
-    values_.reserve(6 * count);
+  void take(const State& state, std::size_t first, std::size_t stride, std::size_t count) {
+    size_ = count;
+    values_.resize(6 * count);
+    double* to = values_.data();
     for (const VectorArray* array : {&state.x, &state.v})
-      for (const auto& component : *array)
-        for (std::size_t i = 0; i < count; ++i) values_.push_back(double(component[first + i * stride]));
+      for (const auto& component : *array) {
+        const float* from = component.data() + first;
+        if (stride == 1)
+          std::copy_n(from, count, to);
+        else
+          for (std::size_t i = 0; i < count; ++i) to[i] = double(from[i * stride]);
+        to += count;
+      }
   }
   MovingBodies bodies(const BodyModel& model, int used) const {
     const auto field = [this](std::size_t k) -> Field<const double> {
@@ -29,7 +38,7 @@ class WideMotion {
   }
 
  private:
-  std::size_t size_;
+  std::size_t size_ = 0;
   LaneArray<double> values_;
 };
 
@@ -65,7 +74,8 @@ Energy& Energy::operator+=(const Energy& other) {
 
 BodyMeasures measure(const State& state, BodyId id, const glm::dvec3& gravity) {
   const Batch& b = state.batch_of(id);
-  const WideMotion motion(state, state.slot(id, 0), std::size_t(b.width), b.particles());
+  WideMotion motion;
+  motion.take(state, state.slot(id, 0), std::size_t(b.width), b.particles());
   MotionSums sums{};
   force_kernels(one_lane).measure_motion(motion.bodies(*b.model, 1), sums);
   return measures_of(*b.model, sums, 0, state.body(id).origin, gravity);
@@ -73,8 +83,9 @@ BodyMeasures measure(const State& state, BodyId id, const glm::dvec3& gravity) {
 
 std::vector<BodyMeasures> measure_bodies(const State& state, const glm::dvec3& gravity) {
   std::vector<BodyMeasures> list(state.body_count());
+  WideMotion motion;  // its memory stays in the cache
   for (const Batch& b : state.batches()) {
-    const WideMotion motion(state, b.base, 1, b.values());
+    motion.take(state, b.base, 1, b.values());
     MotionSums sums{};
     force_kernels(b.width).measure_motion(motion.bodies(*b.model, b.used), sums);
     for (std::size_t l = 0; l < std::size_t(b.used); ++l)

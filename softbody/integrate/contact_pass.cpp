@@ -38,14 +38,14 @@ int ContactPass::predicted_substeps(double left, double h) const {
 collide::Frame ContactPass::world_positions() {
   for (auto* components : {&position_, &velocity_})
     for (auto& c : *components) c.resize(vertices_->vertex_count());
-  state_.world_positions(position_[0], position_[1], position_[2]);
+  for (const Batch& b : state_.batches())
+    state_.write_positions(b, vertices_->first, {position_[0].data(), position_[1].data(), position_[2].data()});
   return {position_[0], position_[1], position_[2], vertices_};
 }
 
 collide::surface::Motion ContactPass::motion(const collide::Frame& now) {
-  for (BodyId id = 0; id < state_.body_count(); ++id)
-    for (Index v = 0; v < vertices_->size(id); ++v)
-      for (std::size_t k = 0; k < 3; ++k) velocity_[k][vertices_->first[id] + v] = state_.v[k][state_.slot(id, v)];
+  for (const Batch& b : state_.batches())
+    state_.write_velocities(b, vertices_->first, {velocity_[0].data(), velocity_[1].data(), velocity_[2].data()});
   return {now, velocity_[0], velocity_[1], velocity_[2]};
 }
 

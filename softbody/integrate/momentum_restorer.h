@@ -9,12 +9,6 @@
 
 namespace softbody {
 
-/// A batch with its positions and velocities (m and m/s).
-struct BatchView {
-  const Batch& batch;
-  Field<float> x, v;
-};
-
 /// The forces of springs and gas add up to none, nor to a torque. But those of stiff bodies are large and cancel each
 /// other at every particle, where floats round them: over many substeps the momenta walk at random. This gives bodies
 /// that nothing has touched the momenta back that they had at the start of the frame.

@@ -9,6 +9,7 @@
 #include "softbody/contact/law.h"
 #include "softbody/contact/solid_law.h"
 #include "softbody/integrate/plan.h"
+#include "softbody/state/kernels.h"
 #include "softbody/state/rigid_motion.h"
 
 namespace softbody {
@@ -34,31 +35,45 @@ void Resistance::set_plan(const Plan& plan) {
   rolling_ = plan.has(Stage::rolling_resistance);
 }
 
-void Resistance::apply(const BodyModel& p, const BodyField& x, const BodyField& v, const SolidPush& push,
-                       double seconds, double& impact) const {
-  assert(seconds >= 0);
+void Resistance::apply(const BatchView& view, std::span<const SolidPush> pushes, double seconds,
+                       std::span<double> impacts) const {
+  const Batch& b = view.batch;
+  assert(seconds >= 0 && pushes.size() >= std::size_t(b.used) && impacts.size() >= std::size_t(b.used));
   if (!internal_ && !rebound_ && !rolling_) return;
+  const BodyModel& p = *b.model;
   const Material& m = p.material;
   const double rate = internal_ ? m[Material::internal_damping] * seconds : 0, share = rate / (1 + rate);
-  const double normal = glm::length(push.impulse);
-  if (normal <= 0) impact = 0;
-  if (share <= 0 && normal <= 0) return;
-  const std::size_t count = p.mesh.vertices.size();
-  const RigidMotion motion = rigid_motion(count, x, v);
-  if (!motion.can_rotate) return;
-  const auto& [centre, velocity, momentum, inertia, can_rotate, spin] = motion;
-  glm::dvec3 lost_spin(0.0), lost_velocity(0.0);
-  if (const double size = p.particle_mass * glm::length(momentum); rolling_ && p.rolls && size > 0)
-    lost_spin = spin * std::min(1.0, m[contact::rolling_resistance] * p.radius * normal / size);
-  if (rebound_ && m[contact::rebound_speed] > 0 && normal > 0) {
-    const glm::dvec3 n = push.impulse / normal;
-    lost_velocity = n * excess_rebound_speed(glm::dot(velocity, n), normal, push.returned, m[Material::mass], impact) *
-                    std::min(1.0, law::damper(normal, m[contact::rebound_speed]) / m[Material::mass]);
+  unsigned acts = 0;  // bits: lanes
+  for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
+    if (b.moves[l] <= 0) continue;
+    const bool touches = pushes[l].impulse != glm::dvec3(0.0);
+    if (!touches) impacts[l] = 0;
+    acts |= unsigned(share > 0 || touches) << l;
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    const glm::dvec3 r = x(i) - centre, old = v(i);
-    v.set(i, old + share * (velocity + glm::cross(spin, r) - old) - lost_velocity - glm::cross(lost_spin, r));
+  if (!acts) return;
+  const StateKernels& kernels = state_kernels(b.width);
+  const auto used = std::size_t(b.used), count = b.particles();
+  RigidSums sums;
+  kernels.rigid_sums(used, count, view.x, view.v, sums);
+  RigidChange change{};
+  for (std::size_t l = 0; l < used; ++l) {
+    if (!(acts >> l & 1u)) continue;
+    const RigidMotion motion = rigid_motion(sums, l, double(count));
+    if (!motion.can_rotate) continue;
+    const double normal = glm::length(pushes[l].impulse);
+    glm::dvec3 velocity = share * motion.velocity, spin = share * motion.spin;
+    if (const double size = p.particle_mass * glm::length(motion.momentum); rolling_ && p.rolls && size > 0)
+      spin -= motion.spin * std::min(1.0, m[contact::rolling_resistance] * p.radius * normal / size);
+    if (rebound_ && m[contact::rebound_speed] > 0 && normal > 0) {
+      const glm::dvec3 n = pushes[l].impulse / normal;
+      velocity -= n *
+                  excess_rebound_speed(glm::dot(motion.velocity, n), normal, pushes[l].returned, m[Material::mass],
+                                       impacts[l]) *
+                  std::min(1.0, law::damper(normal, m[contact::rebound_speed]) / m[Material::mass]);
+    }
+    change.set(l, 1 - share, velocity, spin, motion.centre);
   }
+  kernels.change_rigidly(used, count, change, view.x, view.v);
 }
 
 }  // namespace softbody

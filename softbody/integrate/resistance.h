@@ -1,9 +1,10 @@
 #pragma once
 // What resists a body's motion as a whole, once a frame.
 
+#include <span>
+
 #include "softbody/contact/solid_contact.h"
-#include "softbody/model/body_model.h"
-#include "softbody/state/lanes.h"
+#include "softbody/state/state.h"
 
 namespace softbody {
 
@@ -18,11 +19,11 @@ class Resistance {
  public:
   /// Takes those of the three that the plan has; none acts before.
   void set_plan(const Plan& plan);
-  /// Changes the velocities v of a body after a frame of `seconds`, by its positions x and what solids did to it.
-  /// `impact`: the speed (m/s) with which it came upon the solids that it touches; kept from frame to frame, 0 at
-  /// first.
-  void apply(const BodyModel& model, const BodyField& x, const BodyField& v, const SolidPush& push, double seconds,
-             double& impact) const;
+  /// Changes the velocities of the bodies of a batch that move, after a frame of `seconds`. Of each lane, `pushes`:
+  /// what solids did to its body; `impacts`: the speed (m/s) with which it came upon the solids that it touches, kept
+  /// from frame to frame, 0 at first.
+  void apply(const BatchView& batch, std::span<const SolidPush> pushes, double seconds,
+             std::span<double> impacts) const;
 
  private:
   bool internal_ = false, rebound_ = false, rolling_ = false;

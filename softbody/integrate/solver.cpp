@@ -12,6 +12,14 @@
 namespace softbody {
 namespace {
 
+/// Calls visit(i) for each i below `count`; the threads share them.
+void for_each_index(const Crew& crew, std::size_t count, const auto& visit) {
+  crew.run([&](const Worker& worker) {
+    const collide::Part part = worker.part(count);
+    for (std::size_t i = part.begin; i < part.end; ++i) visit(i);
+  });
+}
+
 constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a momentum in a second, see MomentumRestorer
 
 }  // namespace
@@ -65,24 +73,34 @@ void Solver::join(BodyId body) {
   joined_[state_.body(body).batch] = true;
 }
 
+/// Finds which solids are near which bodies that move.
+void Solver::add_solids(double seconds) {
+  std::vector<Extent> extents(crew_.moving().size());
+  for_each_index(crew_, extents.size(),
+                 [&](std::size_t i) { extents[i] = state_.extent(*crew_.moving()[i], state_.x, state_.v); });
+  for (std::size_t i = 0; i < extents.size(); ++i)
+    for_each_solid(scene_, [&](const auto& solid) {
+      solids_.add(*crew_.moving()[i], extents[i], solid, scene_.gravity, seconds,
+                  [&](const PlacedBox& box) { return way_out(scene_, solid, box); });
+    });
+}
+
 Solver::Frame Solver::begin_frame(double seconds) {
   contacts_.begin_frame();
   const double searches = contacts_.has_surfaces() ? contacts_.wake_hit_sleepers(seconds) : 0;
   solids_.begin_frame();
   pushed_.assign(state_.batches().size(), 0);
   joined_.assign(state_.batches().size(), false);
-  std::vector<const Batch*> moving;
+  std::vector<const Batch*> batches;
   std::size_t particles = 0;
   for (const Batch& b : state_.batches()) {
     if (!b.any_moves()) continue;
-    moving.push_back(&b);
+    batches.push_back(&b);
     particles += b.particles() * std::size_t(b.used);
-    const Extent extent = state_.extent(b, state_.x, state_.v);
-    for_each_solid(scene_, [&](const auto& solid) {
-      solids_.add(b, extent, solid, scene_.gravity, seconds,
-                  [&](const PlacedBox& box) { return way_out(scene_, solid, box); });
-    });
   }
+  crew_.take(std::move(batches), particles);
+  const std::vector<const Batch*>& moving = crew_.moving();
+  if (has_solids(scene_)) add_solids(seconds);
   const StepBound bound = bounds_.measure(steps_.bounds_of());
   steps_.begin_frame(
       {.seconds = seconds,
@@ -98,12 +116,11 @@ Solver::Frame Solver::begin_frame(double seconds) {
        .sleep_speed = scene_.sleep.speed},
       bound);
   steps_.spend(work::surface * searches);
-  crew_.take(std::move(moving), particles);
   motion_.begin_frame(*steps_.plan().integrator, gravity());
   for (const auto* bodies : {&penalty_.pairs.body_a, &penalty_.pairs.body_b})
     for (const BodyId body : *bodies) join(body);
   if (hand_.grab()) mark_pushed(hand_.grab()->body);
-  for (const Batch* b : crew_.moving())
+  for (const Batch* b : moving)
     if (has_external_force(*b->model)) pushed_[b->index] = ~0u;
   return {seconds, particles, bound};
 }
@@ -240,13 +257,34 @@ void Solver::run(int count, float h, bool first, const std::function<void()>& af
   });
 }
 
-void Solver::finish_frame(double seconds) {
-  for (BodyId id = 0; id < state_.body_count(); ++id) {
-    if (!state_.body(id).moves()) continue;
-    resistance_.apply(state_.model(id), state_.field_of(id, state_.x), state_.field_of(id, state_.v), solids_.push(id),
-                      seconds, state_.memory(id).impact);
-    state_.recentre(id);
+void Solver::finish_frame(double seconds, Field<float> places) {
+  const std::span<const Batch> batches = state_.batches();
+  for_each_index(crew_, batches.size(), [&](std::size_t i) {
+    if (batches[i].any_moves()) finish(batches[i], seconds);
+    state_.write_positions(batches[i], vertices_->first, places);  // while they are in the cache
+  });
+}
+
+void Solver::finish(const Batch& b, double seconds) {
+  std::array<SolidPush, lanes> pushes;
+  std::array<double, lanes> impacts{};
+  for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
+    pushes[l] = solids_.push(b.body[l]);
+    impacts[l] = state_.memory(b.body[l]).impact;
   }
+  resistance_.apply({b, field(state_.x, b.base), field(state_.v, b.base)}, pushes, seconds, impacts);
+  state_.recentre(b);
+  const std::array<double, lanes> speeds = state_.max_particle_speeds(b);
+  for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
+    state_.memory(b.body[l]).impact = impacts[l];
+    if (b.moves[l] > 0) state_.memory(b.body[l]).speed = speeds[l];
+  }
+}
+
+void Solver::write_positions(Field<float> to) const {
+  const std::span<const Batch> batches = state_.batches();
+  for_each_index(crew_, batches.size(),
+                 [&](std::size_t i) { state_.write_positions(batches[i], vertices_->first, to); });
 }
 
 SolverState Solver::save() const {

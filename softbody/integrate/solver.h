@@ -68,9 +68,11 @@ class Solver {
   /// measured anew as bodies move, since bodies that are crushed may need any number of substeps and have many
   /// contacts. after_substep: called by one thread while the others wait.
   FrameResult advance(double seconds, const std::function<void()>& after_substep = {});
-  /// Ends a frame of `seconds`, after advance(): applies what resists the bodies' motion as a whole, and lets their
-  /// origins follow.
-  void finish_frame(double seconds);
+  /// Ends a frame of `seconds`, after advance(): applies what resists the bodies' motion as a whole, lets their origins
+  /// follow, notes how fast they are, and writes all positions to `places` as write_positions() does.
+  void finish_frame(double seconds, Field<float> places);
+  /// Writes the positions of all particles in the world, in the order of the world's vertices.
+  void write_positions(Field<float> to) const;
   double last_substep() const { return double(last_substep_); }  // s, how long it was
 
   SolverState save() const;
@@ -91,6 +93,8 @@ class Solver {
   void mark_pushed(BodyId body) { pushed_[state_.body(body).batch] |= 1u << state_.body(body).lane; }
   void join(BodyId body);
   double penalty_energy();
+  void add_solids(double seconds);
+  void finish(const Batch& batch, double seconds);
   Frame begin_frame(double seconds);
   void take_substeps(Frame& frame, const std::function<void()>& after_substep);
   void set_staggering(double h, bool first);

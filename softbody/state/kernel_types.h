@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include <glm/geometric.hpp>
+
 #include "softbody/state/lanes.h"
 
 namespace softbody {
@@ -54,11 +56,23 @@ struct RigidSums {
   DoubleLaneVector square, mixed;  // of r: xx, yy, zz and yz, zx, xy
 };
 
-/// Velocity push + spin x (r - about) that is added to the particles of the lanes in which `acts` is 1; r as in
-/// RigidSums.
+/// Makes the velocities v of a lane's particles keep * v + push + spin x (r - about); r as in RigidSums.
 struct RigidChange {
-  float acts[lanes];                   // 0 or 1
+  float acts[lanes];  // 0 or 1
+  double keep[lanes];
   DoubleLaneVector push, spin, about;  // m/s, rad/s, m
+
+  /// Sets what happens to a lane; nothing, if numbers are not finite.
+  void set(std::size_t lane, double kept, const glm::dvec3& velocity, const glm::dvec3& turn, const glm::dvec3& centre);
 };
+
+inline void RigidChange::set(std::size_t lane, double kept, const glm::dvec3& velocity, const glm::dvec3& turn,
+                             const glm::dvec3& centre) {
+  acts[lane] = std::isfinite(glm::dot(velocity, velocity) + glm::dot(turn, turn) + glm::dot(centre, centre));
+  keep[lane] = kept;
+  push.set(lane, velocity);
+  spin.set(lane, turn);
+  about.set(lane, centre);
+}
 
 }  // namespace softbody

@@ -111,6 +111,44 @@ void extent(std::size_t used, std::size_t particles, ConstField boxed, ConstFiel
   }
 }
 
+/// Of one component. It takes as many particles at a time as fill a line of the cache, by squares of four particles and
+/// four lanes, of which rows become columns.
+template <int width>
+void unpack(std::size_t used, std::size_t particles, const float* a, const double* offset, const std::size_t* first,
+            float* to) {
+  using V = Run<double, width>;
+  using F = Run<float, width, lanes_of<V>>;
+  constexpr std::size_t most = 16, side = std::min({width, register_lanes<float>, 4});
+  float block[most * width];
+  for (std::size_t i = 0; i < particles; i += most) {
+    const std::size_t rows = std::min(most, particles - i);
+    for (std::size_t r = 0; r < rows; ++r)
+      for (std::size_t l = 0; l < used; l += lanes_of<V>)
+        store(block + r * width + l, narrowed(widened(load<F>(a + (i + r) * width + l)) + load<V>(offset + l)));
+    for (std::size_t l = 0; l < used; l += side) {
+      const std::size_t columns = std::min(side, used - l);
+      std::size_t r = 0;
+      if constexpr (side == 4)
+        for (; r + side <= rows; r += side) {
+          Lane<float, 4> square[side];
+          for (std::size_t k = 0; k < side; ++k) square[k] = load<Lane<float, 4>>(block + (r + k) * width + l);
+          transpose(square);
+          for (std::size_t c = 0; c < columns; ++c) store(to + first[l + c] + i + r, square[c]);
+        }
+      for (; r < rows; ++r)
+        for (std::size_t c = 0; c < columns; ++c) to[first[l + c] + i + r] = block[r * width + l + c];
+    }
+  }
+}
+
+template <int width>
+void unpack(std::size_t used, std::size_t particles, ConstField a, const DoubleLaneVector& offset,
+            const std::size_t* first, Field<float> to) {
+  unpack<width>(used, particles, a.x, offset.x, first, to.x);
+  unpack<width>(used, particles, a.y, offset.y, first, to.y);
+  unpack<width>(used, particles, a.z, offset.z, first, to.z);
+}
+
 /// Computes with floats as many at a time as a register holds doubles.
 template <int width>
 void rigid_sums(std::size_t used, std::size_t particles, ConstField x, ConstField v, RigidSums& sums) {
@@ -136,25 +174,26 @@ void rigid_sums(std::size_t used, std::size_t particles, ConstField x, ConstFiel
 }
 
 template <int width>
-void add_rigid(std::size_t used, std::size_t particles, const RigidChange& change, ConstField x, Field<float> v) {
+void change_rigidly(std::size_t used, std::size_t particles, const RigidChange& change, ConstField x, Field<float> v) {
   using V = Run<double, width>;
   using F = Run<float, width, lanes_of<V>>;
   for (std::size_t first = 0; first < used; first += lanes_of<V>) {
     const auto acts = load<F>(change.acts + first) > F{};
+    const V keep = load<V>(change.keep + first);
     const Vec<V> push = load<V>(field(change.push), first), spin = load<V>(field(change.spin), first);
     const Vec<V> centre = widened(load<F>(x, first)) + load<V>(field(change.about), first);
     for (std::size_t at = first; at < particles * width; at += width) {
       const Vec<F> before = load<F>(v, at);
-      const Vec<V> after = widened(before) + push + cross(spin, widened(load<F>(x, at)) - centre);
+      const Vec<V> after = keep * widened(before) + push + cross(spin, widened(load<F>(x, at)) - centre);
       store(v, at, select(acts, narrowed(after), before));
     }
   }
 }
 
 template <int width>
-constexpr StateKernels table{clear<width>,      copy<width>,       add<width>,        scale<width>,
-                             square_sum<width>, kick<width>,       accelerate<width>, drift<width>,
-                             extent<width>,     rigid_sums<width>, add_rigid<width>};
+constexpr StateKernels table{clear<width>,      copy<width>,   add<width>,        scale<width>,
+                             square_sum<width>, kick<width>,   accelerate<width>, drift<width>,
+                             extent<width>,     unpack<width>, rigid_sums<width>, change_rigidly<width>};
 
 const StateKernels& Table(int width) {
   return with_width(width, [](auto w) -> const StateKernels& { return table<w>; });

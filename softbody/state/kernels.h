@@ -25,8 +25,12 @@ struct StateKernels {
                 Field<float> x);
   void (*extent)(std::size_t used, std::size_t particles, Field<const float> boxed, Field<const float> measured,
                  Extent&);
+  /// Writes the vectors and `offset`, one body after another: those of a lane from to + first[lane] on.
+  void (*unpack)(std::size_t used, std::size_t particles, Field<const float> a, const DoubleLaneVector& offset,
+                 const std::size_t* first, Field<float> to);
   void (*rigid_sums)(std::size_t used, std::size_t particles, Field<const float> x, Field<const float> v, RigidSums&);
-  void (*add_rigid)(std::size_t used, std::size_t particles, const RigidChange&, Field<const float> x, Field<float> v);
+  void (*change_rigidly)(std::size_t used, std::size_t particles, const RigidChange&, Field<const float> x,
+                         Field<float> v);
 };
 
 const StateKernels& state_kernels(int width);

@@ -2,10 +2,13 @@
 // Rigid part of the motion of particles of equal mass.
 
 #include <cmath>
+#include <cstddef>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+
+#include "softbody/state/kernel_types.h"
 
 namespace softbody {
 
@@ -16,6 +19,11 @@ struct RigidMotion {
   bool can_rotate = false;   // false for a line or a point, which has no defined spin
   glm::dvec3 spin{0.0};      // rad/s
 
+  /// Sets whether it can rotate, and the spin, from momentum and inertia.
+  void set_spin() {
+    can_rotate = glm::determinant(inertia) > 1e-12 * inertia[0][0] * inertia[1][1] * inertia[2][2];
+    spin = spin_of(momentum);
+  }
   glm::dvec3 spin_of(const glm::dvec3& angular) const {
     return can_rotate ? glm::inverse(inertia) * angular : glm::dvec3(0.0);
   }
@@ -59,8 +67,21 @@ RigidMotion rigid_motion(std::size_t count, Position position, Velocity velocity
     m.momentum += glm::cross(r, velocity(i) - m.velocity);
     m.inertia += glm::dmat3(glm::dot(r, r)) - glm::outerProduct(r, r);
   }
-  m.can_rotate = glm::determinant(m.inertia) > 1e-12 * m.inertia[0][0] * m.inertia[1][1] * m.inertia[2][2];
-  m.spin = m.spin_of(m.momentum);
+  m.set_spin();
+  return m;
+}
+
+/// Returns that of the body in a lane, which has `count` particles. Its centre is seen from the first one.
+inline RigidMotion rigid_motion(const RigidSums& sums, std::size_t lane, double count) {
+  RigidMotion m;
+  m.centre = sums.place[lane] / count;
+  m.velocity = sums.velocity[lane] / count;
+  m.momentum = sums.momentum[lane] - count * glm::cross(m.centre, m.velocity);
+  const glm::dvec3 square = sums.square[lane], mixed = sums.mixed[lane];
+  const glm::dmat3 products(square.x, mixed.z, mixed.y, mixed.z, square.y, mixed.x, mixed.y, mixed.x, square.z);
+  const glm::dmat3 about = products - count * glm::outerProduct(m.centre, m.centre);
+  m.inertia = glm::dmat3(about[0][0] + about[1][1] + about[2][2]) - about;
+  m.set_spin();
   return m;
 }
 

@@ -250,6 +250,21 @@ HWY_INLINE Lane<float, n> narrowed(Lane<double, n> v) {
   return Lane<float, n>(hn::DemoteTo(typename Lane<float, n>::Tag(), v.raw));
 }
 
+#if HWY_TARGET != HWY_SCALAR
+/// Turns four rows into columns.
+HWY_INLINE void transpose(Lane<float, 4> (&rows)[4]) {
+  const Lane<float, 4>::Tag tag;
+  const auto upper_lo = hn::InterleaveLower(tag, rows[0].raw, rows[1].raw),
+             upper_hi = hn::InterleaveUpper(tag, rows[0].raw, rows[1].raw);
+  const auto lo = hn::InterleaveLower(tag, rows[2].raw, rows[3].raw),
+             hi = hn::InterleaveUpper(tag, rows[2].raw, rows[3].raw);
+  rows[0].raw = hn::ConcatLowerLower(tag, lo, upper_lo);
+  rows[1].raw = hn::ConcatUpperUpper(tag, lo, upper_lo);
+  rows[2].raw = hn::ConcatLowerLower(tag, hi, upper_hi);
+  rows[3].raw = hn::ConcatUpperUpper(tag, hi, upper_hi);
+}
+#endif
+
 }  // namespace body
 }  // namespace HWY_NAMESPACE
 

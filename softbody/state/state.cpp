@@ -141,13 +141,15 @@ void State::set_particles(BodyId id, std::span<const Particle> particles) {
 /// The origin moves when the first particle, which starts no further than the radius from it, is further than one and a
 /// half radii away. It moves by a multiple of 1/64 m, which floats of that size hold without loss: rounding further out
 /// would keep stiff bodies trembling.
-void State::recentre(BodyId id) {
-  Body& body = bodies_[id];
-  const glm::dvec3 away(read(field(x), slot(id, 0)));
-  if (glm::length(away) <= 1.5 * model(id).radius) return;
-  const glm::dvec3 shift = glm::round(away * 64.0) / 64.0;
-  body.origin += shift;
-  for (Index i = 0; i < model(id).mesh.vertices.size(); ++i) field_of(id, x).add(i, -shift);
+void State::recentre(const Batch& b) {
+  for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
+    const BodyField at{field(x, b.base), l, std::size_t(b.width)};
+    const glm::dvec3 away = at(0);
+    if (b.moves[l] <= 0 || glm::length(away) <= 1.5 * b.model->radius) continue;
+    const glm::dvec3 shift = glm::round(away * 64.0) / 64.0;
+    bodies_[b.body[l]].origin += shift;
+    for (std::size_t i = 0; i < b.particles(); ++i) at.add(i, -shift);
+  }
 }
 
 Extent State::extent(const Batch& b, const VectorArray& boxed, const VectorArray& measured) const {
@@ -167,29 +169,35 @@ Particle State::particle(BodyId id, Index vertex) const {
   return {bodies_[id].origin + glm::dvec3(read(field(x), s)), glm::dvec3(read(field(v), s))};
 }
 
-double State::max_particle_speed(BodyId id) const {
-  double speed2 = 0;
-  for (Index i = 0; i < model(id).mesh.vertices.size(); ++i) {
-    const glm::dvec3 velocity(read(field(v), slot(id, i)));
-    const double here = velocity.x * velocity.x + velocity.y * velocity.y + velocity.z * velocity.z;
-    if (!std::isfinite(here)) return std::numeric_limits<double>::infinity();
-    speed2 = std::max(speed2, here);
-  }
-  return std::sqrt(speed2);
+std::array<double, lanes> State::max_particle_speeds(const Batch& b) const {
+  std::array<float, lanes> sums;  // show what is not finite, which the largest of a list need not be
+  state_kernels(b.width).square_sum(std::size_t(b.used), b.particles(), field(v, b.base), sums.data());
+  const Extent e = extent(b, v, v);
+  std::array<double, lanes> speeds{};
+  for (std::size_t l = 0; l < std::size_t(b.used); ++l)
+    speeds[l] = std::isfinite(sums[l]) ? e.length(l) : std::numeric_limits<double>::infinity();
+  return speeds;
 }
 
-void State::world_positions(std::span<float> wx, std::span<float> wy, std::span<float> wz) const {
-  std::size_t out = 0;
-  for (BodyId id = 0; id < body_count(); ++id) {
-    const glm::dvec3& origin = bodies_[id].origin;
-    const Batch& b = batch_of(id);
-    const std::size_t first = slot(id, 0), stride = std::size_t(b.width);
-    for (std::size_t s = first; s < first + b.values(); s += stride, ++out) {
-      wx[out] = static_cast<float>(origin.x + x[0][s]);
-      wy[out] = static_cast<float>(origin.y + x[1][s]);
-      wz[out] = static_cast<float>(origin.z + x[2][s]);
-    }
-  }
+namespace {
+
+void unpack(const Batch& b, const VectorArray& array, const DoubleLaneVector& offset, std::span<const Index> first,
+            Field<float> to) {
+  std::array<std::size_t, lanes> starts;
+  for (std::size_t l = 0; l < std::size_t(b.used); ++l) starts[l] = first[b.body[l]];
+  state_kernels(b.width).unpack(std::size_t(b.used), b.particles(), field(array, b.base), offset, starts.data(), to);
+}
+
+}  // namespace
+
+void State::write_positions(const Batch& b, std::span<const Index> first, Field<float> to) const {
+  DoubleLaneVector origins{};
+  for (std::size_t l = 0; l < std::size_t(b.used); ++l) origins.set(l, bodies_[b.body[l]].origin);
+  unpack(b, x, origins, first, to);
+}
+
+void State::write_velocities(const Batch& b, std::span<const Index> first, Field<float> to) const {
+  unpack(b, v, {}, first, to);
 }
 
 std::uint64_t State::hash() const {

@@ -31,12 +31,19 @@ struct Batch {
   bool any_moves() const;
 };
 
+/// A batch with its positions and velocities (m and m/s).
+struct BatchView {
+  const Batch& batch;
+  Field<float> x, v;
+};
+
 /// What World, Sleep and Resistance remember of a body from one frame to the next.
 struct BodyMemory {
   int release = 0;               // the frame until which it is pinned
   int calm_frames = 0;           // for how many frames it has been slow enough to sleep
   bool may_lie_in_solid = true;  // it has been placed there, or solids have been moved, and not come out since
   double impact = 0;             // m/s, the speed with which it came upon the solids that it touches
+  double speed = 0;              // m/s, of its fastest particle, as of the end of the last frame in which it moved
 };
 
 struct Body {
@@ -74,8 +81,8 @@ class State {
   void set_asleep(BodyId body, bool asleep);
   /// Sets all particles of a body, one for each vertex, finite. The body's origin goes to their middle.
   void set_particles(BodyId body, std::span<const Particle> particles);
-  /// Moves the body's origin after its particles if they have gone far.
-  void recentre(BodyId body);
+  /// Moves the origins of a batch's bodies that move after their particles, where these have gone far.
+  void recentre(const Batch& batch);
   BodyMemory& memory(BodyId body) { return bodies_[body].memory; }
 
   std::span<const Batch> batches() const { return batches_; }
@@ -97,10 +104,15 @@ class State {
   Extent extent(const Batch& batch, const VectorArray& boxed, const VectorArray& measured) const;
   std::size_t particle_count() const;  // of all bodies, whether they move or not
   Particle particle(BodyId body, Index vertex) const;
-  /// Returns the largest speed of a body's particles in m/s; infinity if one is not finite.
-  double max_particle_speed(BodyId body) const;
-  /// Writes the positions in the world, bodies in the order of their ids. Every span has one value for each vertex.
-  void world_positions(std::span<float> x, std::span<float> y, std::span<float> z) const;
+  /// Returns the largest speed of a particle, in m/s, for the body in each lane; infinity if one is not finite.
+  std::array<double, lanes> max_particle_speeds(const Batch& batch) const;
+  double max_particle_speed(BodyId body) const {
+    return max_particle_speeds(batch_of(body))[std::size_t(bodies_[body].lane)];
+  }
+  /// Write the positions of a batch's bodies in the world, and their velocities, one body after another: those of each
+  /// from first[id] on.
+  void write_positions(const Batch& batch, std::span<const Index> first, Field<float> to) const;
+  void write_velocities(const Batch& batch, std::span<const Index> first, Field<float> to) const;
   /// Returns FNV-1a over the bits of origins, positions and velocities in the order of the ids.
   std::uint64_t hash() const;
 

@@ -51,22 +51,38 @@ double deepest_in(const Solid& solid, const std::vector<glm::dvec3>& x, std::spa
   return least;
 }
 
-/// Returns how deep (m) a body lies in solids. What contact sees counts: faces only if surfaces touch.
-double deepest_in_solids(const World& world, BodyId id) {
+/// Returns the boxes of all bodies, by their ids. What is farther from a solid than these needs no closer look.
+std::vector<PlacedBox> boxes_of(const State& state) {
+  std::vector<PlacedBox> boxes(state.body_count());
+  for (const Batch& b : state.batches()) {
+    const Extent e = state.extent(b, state.x, state.v);
+    for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
+      const glm::dvec3 lo(e.lo[l]), hi(e.hi[l]);
+      boxes[b.body[l]] = {state.body(b.body[l]).origin + 0.5 * (lo + hi), 0.5 * (hi - lo)};
+    }
+  }
+  return boxes;
+}
+
+/// Returns how deep (m) a body in this box lies in solids. What contact sees counts: faces only if surfaces touch.
+double deepest_in_solids(const World& world, BodyId id, const PlacedBox& box) {
   const BodyModel& p = world.model(id);
   std::vector<glm::dvec3> x;
-  for (Index i = 0; i < p.mesh.vertices.size(); ++i) x.push_back(world.particle(id, i).position);
   std::span<const Triangle> faces;
   if (world.scene().contact_surface == ContactSurface::surfaces) faces = p.mesh.triangles;
   double deepest = 0;
-  for_each_solid(world.scene(), [&](const auto& solid) { deepest = deepest_in(solid, x, faces, deepest); });
+  for_each_solid(world.scene(), [&](const auto& solid) {
+    if (gap_before(solid, box) >= 0) return;
+    for (Index i = Index(x.size()); i < p.mesh.vertices.size(); ++i) x.push_back(world.particle(id, i).position);
+    deepest = deepest_in(solid, x, faces, deepest);
+  });
   return deepest;
 }
 
 /// Returns true if a body lies in one of the scene's solids, by more than rounding.
-bool lies_in_solid(const World& world, BodyId id, const PlacedBody& body) {
+bool lies_in_solid(const World& world, BodyId id, const PlacedBody& body, const PlacedBox& box) {
   constexpr double rounding = 1e-4;  // m
-  bool any = deepest_in_solids(world, id) > rounding;
+  bool any = deepest_in_solids(world, id, box) > rounding;
   for_each_solid(world.scene(), [&](const auto& solid) {
     any = any || overlap(body, solid, world.scene().contact_surface == ContactSurface::surfaces);
   });
@@ -93,9 +109,10 @@ std::vector<BodyId> overlapping_bodies(const World& world) {
   std::vector<PlacedBody> bodies;
   for (BodyId id = 0; id < count; ++id) bodies.push_back(placed(id));
   const std::vector<bool> overlaps = overlapping(bodies);
+  const std::vector<PlacedBox> boxes = boxes_of(world.state());
   std::vector<BodyId> list;
   for (BodyId id = 0; id < count; ++id)
-    if (overlaps[id] || lies_in_solid(world, id, bodies[id])) list.push_back(id);
+    if (overlaps[id] || lies_in_solid(world, id, bodies[id], boxes[id])) list.push_back(id);
   return list;
 }
 
@@ -133,12 +150,15 @@ Measures total(std::span<const BodyMeasures> bodies) {
 std::vector<SolidContactPoint> solid_contacts(const World& world) {
   constexpr double rounding = 1e-4;  // m: where a particle rests on a solid it keeps its thickness only up to rounding
   std::vector<SolidContactPoint> contacts;
-  const collide::Frame p = world.positions();
-  for (BodyId body = 0; body < p.bodies->count(); ++body) {
+  const std::vector<PlacedBox> boxes = boxes_of(world.state());
+  for (BodyId body = 0; body < boxes.size(); ++body) {
     const double distance = world.model(body).material[Material::thickness] + rounding;
-    for (Index i = p.bodies->first[body]; i < p.bodies->first[body + 1]; ++i) {
-      const SolidDepth d = solid_depth(world.scene(), {p.x[i], p.y[i], p.z[i]});
-      if (d.depth > -distance) contacts.push_back({i, d.normal});
+    bool near = false;
+    for_each_solid(world.scene(), [&](const auto& solid) { near = near || gap_before(solid, boxes[body]) < distance; });
+    if (!near) continue;
+    for (Index i = 0; i < world.bodies().size(body); ++i) {
+      const SolidDepth d = solid_depth(world.scene(), world.particle(body, i).position);
+      if (d.depth > -distance) contacts.push_back({world.bodies().first[body] + i, d.normal});
     }
   }
   return contacts;
@@ -146,8 +166,9 @@ std::vector<SolidContactPoint> solid_contacts(const World& world) {
 
 Measures measure(const World& world) {
   Measures m = total(measure_bodies(world));
-  for (BodyId id = 0; id < world.bodies().count(); ++id)
-    m.deepest_penetration = std::max(m.deepest_penetration, deepest_in_solids(world, id));
+  const std::vector<PlacedBox> boxes = boxes_of(world.state());
+  for (BodyId id = 0; id < boxes.size(); ++id)
+    m.deepest_penetration = std::max(m.deepest_penetration, deepest_in_solids(world, id, boxes[id]));
   return m;
 }
 

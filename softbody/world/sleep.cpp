@@ -4,20 +4,35 @@
 #include <limits>
 
 namespace softbody {
+namespace {
 
-void Sleep::wake_touched(State& state, std::span<const BodyId> vertex_body,
-                         const std::vector<collide::Contact>& contacts) const {
-  const auto wakes = [&](BodyId by, BodyId sleeper) {
-    return state.body(sleeper).asleep && state.body(by).moves() && state.max_particle_speed(by) > 2 * rule_.speed;
-  };
+/// Calls visit(a, b) for each pair of bodies that have contacts; contacts of the same two mostly follow each other.
+template <class Visit>
+void for_each_pair(std::span<const BodyId> vertex_body, const std::vector<collide::Contact>& contacts,
+                   const Visit& visit) {
   BodyId last_a = std::numeric_limits<BodyId>::max(), last_b = last_a;
   for (const collide::Contact& c : contacts) {
     const BodyId a = vertex_body[c.a], b = vertex_body[c.b];
     if (a == b || (a == last_a && b == last_b)) continue;
     last_a = a, last_b = b;
+    visit(a, b);
+  }
+}
+
+}  // namespace
+
+void Sleep::wake_touched(State& state, std::span<const BodyId> vertex_body,
+                         const std::vector<collide::Contact>& contacts) const {
+  bool any = false;
+  for (BodyId b = 0; b < state.body_count() && !any; ++b) any = state.body(b).asleep;
+  if (!any) return;
+  const auto wakes = [&](BodyId by, BodyId sleeper) {
+    return state.body(sleeper).asleep && state.body(by).moves() && state.max_particle_speed(by) > 2 * rule_.speed;
+  };
+  for_each_pair(vertex_body, contacts, [&](BodyId a, BodyId b) {
     if (wakes(a, b)) state.set_asleep(b, false);
     if (wakes(b, a)) state.set_asleep(a, false);
-  }
+  });
 }
 
 BodyId Sleep::root(BodyId body) {
@@ -27,21 +42,25 @@ BodyId Sleep::root(BodyId body) {
 
 void Sleep::settle(State& state, std::span<const BodyId> vertex_body, const std::vector<collide::Contact>& contacts,
                    const std::vector<collide::surface::ItemPair>& interactions) {
-  const auto count = static_cast<BodyId>(state.body_count());
+  const BodyId count = state.body_count();
+  bool any = false;
+  for (BodyId b = 0; b < count; ++b) {
+    if (!state.body(b).moves()) continue;
+    BodyMemory& memory = state.memory(b);
+    memory.calm_frames = memory.speed < rule_.speed ? memory.calm_frames + 1 : 0;
+    any = any || memory.calm_frames >= rule_.frames;
+  }
+  if (!any) return;  // most frames need no islands
   parent_.resize(count);
   for (BodyId b = 0; b < count; ++b) parent_[b] = b;
   const auto join = [&](BodyId a, BodyId b) {
     if (a != b && state.body(a).moves() && state.body(b).moves()) parent_[root(a)] = root(b);
   };
-  for (const collide::Contact& c : contacts) join(vertex_body[c.a], vertex_body[c.b]);
+  for_each_pair(vertex_body, contacts, join);
   for (const collide::surface::ItemPair& pair : interactions) join(pair.a, pair.b);
   std::vector<int> calm(count, std::numeric_limits<int>::max());  // of each island: the calm frames of its latest body
-  for (BodyId b = 0; b < count; ++b) {
-    if (!state.body(b).moves()) continue;
-    int& frames = state.memory(b).calm_frames;
-    frames = state.max_particle_speed(b) < rule_.speed ? frames + 1 : 0;
-    calm[root(b)] = std::min(calm[root(b)], frames);
-  }
+  for (BodyId b = 0; b < count; ++b)
+    if (state.body(b).moves()) calm[root(b)] = std::min(calm[root(b)], state.body(b).memory.calm_frames);
   for (BodyId b = 0; b < count; ++b)
     if (state.body(b).moves() && calm[root(b)] >= rule_.frames) state.set_asleep(b, true);
 }

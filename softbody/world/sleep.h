@@ -16,7 +16,8 @@ class Sleep {
   void wake_touched(State& state, std::span<const BodyId> vertex_body,
                     const std::vector<collide::Contact>& contacts) const;
   /// Counts calm frames, and puts islands to sleep whose bodies have all been calm for long enough. Bodies touch if
-  /// they have one of these contacts or, with surface contact, are a pair of `interactions`. Call it after detection.
+  /// they have one of these contacts or, with surface contact, are a pair of `interactions`. Call it after detection;
+  /// the speeds are those of BodyMemory.
   void settle(State& state, std::span<const BodyId> vertex_body, const std::vector<collide::Contact>& contacts,
               const std::vector<collide::surface::ItemPair>& interactions);
 

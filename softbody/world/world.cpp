@@ -102,11 +102,7 @@ void World::Parts::arrive() {
   }
 }
 
-void World::Parts::update_positions() {
-  const std::size_t n = bodies.vertex_count();
-  positions.x.resize(n), positions.y.resize(n), positions.z.resize(n);
-  solver.state().world_positions(positions.x, positions.y, positions.z);
-}
+void World::Parts::update_positions() { solver.write_positions(positions.resized(bodies.vertex_count())); }
 
 void World::Parts::detect() {
   const auto start = Clock::now();
@@ -145,7 +141,7 @@ void World::step(const std::function<void()>& after_substep) {
     looking_ms += ms_since(from);
   };
   const FrameResult done = s.solver.advance(s.frame_time, after_substep ? look : std::function<void()>());
-  s.solver.finish_frame(done.seconds);
+  s.solver.finish_frame(done.seconds, s.positions.resized(s.bodies.vertex_count()));
   s.report.time += done.seconds;
   s.report.seconds = done.seconds;
   const StepPlan& steps = s.solver.steps().plan();
@@ -158,7 +154,6 @@ void World::step(const std::function<void()>& after_substep) {
   if (!whole)
     s.penalty_thickness =
         std::min(s.penalty_thickness, thickness + float(0.05 * done.seconds));  // it grows with time, not frames
-  s.update_positions();
   s.report.solve_ms = ms_since(start) - looking_ms;
   s.detect();
   const bool penalty_grows = s.plan.has(stage_of<PenaltyContact>) &&

@@ -17,6 +17,10 @@ struct Coordinates {
     y.push_back(p.y);
     z.push_back(p.z);
   }
+  Field<float> resized(std::size_t size) {
+    x.resize(size), y.resize(size), z.resize(size);
+    return {x.data(), y.data(), z.data()};
+  }
   collide::Frame frame(const collide::Bodies& bodies) const { return {x, y, z, &bodies}; }
 };
 

@@ -73,6 +73,21 @@ TEST(StabilityMonitor, ReportsASecondBlowUpAfterARecovery) {
   EXPECT_TRUE(w.monitor.blow_up()) << "of another blow-up";
 }
 
+TEST(StabilityMonitor, KeepsALargeWorldInTheFramesInWhichItWasMeasured) {
+  softbody::Scene scene = touching_pair();
+  scene.bodies[0].mesh.subdivisions = 5;  // 10,242 vertices
+  softbody::World world(scene, {});
+  session::StabilityMonitor monitor;
+  for (int i = 0; i < 11; ++i) {
+    monitor.before_step(world);
+    world.step();
+    monitor.after_step(world, true);
+  }
+  EXPECT_EQ(monitor.history().total.size(), 5u);
+  EXPECT_EQ(monitor.last_good_frame(), 10);
+  for (const softbody::Snapshot& kept : monitor.past().snapshots()) EXPECT_EQ(kept.frame % 2, 0);
+}
+
 TEST(StepLight, IsGreenAmberAndRed) {
   EXPECT_STREQ(ui::status_light(session::StepMargin{}).name, "Green");
   EXPECT_STREQ(ui::status_light(session::StepMargin{10, 10, 0.1, 0.1}).name, "Green");

@@ -118,6 +118,29 @@ TEST_P(EveryKernel, OfMotionGivesTheSameBits) {
     });
 }
 
+TEST_P(EveryKernel, ThatUnpacksWritesOneBodyAfterAnother) {
+  DoubleLaneVector offset;
+  for (int l = 0; l < lanes; ++l) offset.set(std::size_t(l), {1e3 + l, -7.3 * l, 0.1});
+  for (int width = one_lane; width <= lanes; width = next_width(width))
+    for (int used = 1; used <= width; ++used) {
+      NarrowField own(x, 0, width);
+      std::vector<float> to[3];
+      for (auto& component : to) component.assign(std::size_t(used) * n + 4, -1.0f);
+      std::size_t first[lanes];
+      for (int l = 0; l < used; ++l) first[l] = std::size_t(used - 1 - l) * n;
+      state_kernels(width).unpack(std::size_t(used), n, own.constant(), offset, first,
+                                  {to[0].data(), to[1].data(), to[2].data()});
+      for (int l = 0; l < used; ++l)
+        for (std::size_t i = 0; i < n; ++i) {
+          const glm::vec3 expected(offset[std::size_t(l)] + x.at(i, l));
+          for (int k = 0; k < 3; ++k) ASSERT_TRUE(same_bits(to[k][first[l] + i], expected[k])) << l << " of " << used;
+        }
+      for (const auto& component : to)
+        for (std::size_t i = std::size_t(used) * n; i < component.size(); ++i)
+          EXPECT_EQ(component[i], -1) << "written to";
+    }
+}
+
 TEST_P(EveryKernel, OfRigidMotionGivesTheSameBits) {
   for (int which = 0; which < 15; ++which)
     expect_the_same([&](int width, int, Values xs, Values vs, Values, float* result) {
@@ -132,9 +155,10 @@ TEST_P(EveryKernel, OfRigidMotionGivesTheSameBits) {
     RigidChange change{};
     for (int l = 0; l < width; ++l) {
       change.acts[l] = moves[first + l];
+      change.keep[l] = 0.9;
       change.push.x[l] = 0.1 * (first + l), change.spin.y[l] = 3, change.about.z[l] = 0.25;
     }
-    state_kernels(width).add_rigid(width, n, change, xs, vs);
+    state_kernels(width).change_rigidly(width, n, change, xs, vs);
   });
 }
 

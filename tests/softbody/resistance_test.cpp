@@ -180,8 +180,11 @@ class ResistanceOfABody : public testing::Test {
     material[Material::internal_damping] = 5;
     material[contact::rolling_resistance] = 0.1;
     material[contact::rebound_speed] = 4;
-    model = make_unbalanced_body_model({}, material);
+    model = batch.model = make_unbalanced_body_model({}, material);
+    batch.used = lane + 2;
+    batch.moves[lane] = 1;
     x = v = LaneField(model->start.size());
+    v.randomise(random, 1);
     for (std::size_t i = 0; i < model->start.size(); ++i) {
       x.set(i, lane, model->start[i]);
       v.set(i, lane,
@@ -202,7 +205,11 @@ class ResistanceOfABody : public testing::Test {
   void apply(Stage stage, const SolidPush& push = {}) {
     Resistance resistance;
     resistance.set_plan({{stage}, {}});
-    resistance.apply(*model, of(x), of(v), push, 0.02, impact);
+    std::array<SolidPush, lanes> pushes;
+    std::array<double, lanes> impacts{};
+    pushes[lane] = push, impacts[lane] = impact;
+    resistance.apply({batch, x.field(), v.field()}, pushes, 0.02, impacts);
+    impact = impacts[lane];
   }
   static BodyField of(LaneField& f) { return {f.field(), lane, lanes}; }
 
@@ -210,6 +217,7 @@ class ResistanceOfABody : public testing::Test {
   std::mt19937 random{7};
   Material material = spring_ball();
   std::shared_ptr<const BodyModel> model;
+  Batch batch;
   LaneField x{0}, v{0};
   double impact = 0;  // m/s
 };
@@ -218,6 +226,14 @@ TEST_F(ResistanceOfABody, ActsOnlyIfThePlanHasIt) {
   const LaneField before = v;
   apply(Stage::gravity, {{0, 1, 0}, 0});
   EXPECT_EQ(v, before);
+}
+
+TEST_F(ResistanceOfABody, LeavesOtherLanesThatDoNotMove) {
+  const LaneField before = v;
+  apply(Stage::internal_damping, {{0, 1, 0}, 0});
+  EXPECT_NE(v.at(7, lane), before.at(7, lane));
+  for (std::size_t i = 0; i < model->start.size(); ++i)
+    for (const int other : {lane - 1, lane + 1}) ASSERT_EQ(v.at(i, other), before.at(i, other));
 }
 
 TEST_F(ResistanceOfABody, InternallyDampsAllButRigidMotion) {

@@ -18,7 +18,8 @@ class SleepRules : public testing::Test {
  protected:
   SleepRules() {
     const auto model = make_body_model({}, spring_ball());
-    for (const double speed : {0.0, 0.5, 0.02}) state.add(model, glm::dvec3(0.0), glm::dvec3(speed, 0, 0));
+    for (const double speed : {0.0, 0.5, 0.02})
+      state.memory(state.add(model, glm::dvec3(0.0), glm::dvec3(speed, 0, 0))).speed = speed;
     for (BodyId b = 0; b < 3; ++b) vertex_body.insert(vertex_body.end(), 162, b);
   }
   void settle(int frames, const std::vector<collide::Contact>& contacts) {

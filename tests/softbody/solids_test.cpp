@@ -127,6 +127,35 @@ TEST(Solids, ContactsAreTheParticlesOnASurfaceWithItsNormal) {
   }
 }
 
+/// All kinds of solids and 20 balls, of which some lie deep in solids, some touch one, and most are far from all.
+TEST(Solids, AreMeasuredAtAllParticlesThatTheyReach) {
+  Scene scene = lone_body(gas_ball(), glm::dvec3(0.0));
+  scene.ground = Ground{};
+  scene.spheres = {{.centre = {0, 1, 0}, .radius = 1.5}};
+  scene.planes = {{.point = {9, 0, 0}, .normal = {-1, 0, 0}}};
+  scene.boxes = {{.centre = {-5, 2, 3}, .half_size = {1, 0.7, 2}}};
+  scene.capsules = {{.from = {3, 3, 3}, .to = {6, 3, 3}, .radius = 0.4}};
+  scene.bodies[0].position = {8.502, 5, 0};
+  std::mt19937 random(3);
+  for (int i = 1; i < 20; ++i) add_body(scene, glm::dvec3(0, 4.5, 0) + random_vector(random, 8), glm::dvec3(0.0));
+  const World world(scene, {});
+  std::vector<Index> touched;
+  double deepest = 0;
+  const double least = -world.model(0).material[Material::thickness] - 1e-4;
+  for (BodyId body = 0; body < 20; ++body)
+    for (Index i = 0; i < 162; ++i) {
+      const double depth = solid_depth(scene, world.particle(body, i).position).depth;
+      if (depth > least) touched.push_back(body * 162 + i);
+      deepest = std::max(deepest, depth);
+    }
+  ASSERT_GT(touched.size(), 50u);
+  ASSERT_LT(touched.size(), 2000u);
+  EXPECT_EQ(measure(world).deepest_penetration, deepest);
+  std::vector<Index> found;
+  for (const SolidContactPoint& contact : solid_contacts(world)) found.push_back(contact.vertex);
+  EXPECT_EQ(found, touched);
+}
+
 TEST(SolidDepth, IsTheDeepestOfAllSolids) {
   Scene scene;
   EXPECT_EQ(solid_depth(scene, {1, 2, 3}).depth, -std::numeric_limits<double>::infinity());

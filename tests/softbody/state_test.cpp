@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "tests/softbody/helpers.h"
@@ -67,16 +68,27 @@ TEST_F(StateOfTwoModels, StopsBodiesThatFallAsleep) {
   EXPECT_EQ(state.max_particle_speed(5), 5) << "a pinned body keeps its velocity until it is released";
 }
 
+TEST_F(StateOfTwoModels, CallsABodyThatIsNotFiniteInfinitelyFast) {
+  for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1e30f}) {
+    State broken = state;
+    broken.v[2][broken.slot(3, 5)] = value;
+    EXPECT_EQ(broken.max_particle_speed(3), std::numeric_limits<double>::infinity()) << value;
+    EXPECT_EQ(broken.max_particle_speed(4), 4);
+  }
+}
+
 TEST_F(StateOfTwoModels, RecentresWithoutLoss) {
   std::vector<Particle> particles;
   for (Index i = 0; i < ball->mesh.vertices.size(); ++i) particles.push_back(state.particle(1, i));
   const std::uint64_t before = state.hash();
-  state.recentre(1);
-  EXPECT_EQ(state.hash(), before) << "it is near its origin";
+  state.recentre(state.batch_of(1));
+  EXPECT_EQ(state.hash(), before) << "all are near their origins";
   for (Particle& p : particles) p.position.x += 1000.25;
   state.set_particles(1, particles);
   for (auto& x : state.x[0]) x += 4;  // all bodies go on by 4 m
-  state.recentre(1);
+  state.set_pinned(2, true);
+  state.recentre(state.batch_of(1));
+  EXPECT_EQ(state.body(2).origin, glm::dvec3(2, 0, 0)) << "it does not move by itself";
   EXPECT_LT(std::abs(state.x[0][state.slot(1, 0)]), 1.5 * ball->radius);
   for (Index i = 0; i < particles.size(); ++i)
     ASSERT_NEAR(state.particle(1, i).position.x, particles[i].position.x + 4, 1e-6);

@@ -34,16 +34,21 @@ StepMargin margin_of(const softbody::World& world) {
           .share = last.seconds / world.frame_time()};
 }
 
+/// Returns true if the world is to be measured and kept in its present frame.
+bool is_looked_at(const softbody::World& world) {
+  constexpr std::size_t most = StabilityMonitor::most_frames, vertices = StabilityMonitor::vertices_a_frame;
+  return std::size_t(world.frame()) % std::min(most, 1 + world.bodies().vertex_count() / vertices) == 0;
+}
+
 }  // namespace
 
 void StabilityMonitor::before_step(const softbody::World& world) {
-  if (recovery_checks_ == 0) rewind_.keep(world);
+  if (recovery_checks_ == 0 && is_looked_at(world)) rewind_.keep(world);
 }
 
 void StabilityMonitor::after_step(const softbody::World& world, bool monitored) {
   margin_ = margin_of(world);
-  const auto every = static_cast<int>(std::min(most_frames, 1 + world.bodies().vertex_count() / vertices_a_frame));
-  if (world.frame() % every != 0) return;
+  if (!is_looked_at(world)) return;
   const auto bodies = softbody::measure_bodies(world);
   record(world, bodies);
   if (!monitored) blow_up_monitor_.restart();

@@ -33,8 +33,8 @@ struct StepMargin {
 
 class StabilityMonitor {
  public:
-  /// A world is measured once every 1 + vertices / vertices_a_frame frames, but every so many at least: so it takes a
-  /// small share of a frame, and a blow-up is named within ten frames.
+  /// A world is measured, and kept as a snapshot, once every 1 + vertices / vertices_a_frame frames, but every so many
+  /// at least: so both take a small share of a frame, and a blow-up is named within ten frames.
   static constexpr std::size_t vertices_a_frame = 10'000, most_frames = 8;
   /// So many checks without a blow-up have to follow one before another is reported.
   static constexpr std::size_t recovery = 60;
