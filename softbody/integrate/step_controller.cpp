@@ -78,8 +78,7 @@ const StepPlan& StepController::plan(const StepBound& b, double left) {
   const Integrator& integrator = *plan_.integrator;
   const bool any_step = integrator.stable_at_any_step();
   const double needed = seconds_ * std::max({1 / longest_step, b.passing, any_step ? 0 : b.stable});
-  const int whole = int(std::ceil(std::min(needed, max_count) * nearly));
-  plan_.needed = plan_.substeps > 0 ? std::min(plan_.needed, whole) : whole;
+  plan_.needed = int(std::ceil(std::min(needed, max_count) * nearly));
   const double own = integrator.substeps_per_step / seconds_;
   const double rate = std::max(own, any_step ? implicit_rate(b) : explicit_rate(b));
   double count = left / seconds_;

@@ -33,7 +33,7 @@ struct StepPlan {
   const Integrator* integrator = nullptr;
   std::string_view why;  // reason for the integrator; empty unless the controller chose it
   int substeps = 0;      // into which what is left of the frame is to be divided
-  int needed = 0;        // substeps of a whole frame that its bounds ask for, the lowest of them
+  int needed = 0;        // that the bound alone asks of a whole frame
 };
 
 /// Lower bound of the substep rate that falls with a delay: the largest rate (1/s) of the last half second to one
