@@ -150,7 +150,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   int done = 0;
   const auto go_on = [&](int steps) {
     run(steps, static_cast<float>(h), frame.substeps == 0, after_substep);
-    state_.ledger.book(WorkBy::surfaces, contacts_.surfaces().take_work());
+    state_.ledger.book(WorkBy::surfaces, contacts_.surfaces().take_energy());
     done += steps;
     frame.substeps += steps;
     steps_.spend(steps * ((implicit ? 0 : steps_.work_of_substep()) +
