@@ -116,14 +116,6 @@ void PenaltyContact::add_pairs(const DetectedContacts& detected, const State& st
   }
 }
 
-void PenaltyContact::locate(const State& state) {
-  for (PenaltyPair& p : pairs) {
-    p.slot_a = state.slot(p.body_a, p.vertex_a);
-    p.slot_b = state.slot(p.body_b, p.vertex_b);
-    p.offset = glm::vec3(state.body(p.body_a).origin - state.body(p.body_b).origin);
-  }
-}
-
 std::span<const PenaltyEnd> PenaltyContact::ends_of(const Batch& b) const {
   if (pairs.empty()) return {};
   return std::span(ends).subspan(first_end[b.index], first_end[b.index + 1] - first_end[b.index]);

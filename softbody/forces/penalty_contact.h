@@ -86,8 +86,6 @@ struct PenaltyContact {
   void find(const DetectedContacts& detected, const State& state, float thickness);
   /// Hands the friction springs of `before` on to the same contacts of `pairs`; both ascend.
   void carry_over(std::span<const PenaltyPair> before);
-  /// Finds again where the bodies' particles stand in the state's arrays, and how far apart their origins are.
-  void locate(const State& state);
   /// Returns the ends of pairs that fall to a batch.
   std::span<const PenaltyEnd> ends_of(const Batch& batch) const;
   /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up.
