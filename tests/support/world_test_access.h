@@ -11,8 +11,11 @@ struct WorldTestAccess {
   static double penalty_energy(const World& world) {
     PenaltyContact last = solver(world).penalty_contact();
     const State& state = world.state();
-    for (PenaltyPair& p : last.pairs)  // the origins of bodies have followed them
+    for (PenaltyPair& p : last.pairs) {  // bodies may have moved in the state, and their origins have followed them
+      p.slot_a = state.slot(p.body_a, p.vertex_a);
+      p.slot_b = state.slot(p.body_b, p.vertex_b);
       p.offset = glm::vec3(state.body(p.body_a).origin - state.body(p.body_b).origin);
+    }
     return last.energy(field(state.x));
   }
   /// m, of the penalty force: grows slowly towards the tolerance.
