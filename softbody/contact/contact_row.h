@@ -27,7 +27,7 @@ struct ContactRow {
   float friction;
   float normal_impulse;        // N s, accumulated along the normal
   glm::vec3 friction_impulse;  // N s, accumulated across it
-  float work;                  // J, that the former gives by pushing apart
+  float energy;                // J, that the former gives by pushing apart
   std::uint32_t feature;       // what it is of: a place in the search's features, or in a list of SolidContact
 };
 

@@ -41,7 +41,7 @@ struct SolidArguments {
   const float* moves;
   Field<float> impulse;         // N s, a value a lane: the normal impulses are added here ...
   float* returned;              // ... here their sizes times the restitution ...
-  float* work;                  // ... and here the energy (J) that pushing out gives
+  float* energy;                // ... and here the energy (J) that pushing out gives
   float h = 0;                  // s
   float slack = 0;              // m/s: a smaller change of normal velocity is left undone
   Field<const float> before{};  // velocities at the start of the step; read only if there is restitution

@@ -107,7 +107,7 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
   s.moves = b.moves.data();
   s.impulse = impulse(b);
   s.returned = returned(b);
-  s.work = work(b);
+  s.energy = energy(b);
   if (has_restitution_) s.before = field(std::as_const(before_), b.base);
   if (!has_features_) return;
   const std::vector<SolidCore> cores = cores_of(solid);
@@ -134,7 +134,7 @@ void SolidContact::end_frame() {
     const OfBatch& own = of_batch_[b.index];
     for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
       pushes_[b.body[l]] = {glm::dvec3(own.impulse[l]), double(own.returned[l])};
-      state_.ledger.book(WorkBy::solids, double(own.work[l]));
+      state_.ledger.book(WorkBy::solids, double(own.energy[l]));
       if (b.moves[l] != 0) state_.memory(b.body[l]).may_lie_in_solid = own.eased >> l & 1u;
     }
   }
@@ -226,7 +226,7 @@ void SolidContact::book(BodyId body, std::span<const ContactRow> rows) {
     if (row.normal_impulse <= 0) continue;
     softbody::add(impulse(b), lane, row.normal_impulse * row.normal);
     own.returned[lane] += own.near[row.feature].restitution * row.normal_impulse;
-    own.work[lane] += row.work;
+    own.energy[lane] += row.energy;
     std::atomic_ref(own.pushed).fetch_or(1u << lane, std::memory_order_relaxed);
   }
 }

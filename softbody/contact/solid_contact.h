@@ -38,7 +38,7 @@ class SolidContact {
   template <class Solid>
   void add(const Batch& batch, const Extent& extent, const Solid& solid, const glm::dvec3& gravity, double seconds,
            const WayOut& way_out);
-  /// Notes the pushes of the frame, and books their work.
+  /// Notes the pushes of the frame, and books the energy that they gave.
   void end_frame();
 
   // A substep.
@@ -59,7 +59,7 @@ class SolidContact {
   /// Returns where the part of these impulses is summed that restitution gives back.
   float* returned(const Batch& batch) { return of_batch_[batch.index].returned.data(); }
   /// Returns where the energy (J) is summed that they give to each lane by pushing out.
-  float* work(const Batch& batch) { return of_batch_[batch.index].work.data(); }
+  float* energy(const Batch& batch) { return of_batch_[batch.index].energy.data(); }
 
   /// Returns the solids that the bodies of a batch may touch in this frame.
   std::span<const SolidArguments> near(const Batch& batch) const {
@@ -83,7 +83,7 @@ class SolidContact {
     std::vector<ContactRow> rows;         // of these, in the substep at hand
     LaneVector impulse{};                 // N s, along the normals
     std::array<float, lanes> returned{};  // N s, the part of it that restitution gives back
-    std::array<float, lanes> work{};      // J, given by pushing out
+    std::array<float, lanes> energy{};    // J, given by pushing out
     unsigned pushed = 0, eased = 0;       // bits: lanes
   };
 

@@ -140,7 +140,7 @@ void SolidContact::apply_to_features(const Batch& b, float h) {
     const SolidFeature& f = own.features[row.feature];
     softbody::add(impulse(b), std::size_t(f.lane), row.normal_impulse * row.normal);
     own.returned[std::size_t(f.lane)] += own.near[f.solid].restitution * row.normal_impulse;
-    own.work[std::size_t(f.lane)] += row.work;
+    own.energy[std::size_t(f.lane)] += row.energy;
     own.pushed |= 1u << f.lane;
   }
 }

@@ -18,10 +18,10 @@ namespace body {
 /// Acts on the velocity of a point: after the step it is not below the surface, the change of normal velocity acts as
 /// an impulse, and friction takes at most `friction` times it from the tangential velocity. An impact is as fast as
 /// the point was before the step's forces, because these alone may be large on a particle at rest. moves: 1, or 0 for
-/// what stays as it is. Returns the change of normal velocity, and adds to `work` it times the speed at which an
-/// overlap is pushed out: an impact gets no more back than it had.
+/// what stays as it is. Returns the change of normal velocity. Adds to `energy`, of a unit of mass, this change
+/// times the speed at which an overlap is pushed out: an impact gets no more back than it had.
 template <class V>
-HWY_INLINE V respond(const SolidArguments& s, V moves, V gap, Vec<V> n, Vec<V> before, Vec<V>& v, V& work) {
+HWY_INLINE V respond(const SolidArguments& s, V moves, V gap, Vec<V> n, Vec<V> before, Vec<V>& v, V& energy) {
   const V zero{}, out = law::min_speed(gap, 1.0f / s.h);
   V target = out;
   const V normal_speed = dot(v, n);
@@ -33,7 +33,7 @@ HWY_INLINE V respond(const SolidArguments& s, V moves, V gap, Vec<V> n, Vec<V> b
   const V change = moves * select(wanted > V(s.slack), wanted, zero);
   if (!any_above(change, zero)) return change;
   v = v + change * n - law::within_cone(v - normal_speed * n, s.friction * change);
-  work += change * larger(out, zero);
+  energy += change * larger(out, zero);
   return change;
 }
 

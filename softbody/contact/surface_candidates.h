@@ -48,7 +48,7 @@ class SurfaceCandidates {
     bool closes = false, joins = false;            // see SurfaceContact::find_islands()
     int thread = 0;                                // that makes its rows, and where they are
     std::uint32_t first_row = 0, rows = 0;
-    double work = 0;  // J, that pushing the two apart has given
+    double energy = 0;  // J, that pushing the two apart has given
   };
   /// What is remembered of a candidate.
   struct CachedContact {

@@ -6,9 +6,9 @@ namespace softbody {
 
 void SurfaceContact::make_rows(int thread, int threads, Field<const float> x, Field<const float> v, float elapsed,
                                float h) {
-  ThreadWork& work = thread_work_[static_cast<std::size_t>(thread)];
-  work.rows.clear();
-  SurfaceRowMaker maker(candidates_, {x, v, h, elapsed + h, last_h_ > 0 ? h / last_h_ : 0}, work.scratch, work.rows);
+  OfThread& own = of_thread_[static_cast<std::size_t>(thread)];
+  own.rows.clear();
+  SurfaceRowMaker maker(candidates_, {x, v, h, elapsed + h, last_h_ > 0 ? h / last_h_ : 0}, own.scratch, own.rows);
   const collide::Part part = collide::part_of(candidates_.pairs().size(), thread, threads);
   for (std::size_t i = part.begin; i < part.end; ++i) {
     candidates_.pairs()[i].thread = thread;
@@ -57,9 +57,9 @@ SurfaceContact::State SurfaceContact::save() const {
 
 void SurfaceContact::restore(const State& state) {
   candidates_.restore(state.candidates);
-  thread_work_.resize(std::max(thread_work_.size(), std::size_t{1}));
-  for (ThreadWork& work : thread_work_) work.joint_work = 0;
-  thread_work_[0].rows = state.rows;
+  of_thread_.resize(std::max(of_thread_.size(), std::size_t{1}));
+  for (OfThread& own : of_thread_) own.joint_work = 0;
+  of_thread_[0].rows = state.rows;
   last_h_ = state.last_h;
 }
 

@@ -40,7 +40,7 @@ class SurfaceContact {
   };
 
   /// Takes the threads that will call. To be called before candidates are found.
-  void set_threads(int threads) { thread_work_.resize(static_cast<std::size_t>(threads)); }
+  void set_threads(int threads) { of_thread_.resize(static_cast<std::size_t>(threads)); }
   SurfaceCandidates& candidates() { return candidates_; }
   const SurfaceCandidates& candidates() const { return candidates_; }
 
@@ -62,17 +62,17 @@ class SurfaceContact {
   double work_of_substep() const;
 
   std::size_t rows() const;
-  /// Notes the work of the rows of a substep, which all threads must have solved. On every thread.
-  void add_row_work(int thread, int threads);
+  /// Adds up the energy that the rows of a substep give, which all threads must have solved. On every thread.
+  void add_row_energies(int thread, int threads);
   /// Returns the energy (J) that pushing apart has given to bodies since the last call.
-  double take_work();
+  double take_energy();
   /// `vertices`: those of the bodies that find() was given, and perhaps of more. While all bodies sleep it is the last
   /// substep before.
   std::vector<SurfaceContactPoint> contact_points(const collide::Bodies& vertices) const;
 
  private:
   using Pair = SurfaceCandidates::Pair;
-  struct alignas(64) ThreadWork {
+  struct alignas(64) OfThread {
     std::vector<ContactRow> rows;
     SurfaceRowMaker::Scratch scratch;
     JointSolver joint;
@@ -81,10 +81,10 @@ class SurfaceContact {
   };
 
   std::span<const ContactRow> rows_of(const Pair& pair) const {
-    return std::span(thread_work_[static_cast<std::size_t>(pair.thread)].rows).subspan(pair.first_row, pair.rows);
+    return std::span(of_thread_[static_cast<std::size_t>(pair.thread)].rows).subspan(pair.first_row, pair.rows);
   }
   std::span<ContactRow> rows_of(const Pair& pair) {
-    return std::span(thread_work_[static_cast<std::size_t>(pair.thread)].rows).subspan(pair.first_row, pair.rows);
+    return std::span(of_thread_[static_cast<std::size_t>(pair.thread)].rows).subspan(pair.first_row, pair.rows);
   }
   void keep(const ContactRow& row);
   void join_islands();
@@ -94,7 +94,7 @@ class SurfaceContact {
   void for_each_pair(int thread, int threads, const std::function<void()>& barrier, const Visit& visit);
 
   SurfaceCandidates candidates_;
-  std::vector<ThreadWork> thread_work_;
+  std::vector<OfThread> of_thread_;
   std::vector<Island> islands_;
   float last_h_ = 0;  // s, of the last substep
 };

@@ -18,7 +18,7 @@ void solve_row(ContactRow& row, Field<float> v) {
   const float held =
       row.relative_stiffness / (1 + row.relative_stiffness) * (row.normal_impulse + row.mass * (row.bias - speed));
   const float normal_impulse = std::max({0.0f, held, row.normal_impulse + row.mass * (row.target - speed)});
-  row.work = 0;
+  row.energy = 0;
   if (normal_impulse == 0 && row.normal_impulse == 0) return;
   const float push = normal_impulse - row.normal_impulse;
   row.normal_impulse = normal_impulse;
@@ -28,7 +28,7 @@ void solve_row(ContactRow& row, Field<float> v) {
       law::within_cone(row.friction_impulse - row.mass * slip, row.friction * normal_impulse);
   apply(row, push * row.normal + (friction_impulse - row.friction_impulse), v);
   row.friction_impulse = friction_impulse;
-  row.work = normal_impulse * std::clamp(speed + push / row.mass, 0.0f, row.push);
+  row.energy = normal_impulse * std::clamp(speed + push / row.mass, 0.0f, row.push);
 }
 
 /// Two bodies far inside each other move apart along the line of their centres, each as a whole: their shapes, momentum
@@ -56,7 +56,7 @@ void SurfaceContact::separate(Pair& pair, Field<const float> x, Field<float> v) 
   const float missing = float(law::max_separation_speed) - glm::dot(a.velocity - b.velocity, axis);
   if (missing <= 0) return;
   const float impulse = missing / (a.inverse_mass + b.inverse_mass);
-  pair.work += double(impulse * (float(law::max_separation_speed) - 0.5f * missing));
+  pair.energy += double(impulse * (float(law::max_separation_speed) - 0.5f * missing));
   for (Index i = 0; i < one.surface->vertex_count(); ++i)
     add(v, one.slot + i * one.stride, impulse * a.inverse_mass * axis);
   for (Index i = 0; i < two.surface->vertex_count(); ++i)
@@ -73,7 +73,7 @@ void SurfaceContact::for_each_pair(int thread, int threads, const std::function<
         alone ? collide::Part{0, thread == 0 ? colour.size() : 0} : collide::part_of(colour.size(), thread, threads);
     for (std::size_t i = part.begin; i < part.end; ++i) {
       Pair& p = candidates_.pairs()[colour[i]];
-      visit(p, std::span(thread_work_[static_cast<std::size_t>(p.thread)].rows).subspan(p.first_row, p.rows));
+      visit(p, std::span(of_thread_[static_cast<std::size_t>(p.thread)].rows).subspan(p.first_row, p.rows));
     }
     if (!alone) barrier();
   }
@@ -96,7 +96,7 @@ void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<
     keep(row);
   });
   if (thread == 0) {
-    for (ThreadWork& work : thread_work_) work.joint_work = 0;
+    for (OfThread& own : of_thread_) own.joint_work = 0;
     last_h_ = h;
   }
   if (few_rows()) barrier();
@@ -153,25 +153,25 @@ void SurfaceContact::join_islands() {
 }
 
 void SurfaceContact::solve_island(int thread, const Island& island, std::span<ContactRow> solids, Field<float> v) {
-  ThreadWork& work = thread_work_[static_cast<std::size_t>(thread)];
-  work.together.clear();
+  OfThread& own = of_thread_[static_cast<std::size_t>(thread)];
+  own.together.clear();
   for (const std::uint32_t i : island.pairs)
-    for (ContactRow& row : rows_of(candidates_.pairs()[i])) work.together.push_back(&row);
-  const auto own = std::ptrdiff_t(work.together.size());
-  for (ContactRow& row : solids) work.together.push_back(&row);
-  work.joint_work += double(work.joint.solve(work.together, v)) * double(work.together.size());
-  std::for_each(work.together.begin(), work.together.begin() + own, [&](const ContactRow* row) { keep(*row); });
+    for (ContactRow& row : rows_of(candidates_.pairs()[i])) own.together.push_back(&row);
+  const auto surfaces = std::ptrdiff_t(own.together.size());
+  for (ContactRow& row : solids) own.together.push_back(&row);
+  own.joint_work += double(own.joint.solve(own.together, v)) * double(own.together.size());
+  std::for_each(own.together.begin(), own.together.begin() + surfaces, [&](const ContactRow* row) { keep(*row); });
 }
 
-void SurfaceContact::add_row_work(int thread, int threads) {
+void SurfaceContact::add_row_energies(int thread, int threads) {
   const collide::Part part = collide::part_of(candidates_.pairs().size(), thread, threads);
   for (Pair& p : std::span(candidates_.pairs()).subspan(part.begin, part.end - part.begin))
-    for (const ContactRow& row : rows_of(p)) p.work += double(row.work);
+    for (const ContactRow& row : rows_of(p)) p.energy += double(row.energy);
 }
 
-double SurfaceContact::take_work() {
+double SurfaceContact::take_energy() {
   double sum = 0;
-  for (Pair& p : candidates_.pairs()) sum += std::exchange(p.work, 0.0);
+  for (Pair& p : candidates_.pairs()) sum += std::exchange(p.energy, 0.0);
   return sum;
 }
 
@@ -183,7 +183,7 @@ double SurfaceContact::work_of_substep() const {
                                      : 0;
     work += 0.5 * iterations * double(p.rows + whole);
   }
-  for (const ThreadWork& of_thread : thread_work_) work += 0.5 * of_thread.joint_work;
+  for (const OfThread& of_thread : of_thread_) work += 0.5 * of_thread.joint_work;
   return work;
 }
 

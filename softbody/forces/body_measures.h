@@ -17,7 +17,6 @@ struct Energy {
   double elastic = 0;  // of all forces inside bodies but:
   double gas = 0;      // those that depend on the volume
   double gravity = 0;  // measured from the world's origin
-  double deformation() const { return elastic + gas; }
   double total() const { return kinetic + elastic + gas + gravity; }
   Energy& operator+=(const Energy& other);
 };

@@ -7,11 +7,6 @@
 
 namespace softbody {
 
-/// The energy in J that the forces inside a body store.
-struct StoredEnergy {
-  double elastic = 0;  // of all but:
-  double gas = 0;      // forces that depend on the volume
-};
 StoredEnergy stored_energy(const BodyModel& model, const std::vector<glm::dvec3>& x);
 
 double elastic_energy(const BodyModel& model, const std::vector<glm::dvec3>& x);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "softbody/forces/deformation.h"
 #include "softbody/forces/gas.h"
 #include "softbody/forces/visit.h"
 #include "softbody/model/scene_error.h"
@@ -96,6 +97,7 @@ std::shared_ptr<const BodyModel> make_body_model(const MeshSource& mesh, const M
   if (material[Material::start_in_equilibrium] == 0 || p->forces->pressure <= 0) return p;
   p->start = find_equilibrium(*p, p->mesh.vertices);
   p->start_volume = volume(p->start, p->mesh.triangles);
+  p->start_energy = stored_energy(*p, p->start);
   return p;
 }
 

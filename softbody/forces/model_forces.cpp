@@ -1,6 +1,7 @@
 #include "softbody/forces/model_forces.h"
 
 #include "softbody/forces/bound.h"
+#include "softbody/forces/deformation.h"
 
 namespace softbody {
 namespace {
@@ -17,6 +18,7 @@ void give_material(BodyModel& p, const MeshSource& source, const Material& mater
   });
   forces->set_bounds(p.mesh.vertices.size());
   p.forces = forces;
+  p.start_energy = stored_energy(p, p.start);
 }
 
 }  // namespace

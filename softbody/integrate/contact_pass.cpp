@@ -105,7 +105,7 @@ void ContactPass::apply(const Worker& worker, float h, float since_start) {
     worker.barrier();
     solids();
   }
-  surfaces_.add_row_work(worker.index(), crew_.active());
+  surfaces_.add_row_energies(worker.index(), crew_.active());
 }
 
 /// Solves contacts of bodies together with those of the solids that they lie on, which apply() takes in turn.

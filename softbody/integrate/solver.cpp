@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <stdexcept>
 
 #include "softbody/forces/body_measures.h"
 #include "softbody/integrate/force_stage.h"
@@ -136,8 +137,12 @@ FrameResult Solver::advance(double seconds, const std::function<void()>& after_s
   Frame frame = begin_frame(seconds);
   const double held = penalty_energy();
   if (!crew_.moving().empty()) {
-    do take_substeps(frame, after_substep);
-    while (frame.left > 0 && steps_.may_go_on());
+    try {
+      do take_substeps(frame, after_substep);
+      while (frame.left > 0 && steps_.may_go_on());
+    } catch (const std::length_error&) {  // too many candidates; the next frame has them at its start
+      if (frame.substeps == 0) throw;
+    }
     for (const Batch* b : crew_.moving()) pushed_[b->index] |= solids_.pushed(*b);
     frame.momenta.restore((seconds - frame.left) * gravity(), steps_.plan().integrator->conserves_spin, pushed_);
   } else {
@@ -145,7 +150,7 @@ FrameResult Solver::advance(double seconds, const std::function<void()>& after_s
   }
   solids_.end_frame();
   state_.ledger.book(WorkBy::penalty, held - penalty_energy());
-  return {frame.substeps, seconds - frame.left};
+  return {frame.substeps, frame.needed, seconds - frame.left};
 }
 
 /// Takes as many substeps as what bounds them may be trusted for.
@@ -168,6 +173,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
     plan = steps_.plan(frame.bound, frame.left);
     surfaces_decide = plan.substeps > without;
   }
+  frame.needed = frame.substeps == 0 ? plan.needed : std::min(frame.needed, plan.needed);
   const bool implicit = plan.integrator->implicit;
   if (frame.substeps == 0 && !implicit && plan.substeps >= many_substeps)
     for (const Batch* b : crew_.moving()) frame.momenta.note({*b, field(state_.x, b->base), field(state_.v, b->base)});
@@ -179,7 +185,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   int done = 0;
   const auto go_on = [&](int steps) {
     run(steps, static_cast<float>(h), frame.substeps == 0, after_substep);
-    state_.ledger.book(WorkBy::surfaces, contacts_.surfaces().take_work());
+    state_.ledger.book(WorkBy::surfaces, contacts_.surfaces().take_energy());
     done += steps;
     frame.substeps += steps;
     steps_.spend(steps * ((implicit ? 0 : steps_.work_of_substep()) +

@@ -22,6 +22,7 @@ namespace softbody {
 /// What a frame has simulated.
 struct FrameResult {
   int substeps = 0;
+  int needed = 0;  // of a whole frame, see StepPlan: the fewest that any part of this one asked for
   double seconds = 0;
 };
 
@@ -64,9 +65,10 @@ class Solver {
   /// Takes the contacts for the coming frame. thickness: of the contact layer, m.
   void set_contacts(const DetectedContacts& detected, float thickness);
 
-  /// Advances by `seconds`, or by less if the budget of work is spent. Unless substeps are fixed, their bound is
-  /// measured anew as bodies move, since bodies that are crushed may need any number of substeps and have many
-  /// contacts. after_substep: called by one thread while the others wait.
+  /// Advances by `seconds`, or by less if the budget of work is spent, or if there are too many candidates of surface
+  /// contact on the way. If there are at the start, throws std::length_error; then nothing has moved. Unless substeps
+  /// are fixed, their bound is measured anew as bodies move, since bodies that are crushed may need any number of
+  /// substeps and have many contacts. after_substep: called by one thread while the others wait.
   FrameResult advance(double seconds, const std::function<void()>& after_substep = {});
   /// Ends a frame of `seconds`, after advance(): applies what resists the bodies' motion as a whole, lets their origins
   /// follow, notes how fast they are, and writes all positions to `places` as write_positions() does.
@@ -85,7 +87,7 @@ class Solver {
     double left;            // s
     std::size_t particles;  // that move
     StepBound bound;        // as it was measured last
-    int substeps = 0;
+    int substeps = 0, needed = 0;
     MomentumRestorer momenta{};
   };
 

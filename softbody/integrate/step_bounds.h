@@ -15,10 +15,11 @@ class StepBounds {
   StepBounds(const State& state, const PenaltyContact& penalty, const SolidContact& solids)
       : state_(state), penalty_(penalty), solids_(solids) {}
 
-  /// Returns the bounds of steps of this integrator.
+  /// Returns the bounds of steps of this integrator. No step is to change the shape of a body by more than a tenth of
+  /// its radius, nor to move it by more where solids are near.
   StepBound measure(const Integrator& integrator);
-  /// Returns for how many substeps of h seconds measure() may be trusted. It is to be called again before the fastest
-  /// body has moved a fifth of its radius, since a body that is being crushed gets stiffer.
+  /// Returns for how many substeps of h seconds the bounds hold: until the fastest body has moved a fifth of its
+  /// radius, since a body that is being crushed gets stiffer. It may be 0; then they hold for less than one.
   int trusted_substeps(double h) const;
   /// Returns what is lost where positions are rounded to floats, in m.
   double rounding() const;

@@ -12,8 +12,8 @@ constexpr double longest_step =
 /// less than a hundredth of its radius after half a second, see `report solver`. Bodies that are stable in longer steps
 /// take these.
 constexpr double accurate_rate = 480;
-constexpr double max_count = 5e8;    // far more than there may be: less of the frame is simulated
-constexpr double nearly = 1 - 1e-9;  // what is left of a frame takes what is left of its steps, but for rounding
+constexpr double max_count = 5e8;    // substeps of a frame: an int holds them, and no budget pays for them
+constexpr double nearly = 1 - 1e-9;  // rounding of what is left of a frame must not add a substep
 
 }  // namespace
 
@@ -41,7 +41,8 @@ void StepController::begin_frame(const FrameConditions& c, const StepBound& boun
   if (automatic() && c.moving > 0) choose(bound, c);
 }
 
-/// The rate that bodies have asked for lately counts, too, up to half of the budget: it must not cut the frame short.
+/// What bodies asked for lately counts, too, but no more of it than half of the budget pays for: a need that has passed
+/// must not cut frames short.
 double StepController::explicit_rate(const StepBound& b) {
   const bool accurate = automatic() && plan_.integrator->implicit_volume;
   const double asked = std::max({stable_rate(b, *plan_.integrator), b.deformation, accurate ? accurate_rate : 0});
@@ -51,8 +52,8 @@ double StepController::explicit_rate(const StepBound& b) {
   return std::max(rate, hysteresis_.rate());
 }
 
-/// A body does not stay round if a step bends it by more than its radius. Stability needs no such steps, so there are
-/// at most 16 a frame.
+/// A body does not stay round if a step bends it by more than its radius, ten times as much as `deformation` allows.
+/// Stability does not need these steps, so there are at most 16 a frame.
 double StepController::implicit_rate(const StepBound& b) const {
   return std::max({1 / longest_step, b.passing, std::min(0.1 * b.deformation, 16 / seconds_)});
 }
@@ -88,9 +89,8 @@ void StepController::choose(const StepBound& b, const FrameConditions& c) {
 const StepPlan& StepController::plan(const StepBound& b, double left) {
   const Integrator& integrator = *plan_.integrator;
   const bool any_step = integrator.stable_at_any_step();
-  const double needed = seconds_ * std::max({1 / longest_step, b.passing, stable_rate(b, *plan_.integrator)});
-  const int whole = int(std::ceil(std::min(needed, max_count) * nearly));
-  plan_.needed = plan_.substeps > 0 ? std::min(plan_.needed, whole) : whole;
+  const double needed = seconds_ * std::max({1 / longest_step, b.passing, stable_rate(b, integrator)});
+  plan_.needed = int(std::ceil(std::min(needed, max_count) * nearly));
   const double own = integrator.substeps_per_step / seconds_;
   const double rate = std::max(own, any_step ? implicit_rate(b) : explicit_rate(b));
   double count = left / seconds_;
@@ -98,7 +98,8 @@ const StepPlan& StepController::plan(const StepBound& b, double left) {
     count *= fixed_steps_ * integrator.substeps_per_step;
   } else {
     count *= on_ladder(seconds_ * rate, integrator.step_lengths);
-    // Where the rest of a frame is no whole number of such steps, explicit ones become a little shorter.
+    // The rest of a frame may be no whole number of substeps of that length. Then explicit ones become a little
+    // shorter; implicit ones, of which each length needs a matrix, are halved until the number is whole.
     while (integrator.implicit && std::abs(count - std::round(count)) > 1e-6 && count < max_count) count *= 2;
   }
   count = std::max(1.0, std::ceil(count * nearly));

@@ -1,6 +1,7 @@
 #pragma once
-// Decides which integrator moves the bodies in a frame, and in how many steps. It sees no bodies, only numbers that say
-// how they are.
+// Decides which integrator moves the bodies in a frame, and in how many substeps. It sees no bodies, only numbers that
+// say how they are. A user fixes a number of steps; one step is one substep, but for integrators that divide each step
+// (Integrator::substeps_per_step).
 
 #include <algorithm>
 #include <cstddef>
@@ -41,7 +42,7 @@ struct StepPlan {
   const Integrator* integrator = nullptr;
   std::string_view why;  // reason for the integrator; empty unless the controller chose it
   int substeps = 0;      // into which what is left of the frame is to be divided
-  int needed = 0;        // substeps of a whole frame that its bounds ask for, the lowest of them
+  int needed = 0;        // that the bound alone asks of a whole frame
 };
 
 /// Lower bound of the substep rate that falls with a delay: the largest rate (1/s) of the last half second to one
@@ -71,14 +72,16 @@ class StepController {
   void set_choice(const IntegratorChoice& choice);
   void set_budget(const WorkBudget& budget) { budget_ = budget; }
 
-  /// Begins a frame, and chooses its integrator if that is left to the controller. bound: at its start, of bounds_of().
+  /// Begins a frame, and chooses its integrator if that is left to the controller. bound: at the
+  /// frame's start, measured for bounds_of().
   void begin_frame(const FrameConditions& conditions, const StepBound& bound);
-  /// Plans the last `left` seconds of the frame for this bound. All steps are of few lengths, on a ladder.
+  /// Plans into how many substeps the last `left` seconds of the frame are divided, for this bound. Unless the number
+  /// is fixed it is on a ladder, so that substeps have few lengths: see on_ladder().
   const StepPlan& plan(const StepBound& bound, double left);
   /// Returns the last plan. Before the first one of a frame it has its integrator only.
   const StepPlan& plan() const { return plan_; }
 
-  /// Returns the integrator by which bounds are to be measured.
+  /// Returns the integrator for which bounds are to be measured: the choice, which may be `auto`.
   const Integrator& bounds_of() const { return *chosen_; }
   /// True if the controller chooses the integrator of each frame.
   bool automatic() const { return chosen_->automatic; }
@@ -105,8 +108,8 @@ class StepController {
   int fixed_steps_ = 0;  // 0: not fixed
   WorkBudget budget_;
   SubstepHysteresis hysteresis_;
-  double seconds_ = 0;  // of this frame
-  double work_of_substep_ = 0, spent_ = 0, most_ = 0;
+  double seconds_ = 0;                                 // how long this frame is
+  double work_of_substep_ = 0, spent_ = 0, most_ = 0;  // of work, in this frame; the last is its budget
   StepPlan plan_;
 };
 

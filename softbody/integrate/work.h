@@ -7,16 +7,16 @@
 
 namespace softbody {
 
-/// What things cost, in units of one particle in an explicit substep: about 10 ns on one thread, where 16 bodies share
-/// a block. `soak` prints how long a unit takes.
+/// How much work things are. The unit is one particle in one explicit substep: about 10 ns on one thread, where 16
+/// bodies share a block. `soak` prints how long a unit takes.
 namespace work {
-inline constexpr double substep = 300;     // of a substep, beside its particles
-inline constexpr double bound = 2;         // of a particle, where its bound is measured
-inline constexpr double penalty_pair = 5;  // in a substep
-inline constexpr double surface = 3;       // see SurfaceContact::work_of_substep() and SurfaceSearch::work()
-inline constexpr double implicit = 50;     // see ImplicitSolver::take_work()
-// Of a particle in an implicit step, whatever the machine, to choose by. In heaps all bodies of a batch take as long as
-// the one that is pressed most.
+inline constexpr double substep = 300;     // each explicit substep, beside its particles and pairs
+inline constexpr double bound = 2;         // a particle, each time that the bounds of steps are measured
+inline constexpr double penalty_pair = 5;  // a pair in a substep
+inline constexpr double surface = 3;       // what SurfaceContact::work_of_substep() and SurfaceSearch::work() count
+inline constexpr double implicit = 50;     // what ImplicitSolver::take_work() counts
+// A particle in an implicit step, as it is estimated to choose an integrator; what is spent is counted as it is done.
+// In heaps all bodies of a batch take as long as the one that is pressed most.
 inline constexpr double implicit_in_flight = 150, implicit_on_solids = 300, implicit_in_contact = 2000;
 }  // namespace work
 
@@ -26,7 +26,7 @@ struct WorkBudget {
   double per_particle = 4'000;  // of all bodies
   double most = std::numeric_limits<double>::infinity();
 
-  /// Returns the budget of a world of so many particles.
+  /// Returns the budget of a frame in a world of so many particles.
   double of(std::size_t particles) const { return std::min(most, std::max(least, per_particle * double(particles))); }
 };
 

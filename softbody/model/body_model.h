@@ -20,6 +20,13 @@ namespace softbody {
 
 struct ModelForces;
 
+/// The energy in J that the forces inside a body store.
+struct StoredEnergy {
+  double elastic = 0;  // of all but:
+  double gas = 0;      // forces that depend on the volume
+  double total() const { return elastic + gas; }
+};
+
 struct BodyModel {
   Mesh mesh;
   Material material;
@@ -33,6 +40,7 @@ struct BodyModel {
   double radius = 0;                          // m, bounding radius of the mesh
   std::vector<glm::dvec3> start;              // starting shape: the equilibrium, or the mesh itself
   double start_volume = 0;                    // m^3, 0 for open meshes
+  StoredEnergy start_energy;                  // in the starting shape: the least if that is the equilibrium
   double largest_degree = 0;                  // largest number of faces at one particle
   std::shared_ptr<const ModelForces> forces;  // what the forces need, see forces/model_forces.h
 

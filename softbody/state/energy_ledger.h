@@ -16,9 +16,9 @@ enum class WorkBy {
   solids,    // push bodies out
   easing,    // moves bodies as a whole out of solids that they started in
   surfaces,  // of bodies push each other apart
-  penalty,   // contact: what its pairs hold less at the end of a frame than when they were found
+  penalty,   // contact: what its pairs hold at the start of a frame, less what they hold at its end
   hand,
-  steps,  // that become longer or shorter, see EnergyLedger::staggering
+  steps,  // that become longer or shorter: what EnergyLedger::staggering changes
   user,   // changes between frames; bodies that come and go
 };
 inline constexpr std::size_t ledger_accounts = 7;
@@ -26,11 +26,12 @@ inline constexpr std::size_t ledger_accounts = 7;
 /// The work (J) that was booked since the start of a world. Different threads may book on different accounts.
 class EnergyLedger {
  public:
-  /// s. Integrators whose velocities belong to the middle of the last substep conserve the energy and what forces do in
-  /// half a substep of this length, see BodyMeasures::conserved(). 0: the energy itself.
+  /// s. Which energy is conserved: the plain one if this is 0. Else velocities belong to the middle of the last
+  /// substep, which had this length; then it is the plain one plus what the forces do in half a substep, see
+  /// BodyMeasures::conserved().
   double staggering = 0;
 
-  /// Books nothing that is not finite: that shows in the bodies themselves, and may be gone with them.
+  /// Books nothing that is not finite: it would stay, though bodies that are not finite may be removed.
   void book(WorkBy by, double joules) {
     if (std::isfinite(joules)) accounts_[std::size_t(by)] += joules;
   }

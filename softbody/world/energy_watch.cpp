@@ -17,11 +17,8 @@ using Measured = std::vector<BodyMeasures>;
 /// Returns the energy (J) that moves and deforms the bodies.
 double active_energy(const World& world, const Measured& bodies) {
   double sum = 0;
-  Energy rest;
-  const BodyModel* last = nullptr;
   for (BodyId id = 0; id < bodies.size(); ++id) {
-    const BodyModel& p = world.model(id);
-    if (&p != std::exchange(last, &p)) rest = starting_energy(p);
+    const StoredEnergy& rest = world.model(id).start_energy;
     const Energy& e = bodies[id].energy;
     sum += e.kinetic + std::abs(e.elastic - rest.elastic) + std::abs(e.gas - rest.gas);
   }

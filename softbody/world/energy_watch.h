@@ -12,7 +12,7 @@ namespace softbody {
 
 /// What has happened between two looks at a world.
 struct EnergyChange {
-  double gain;      // J, by which the energy grew beyond the work booked; negative: that was lost
+  double gain;      // J, by which the energy grew beyond the work booked; negative: energy was lost
   double active;    // J, of motion and deformation
   double rounding;  // J
   BodyId body;      // the one that gained most
@@ -22,8 +22,8 @@ struct EnergyChange {
 
 class EnergyWatch {
  public:
-  /// Returns what has happened since the last look; nothing at the first one. `bodies` are measured in the world. The
-  /// energy is the one that the ledger is about.
+  /// Returns what has happened since the last look; nothing at the first one. bodies: as measure_bodies() returns them
+  /// now. The energy is the one that is conserved, see EnergyLedger::staggering.
   std::optional<EnergyChange> look(const World& world, const std::vector<BodyMeasures>& bodies);
   /// Starts anew with the next look: the world goes back.
   void restart() { last_.reset(); }

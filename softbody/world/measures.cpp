@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/solid_overlap.h"
-#include "softbody/forces/deformation.h"
 #include "softbody/scene/solids.h"
 #include "softbody/state/state.h"
 
@@ -114,11 +113,6 @@ std::vector<BodyId> overlapping_bodies(const World& world) {
   for (BodyId id = 0; id < count; ++id)
     if (overlaps[id] || lies_in_solid(world, id, bodies[id], boxes[id])) list.push_back(id);
   return list;
-}
-
-Energy starting_energy(const BodyModel& p) {
-  const StoredEnergy stored = stored_energy(p, p.start);
-  return {.elastic = stored.elastic, .gas = stored.gas};
 }
 
 SolidDepth solid_depth(const Scene& scene, const glm::dvec3& point) {

@@ -9,9 +9,6 @@ namespace softbody {
 BodyMeasures measure(const World& world, BodyId body);
 std::vector<BodyMeasures> measure_bodies(const World& world);
 
-/// Returns the deformation energy of a body's starting shape. It is the minimum if the body starts in equilibrium.
-Energy starting_energy(const BodyModel& model);
-
 class EnergyLedger;
 
 struct Measures {

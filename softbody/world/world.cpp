@@ -146,7 +146,7 @@ void World::step(const std::function<void()>& after_substep) {
   s.report.seconds = done.seconds;
   const StepPlan& steps = s.solver.steps().plan();
   s.report.substeps = done.substeps;
-  s.report.needed = steps.needed;
+  s.report.needed = done.needed;
   s.report.last_substep = s.solver.last_substep();
   s.report.integrator = steps.integrator;
   s.report.why = steps.why;

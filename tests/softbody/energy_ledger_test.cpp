@@ -40,10 +40,7 @@ struct Sums {
         height -= p.particle_mass * glm::dot(world.scene().gravity, q.position);
         fall += p.particle_mass * glm::dot(world.scene().gravity, q.velocity);
       }
-      const auto springs_and_gas = [&](const std::vector<glm::dvec3>& at) {
-        const StoredEnergy s = stored_energy(p, at);
-        return s.elastic + s.gas;
-      };
+      const auto springs_and_gas = [&](const std::vector<glm::dvec3>& at) { return stored_energy(p, at).total(); };
       const double power = fall + (springs_and_gas(before) - springs_and_gas(after)) / (2 * moment);
       const StoredEnergy now = stored_energy(p, x), start = stored_energy(p, p.start);
       energy += kinetic + height + now.elastic + now.gas + staggering / 2 * power;

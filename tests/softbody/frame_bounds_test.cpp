@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "softbody/world/energy_watch.h"
 #include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_test_access.h"
@@ -180,6 +181,7 @@ TEST(StepBounds, AskForSubstepsForBodiesThatPass) {
   World world(scene, {.integrator = {"semi-implicit-euler"}});
   world.step();
   EXPECT_GE(world.last_step().substeps, speed * world.frame_time() / (0.15 * world.model(0).mean_edge));
+  EXPECT_GE(world.last_step().needed, speed * world.frame_time() / (0.15 * world.model(0).mean_edge));
   scene.contact_surface = ContactSurface::vertices;
   World without(scene, {.integrator = {"semi-implicit-euler"}});
   without.step();
@@ -208,6 +210,33 @@ TEST(MaxCandidates, EndTheFrame) {
   world.set_particles(1, near);
   world.step();
   EXPECT_EQ(world.last_step().seconds, world.frame_time());
+}
+
+/// A ball falls on a pinned one so fast that they meet within a frame. What has moved by then counts: another ball that
+/// stands on the ground has been held by it, and all energy is accounted for.
+TEST(MaxCandidates, EndAFrameEarlyIfItHasMoved) {
+  Scene scene = lone_body(gas_ball());
+  scene.gravity = {0, -2000, 0};
+  scene.bodies[0].release = 1000;
+  add_body(scene, {0, 1.15, 0}, {});
+  add_body(scene, {5, 0, 0}, {});
+  scene.contact_surface = ContactSurface::surfaces;
+  scene.ground = Ground{-0.6};
+  World whole(scene, {});
+  whole.step();
+  const std::size_t touching = WorldTestAccess::solver(whole).surface_contact().candidates().search().features().size();
+  ASSERT_GT(touching, 1u);
+  World world(scene, {.max_candidates = {.least = touching / 2, .per_particle = 0}});
+  EnergyWatch watch;
+  watch.look(world, measure_bodies(world));
+  world.step();
+  EXPECT_GT(world.last_step().substeps, 1);
+  EXPECT_LT(world.last_step().seconds, world.frame_time());
+  EXPECT_GT(glm::length(world.body(2).solid_impulse), 0);
+  EXPECT_FALSE(watch.look(world, measure_bodies(world))->from_nowhere());
+  const std::uint64_t before = world.state_hash();
+  EXPECT_THROW(world.step(), std::length_error);
+  EXPECT_EQ(world.state_hash(), before) << "it is there from the start";
 }
 
 TEST(PenaltyContact, GrowsByTheSimulatedSecondsOfAShortFrame) {

@@ -86,13 +86,13 @@ class SolidKernels : public tests::OnEveryTarget {
                      .moves = moves,
                      .impulse = {impulse.x, impulse.y, impulse.z},
                      .returned = returned,
-                     .work = work};
+                     .energy = energy};
     s.h = 0.01f;
     return s;
   }
   void act(const SolidArguments& s) { act_by_solid(lanes, lanes, s, std::as_const(x).field(), v.field()); }
 
-  float moves[lanes], returned[lanes]{}, work[lanes]{};
+  float moves[lanes], returned[lanes]{}, energy[lanes]{};
   LaneVector impulse{};
   LaneField x{1}, v{1};
 };

@@ -224,5 +224,27 @@ TEST(MiddleOf, IsASolidsRectangleSegmentOrPoint) {
   EXPECT_FALSE(middle_of(SolidPlane{}));
 }
 
+/// A ball so soft that it wraps around the edge holds the middle of the box. It came from outside: contact keeps its
+/// particles out, and nothing eases it through the box.
+TEST(SolidOverlap, IsNoneOfASlackBallThatIsThrownAroundAnEdge) {
+  int wrapped = 0;  // frames
+  for (const double aside : {0.0, 0.02, 0.07, 0.15}) {
+    Scene scene = lone_body(gas_ball(0.05), {0, -40, 0});
+    scene.gravity = {0, -g, 0};
+    scene.materials[0][GasPressure::outside] = 0;
+    scene.bodies[0].position = {aside, 2.2, 0};
+    const double c = std::sqrt(0.5);
+    scene.boxes = {{.half_size = glm::dvec3(1), .axes = glm::dmat3(c, c, 0, -c, c, 0, 0, 0, 1)}};
+    World world(scene, {.integrator = {"semi-implicit-euler"}});
+    for (int i = 0; i < 180; ++i) {
+      world.step();
+      ASSERT_LT(measure(world).deepest_penetration, 1e-5) << aside << " m aside, " << frame_of(world);
+      wrapped += lies_in_solid(world, 0);
+    }
+    EXPECT_LT(motion(world, 0).centre.y, -5) << aside << " m aside: it does not come off";
+  }
+  EXPECT_GT(wrapped, 0);
+}
+
 }  // namespace
 }  // namespace softbody::test

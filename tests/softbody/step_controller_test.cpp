@@ -147,8 +147,8 @@ TEST(StepController, SaysHowManyTheBoundsAskFor) {
   EXPECT_EQ(steps.plan().needed, 100);
   substeps(steps, stable(10));
   EXPECT_EQ(steps.plan().needed, 10) << "not those of the kept rate";
-  steps.plan(stable(50), frame / 2);
-  EXPECT_EQ(steps.plan().needed, 10) << "the lowest within the frame";
+  steps.plan({.stable = 10 / frame, .passing = 50 / frame}, frame / 2);
+  EXPECT_EQ(steps.plan().needed, 50) << "by the last bound, of a whole frame";
   steps = with("implicit");
   substeps(steps, {.stable = 100 / frame, .passing = 3 / frame});
   EXPECT_EQ(steps.plan().needed, 3);

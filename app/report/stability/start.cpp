@@ -63,7 +63,7 @@ StabilityStart::Member member_of(const softbody::BodyModel& p, const softbody::B
           .radius = p.radius,
           .mass = p.material[softbody::Material::mass],
           .particle_mass = p.particle_mass,
-          .balance = softbody::starting_energy(p).deformation(),
+          .balance = p.start_energy.total(),
           .kinetic = 0.5 * p.material[softbody::Material::mass] * glm::dot(source.velocity, source.velocity)};
 }
 

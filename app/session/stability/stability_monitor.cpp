@@ -9,14 +9,12 @@ namespace app::session {
 namespace {
 
 /// Returns the energy of springs and gas in the starting shapes of all bodies.
-softbody::Energy energy_at_start(const softbody::World& world) {
-  softbody::Energy sum, one;
-  const softbody::BodyModel* last = nullptr;
+softbody::StoredEnergy energy_at_start(const softbody::World& world) {
+  softbody::StoredEnergy sum;
   for (softbody::BodyId b = 0; b < world.bodies().count(); ++b) {
-    const softbody::BodyModel* p = &world.model(b);
-    if (p != last) one = softbody::starting_energy(*p);
-    last = p;
-    sum += one;
+    const softbody::StoredEnergy& one = world.model(b).start_energy;
+    sum.elastic += one.elastic;
+    sum.gas += one.gas;
   }
   return sum;
 }
@@ -71,7 +69,7 @@ void StabilityMonitor::record(const softbody::World& world, const std::vector<so
   constexpr double max_shown = 1e30;  // a world that has blown up is no longer drawn
   const int frame = world.frame();
   const softbody::Measures all = softbody::total(bodies);
-  const softbody::Energy start = energy_at_start(world);
+  const softbody::StoredEnergy start = energy_at_start(world);
   const auto push = [frame](TimeSeries& series, double value) {
     if (std::abs(value) < max_shown) series.push(frame, static_cast<float>(value));
   };
@@ -79,7 +77,7 @@ void StabilityMonitor::record(const softbody::World& world, const std::vector<so
   push(history_.elastic, all.energies.elastic - start.elastic);
   push(history_.gas, all.energies.gas - start.gas);
   push(history_.gravity, all.energies.gravity);
-  push(history_.total, all.energy - start.deformation());
+  push(history_.total, all.energy - start.total());
   push(history_.min_volume, all.volume_ratio_min);
   push(history_.max_volume, all.volume_ratio_max);
   push(history_.strain, all.largest_strain);

@@ -44,7 +44,7 @@ void add_impulses(const ImplicitWork& work, double h, std::size_t first_lane, co
     const glm::dvec3 impulse = h * push * c.normal;
     sum.add(lane, impulse);
     result.returned[first_lane + lane] += float(c.restitution * glm::length(impulse));
-    result.work[first_lane + lane] += float(push * c.out);
+    result.energy[first_lane + lane] += float(push * c.out);
   }
 }
 

@@ -40,7 +40,7 @@ struct ImplicitResult {
   Field<float> mean, rest;  // m/s, of all batches: velocities that lead to the end, and what they change by there
   Field<float> impulse;     // N s, a value a lane: the normal impulses of solids are added here ...
   float* returned;          // ... here their sizes times the restitution ...
-  float* work;              // ... and here the energy (J) that pushing out gives
+  float* energy;            // ... and here the energy (J) that pushing out gives
 };
 
 /// Takes the steps, and owns the matrices and the workspaces that they need.

@@ -25,7 +25,7 @@ void Motion::solve_implicit(const Worker& worker, const Batch& b, Quantity mean,
                            .rest = field(array(rest)),
                            .impulse = parts_.solids.impulse(b),
                            .returned = parts_.solids.returned(b),
-                           .work = parts_.solids.work(b)},
+                           .energy = parts_.solids.energy(b)},
                           double(h));
   // What solids throw back is in the solve: for the velocities' contact nothing has come at them.
   parts_.solids.clear_velocities(b);
