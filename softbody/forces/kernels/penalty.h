@@ -5,7 +5,7 @@
 #include <span>
 
 #include "collide/core/workers.h"
-#include "softbody/forces/penalty_pairs.h"
+#include "softbody/forces/kernels/penalty_pairs.h"
 
 namespace softbody {
 

@@ -1,4 +1,4 @@
-#include "softbody/forces/penalty_pairs.h"
+#include "softbody/forces/kernels/penalty_pairs.h"
 
 #include <algorithm>
 
