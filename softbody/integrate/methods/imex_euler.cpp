@@ -7,8 +7,11 @@ void imex_euler(Motion& motion, const Worker& worker, const Substep& substep) {
   motion.contact_forces(worker, substep.h);
   for (const Batch* batch : worker.batches()) motion.advance_velocities(*batch, substep.h, Volumes::implicit_);
   motion.contacts_under_pressure(worker, substep.h);
-  for (const Batch* batch : worker.batches()) motion.drift(*batch, substep.h);
-  worker.barrier();  // the next contact forces read the positions of all bodies
+  for (const Batch* batch : worker.batches()) {
+    motion.drift(*batch, substep.h);
+    motion.show(*batch);
+  }
+  worker.barrier();
 }
 
 }  // namespace softbody
