@@ -41,9 +41,9 @@ void ForceSet::add_unprojected(const ForceBatch& b) const {
   add_if(b, []<class F>(Name<F>) { return is_unprojected<F>(); });
 }
 
-void ForceSet::advance(const ForceBatch& b, Volumes how, LaneVolumes& volumes) const {
+void ForceSet::advance(const ForceBatch& b, const Advance& how, LaneVolumes& volumes) const {
   add_if(b, []<class F>(Name<F>) { return !is_of_length<F>() && !is_of_volume<F>() && !Kicks<F>; });
-  force_kernels(b.batch.width).kick(lanes_of(b), arguments_of(b), how, field(b.state.v, b.batch.base), volumes);
+  force_kernels(b.batch.width).advance(lanes_of(b), arguments_of(b), how, field(b.state.v, b.batch.base), volumes);
   kick(b);
 }
 
@@ -71,11 +71,12 @@ void ForceSet::kick(const ForceBatch& b) const {
   });
 }
 
-ForceBound bound_of(const Batch& b, Field<const float> x, VectorArray& area) {
+ForceBound bound_of(const Batch& b, Field<const float> x) {
   const BodyModel& p = *b.model;
   const double springs = stiffness_per_mass(p, {});
   ForceBound bound{springs, springs, damping_bound(p) / p.particle_mass};
   if (p.forces->pressure <= 0) return bound;
+  VectorArray area;
   for (auto& component : area) component.assign(b.values(), 0);
   SurfaceShape shapes[lanes];
   force_kernels(b.width).measure_surfaces({p, b.used, x, field(area)}, shapes);

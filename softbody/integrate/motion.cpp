@@ -27,6 +27,8 @@ void Motion::begin_frame(const Integrator& integrator, const glm::dvec3& gravity
   for (auto& one : scratch_)
     for (auto& c : one) c.resize(parts_.state.x[0].size());
   volumes_.resize(parts_.state.batches().size());
+  for (const Batch& b : parts_.state.batches())
+    if (b.any_moves()) clear(b, forces);
 }
 
 void Motion::begin_substeps(const Integrator& integrator, float h) {
@@ -50,8 +52,16 @@ void Motion::all_forces(const Batch& b) {
 }
 
 void Motion::advance_velocities(const Batch& b, float h, Volumes how) {
-  clear(b, forces);
-  forces_.advance(step_of(b, h), how, volumes_[b.index]);
+  const Field<float> drift = is_acted_on(b) ? Field<float>{} : field(parts_.state.x, b.base);
+  forces_.advance(step_of(b, h), {how, drift}, volumes_[b.index]);
+}
+
+void Motion::advance_positions(const Batch& b, float h) {
+  if (is_acted_on(b)) {
+    drift(b, h);
+    clear(b, forces);
+  }
+  show(b);
 }
 
 /// Contacts stop a part of what the pressure at the end was found for. Each time the pressure is found again, what is

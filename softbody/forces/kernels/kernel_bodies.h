@@ -306,6 +306,16 @@ HWY_INLINE void press(const LaneBodies<float>& b, const KickArguments& k, bool i
     store(v, at, load<V>(v, at) + pushes * load<V>(b.f, at));
 }
 
+/// Moves the positions by the velocities, and makes the forces 0.
+template <class V, int width>
+HWY_INLINE void drift(const LaneBodies<float>& b, const KickArguments& k, Field<const float> v, Field<float> x) {
+  const V step = k.h * load<V>(k.moves);
+  for (std::size_t at = 0; at < b.model.mesh.vertices.size() * width; at += width) {
+    store(x, at, load<V>(x, at) + step * load<V>(v, at));
+    store(b.f, at, Vec<V>{});
+  }
+}
+
 /// XPBD, one pass without accumulated multipliers (Macklin et al. 2016, eq. 18 and 26 times the stiffness): a law as a
 /// constraint of compliance 1 / k with its damper. Particles are at x0 + d. Their displacements d in this step are
 /// small, so that velocities lose no digits in floats.
