@@ -1,13 +1,13 @@
 #include "softbody/forces/force_set.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace softbody {
 namespace {
 
 LaneBodies<float> lanes_of(const ForceBatch& b) {
-  const State& state = b.state;
-  return {*b.batch.model, b.batch.used, field(state.x, b.batch.base), field(b.state.f, b.batch.base)};
+  return {*b.batch.model, b.batch.used, field(std::as_const(b.state).x, b.batch.base), b.f};
 }
 
 KickArguments arguments_of(const ForceBatch& b) {

@@ -21,14 +21,20 @@ void Motion::set_plan(const Plan& plan) {
   forces_.set_plan(taken);
 }
 
-void Motion::begin_frame(const Integrator& integrator, const glm::dvec3& gravity) {
+void Motion::begin_frame(const Integrator& integrator, const glm::dvec3& gravity, const Crew& crew) {
   gravity_ = gravity;
   scratch_.resize(std::size_t(integrator.scratch));
   for (auto& one : scratch_)
     for (auto& c : one) c.resize(parts_.state.x[0].size());
   volumes_.resize(parts_.state.batches().size());
-  for (const Batch& b : parts_.state.batches())
-    if (b.any_moves()) clear(b, forces);
+  std::size_t most = 0;
+  for (const Batch* b : crew.moving()) {
+    clear(*b, forces);
+    most = std::max(most, b->values());
+  }
+  own_forces_.resize(std::size_t(crew.active()));
+  for (auto& one : own_forces_)
+    for (auto& c : one) c.assign(most, 0);
 }
 
 void Motion::begin_substeps(const Integrator& integrator, float h) {
@@ -51,9 +57,14 @@ void Motion::all_forces(const Batch& b) {
   forces_.add(step_of(b, h_));
 }
 
-void Motion::advance_velocities(const Batch& b, float h, Volumes how) {
-  const Field<float> drift = is_acted_on(b) ? Field<float>{} : field(parts_.state.x, b.base);
-  forces_.advance(step_of(b, h), {how, drift}, volumes_[b.index]);
+void Motion::advance_velocities(const Worker& worker, const Batch& b, float h, Volumes how) {
+  ForceBatch step = step_of(b, h);
+  Field<float> drift{};
+  if (!is_acted_on(b)) {
+    step.f = field(own_forces_[std::size_t(worker.index())]);
+    drift = field(parts_.state.x, b.base);
+  }
+  forces_.advance(step, {how, drift}, volumes_[b.index]);
 }
 
 void Motion::advance_positions(const Batch& b, float h) {

@@ -108,7 +108,7 @@ Solver::Frame Solver::begin_frame(double seconds) {
        .sleep_speed = scene_.sleep.speed},
       bound);
   steps_.spend(work::surface * searches);
-  motion_.begin_frame(*steps_.plan().integrator, gravity());
+  motion_.begin_frame(*steps_.plan().integrator, gravity(), crew_);
   for (const auto* bodies : {&penalty_.pairs.body_a, &penalty_.pairs.body_b})
     for (const BodyId body : *bodies) join(body);
   if (hand_.grab()) mark_pushed(hand_.grab()->body);

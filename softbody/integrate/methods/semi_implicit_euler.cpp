@@ -5,7 +5,7 @@ namespace softbody {
 
 void semi_implicit_euler(Motion& motion, const Worker& worker, const Substep& substep) {
   motion.contact_forces(worker, substep.h);
-  for (const Batch* batch : worker.batches()) motion.advance_velocities(*batch, substep.h, Volumes::explicit_);
+  for (const Batch* batch : worker.batches()) motion.advance_velocities(worker, *batch, substep.h, Volumes::explicit_);
   motion.contacts(worker, substep.h);
   for (const Batch* batch : worker.batches()) motion.advance_positions(*batch, substep.h);
   worker.barrier();
