@@ -77,7 +77,7 @@ ForceBound bound_of(const Batch& b, Field<const float> x) {
   ForceBound bound{springs, springs, damping_bound(p) / p.particle_mass};
   if (p.forces->pressure <= 0) return bound;
   VectorArray area;
-  for (auto& component : area) component.assign(b.values(), 0);
+  for (auto& component : area) component.resize(b.values());
   SurfaceShape shapes[lanes];
   force_kernels(b.width).measure_surfaces({p, b.used, x, field(area)}, shapes);
   for (std::size_t l = 0; l < std::size_t(b.used); ++l) {

@@ -69,14 +69,14 @@ struct Kernels {
     const std::vector<Triangle>& faces = all.model.mesh.triangles;
     for (std::size_t first = 0; first < std::size_t(all.used); first += step) {
       const LaneBodies<float> b = all.from(first);
-      float volumes[lanes]{}, area2[lanes]{}, stretch[lanes]{}, two_medians[lanes]{}, one[lanes];
-      std::fill_n(one, lanes, 1.0f);
+      float volumes[lanes]{}, area2[lanes]{}, stretch[lanes]{}, two_medians[lanes]{};
       body::volume<V, width>(faces, b.x, volumes);
       medians<V, width>(faces, b.x, two_medians);
-      push_faces<V, width>(faces, b.x, one, b.f);
       V square{}, sum{};
-      for (std::size_t at = 0; at < b.model.mesh.vertices.size() * width; at += width) {
-        const Vec<V> a = load<V>(b.f, at);
+      for (Index i = 0; i < b.model.mesh.vertices.size(); ++i) {
+        const std::size_t at = i * width;
+        const Vec<V> a = area_of<V, width>(b, i, load<V>(b.x, at));
+        store(b.f, at, a);
         square += dot(a, a);
       }
       store(area2, square);

@@ -17,7 +17,7 @@ struct ForceKernels {
   void (*advance)(const LaneBodies<float>&, const KickArguments&, const Advance&, Field<float> v, LaneVolumes&);
   /// Finds the implicit pressure again, for velocities that contacts have changed since. f: A.
   void (*press_again)(const LaneBodies<float>&, const KickArguments&, Field<float> v, LaneVolumes&);
-  /// Measures the surface of the body in each lane. f: room for dV/dx, and zero.
+  /// Measures the surface of the body in each lane. f: room for dV/dx.
   void (*measure_surfaces)(const LaneBodies<float>&, SurfaceShape*);
   void (*measure_motion)(const MovingBodies&, MotionSums&);
 };
