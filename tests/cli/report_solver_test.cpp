@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/report/solver/results.h"
+#include "app/report/solver/trial.h"
 #include "tests/cli/report_rig.h"
 
 namespace cli::test {
@@ -53,6 +53,12 @@ TEST_F(SolverReport, HasEveryIntegratorAndItsFigures) {
     EXPECT_LT(number(last["error"]), i.automatic ? 5e-2 : 1e-2) << i.key << ", which may stay with the bound's steps";
     EXPECT_GT(number(last["cpu_ms_alone"]), 0);
     EXPECT_EQ(last["linear_error"], "") << "it falls";
+    EXPECT_EQ(last["own_error"] == "", std::ranges::count(app::report::own_step_integrators, i.key) == 0);
+    EXPECT_EQ(last["promise_kept"], "1");
+    EXPECT_GT(number(last["substeps_taken"]), 0);
+    if (!i.automatic) {
+      EXPECT_EQ(number(last["substeps_taken"]), number(last["substeps"]) * i.substeps_per_step);
+    }
     curve->second.pop_back();
     for (Row& before : curve->second)
       EXPECT_TRUE(before["blew_up"] == "1" || number(before["error"]) > known) << i.key << ": nothing more is learnt";
@@ -89,6 +95,21 @@ TEST(SolverReportErrors, ComeBeforeAnythingRuns) {
   }
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
   EXPECT_EQ(run({"report", "solver", "--scene", "nowhere", "--out", folder.path()}).status, 2);
+}
+
+/// The scenes are those of the report, the reference is as coarse as in the quick one.
+TEST(SolverScenes, AutoKeepsItsPromise) {
+  constexpr app::report::SolverRun run;
+  constexpr double bound = 2e-5;         // R
+  constexpr std::uint64_t steps = 8000;  // of the reference, at most
+  for (const app::report::SolverScene& scene : app::report::solver_scenes()) {
+    const app::report::SolverCase c =
+        app::report::begin_case(scene, run, find_solver_reference(scene, run, bound, steps));
+    EXPECT_TRUE(c.keeps_promise()) << scene.key << ": " << c.own("auto").error << " R of " << c.allowed() << " R";
+    for (const std::string_view key : app::report::own_step_integrators)
+      std::printf("%s %s: %g R in %g steps, allowed %g change %g\n", scene.key.c_str(), std::string(key).c_str(),
+                  c.own(key).error, c.own(key).taken, c.allowed(), c.change);
+  }
 }
 
 }  // namespace
