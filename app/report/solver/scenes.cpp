@@ -94,9 +94,9 @@ SolverScene inflated() {
 }
 
 /// It turns once a second across the axis along which it is stretched.
-SolverScene stretched() {
-  return deformed("stretched", "Stretched by 20 %, spinning", [](const dvec3& x) {
-    const dvec3 place = x * dvec3(1.2, 1, 1);
+SolverScene stretched(std::string key, std::string name, double across) {
+  return deformed(std::move(key), std::move(name), [=](const dvec3& x) {
+    const dvec3 place = x * dvec3(1.2, across, across);
     return softbody::Particle{place, glm::cross(dvec3(0, 2 * std::numbers::pi, 0), place)};
   });
 }
@@ -157,7 +157,8 @@ std::vector<SolverScene> solver_scenes() {
           in_balance(1e6, "1e6"),
           cloth(),
           inflated(),
-          stretched(),
+          stretched("stretched", "Stretched by 20 %, spinning", 1 / std::sqrt(1.2)),
+          stretched("swollen", "Stretched by 20 % and swollen, spinning", 1),
           four_balls()};
 }
 

@@ -13,8 +13,8 @@
 namespace app::report {
 namespace {
 
-constexpr std::array quick_scenes{"free-1e3", "contact-1e3", "rest-1e3",  "cloth",
-                                  "inflated", "stretched",   "four-balls"};
+constexpr std::array quick_scenes{"free-1e3", "contact-1e3", "rest-1e3", "cloth",
+                                  "inflated", "stretched",   "swollen",  "four-balls"};
 
 struct Effort {
   double seconds;                 // of processor time: the steps per frame are doubled until a run takes longer
