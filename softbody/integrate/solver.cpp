@@ -169,7 +169,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   if (frame.substeps == 0 && !implicit && plan.substeps >= many_substeps)
     for (const Batch* b : crew_.moving()) frame.momenta.note({*b, field(state_.x, b->base), field(state_.v, b->base)});
   const double h = frame.left / plan.substeps;
-  int now = fixed ? plan.substeps : std::clamp(bounds_.trusted_substeps(h), 1, plan.substeps);
+  int now = fixed ? plan.substeps : std::clamp(StepBounds::trusted_substeps(frame.bound.fastest, h), 1, plan.substeps);
   // Then it is looked whether the candidates still hold: at once where their speed decides the count.
   if (!candidates.empty()) now = std::min(now, fixed || surfaces_decide ? 1 : 4);
   if (surfaces) now = std::min(now, contacts_.predicted_substeps(frame.left, h));
@@ -185,7 +185,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   };
   if (frame.substeps == 0 && now > 1 && !fixed) {
     go_on(1);  // what pulls at bodies that were moved by hand, or let go, shows in their speed only then
-    now = std::min(now, 1 + bounds_.trusted_substeps(h));
+    now = std::min(now, 1 + StepBounds::trusted_substeps(bounds_.fastest(), h));
   }
   // One implicit step can be a large part of the work that there may be.
   while (done < now && (done == 0 || steps_.may_go_on())) go_on(implicit ? 1 : now - done);
