@@ -172,7 +172,8 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   int now = fixed ? plan.substeps : std::clamp(bounds_.trusted_substeps(h), 1, plan.substeps);
   // Then it is looked whether the candidates still hold: at once where their speed decides the count.
   if (!candidates.empty()) now = std::min(now, fixed || surfaces_decide ? 1 : 4);
-  if (surfaces) now = std::min(now, contacts_.predicted_substeps(frame.left, h));
+  // What pulls at bodies, and drives them off the motion that candidates were found for, shows only after a substep.
+  if (surfaces) now = frame.substeps == 0 ? 1 : std::min(now, contacts_.trusted_substeps(frame.left, h));
   int done = 0;
   const auto go_on = [&](int steps) {
     run(steps, static_cast<float>(h), frame.substeps == 0, after_substep);
