@@ -9,9 +9,9 @@
 
 namespace app::report {
 
-/// Returns the integrator with that number of steps per frame, unless it chooses its own.
+/// Returns the integrator with that number of steps per frame. It chooses its own if it is `auto`, or `steps` is 0.
 inline softbody::IntegratorChoice with_steps(const softbody::Integrator& integrator, int steps) {
-  return {std::string(integrator.key), integrator.automatic ? std::nullopt : std::optional(steps)};
+  return {std::string(integrator.key), integrator.automatic || steps == 0 ? std::nullopt : std::optional(steps)};
 }
 
 /// Returns the integrator with one step per frame, with which no scene is refused.

@@ -80,11 +80,15 @@ void Motion::advance_positions(const Batch& b, float h) {
 void Motion::contacts_under_pressure(const Worker& worker, float h) {
   constexpr int times = 3;
   contacts(worker, h);
-  const auto touches = [&](const Batch* b) { return parts_.contacts.may_touch(*b); };
-  if (std::ranges::none_of(worker.batches(), touches) && !parts_.contacts.meets_others(worker)) return;
+  const auto near = [&](const Batch& b) { return !parts_.solids.near(b).empty(); };
+  const auto near_one = [&](const Batch* b) { return near(*b); };
+  const bool surfaces = parts_.contacts.meets_others(worker), touch = surfaces && parts_.contacts.surfaces().rows() > 0;
+  if (!touch && (surfaces ? std::ranges::none_of(parts_.state.batches(), near)  // all threads are to agree
+                          : std::ranges::none_of(worker.batches(), near_one)))
+    return;
   for (int i = 0; i < times; ++i) {
     for (const Batch* b : worker.batches())
-      if (touches(b)) forces_.press_again(step_of(*b, h), volumes_[b->index]);
+      if (touch || near(*b)) forces_.press_again(step_of(*b, h), volumes_[b->index]);
     contacts(worker, h);
   }
 }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/report/solver/results.h"
+#include "app/report/solver/trial.h"
 #include "tests/cli/report_rig.h"
 
 namespace cli::test {
@@ -53,6 +53,12 @@ TEST_F(SolverReport, HasEveryIntegratorAndItsFigures) {
     EXPECT_LT(number(last["error"]), i.automatic ? 5e-2 : 1e-2) << i.key << ", which may stay with the bound's steps";
     EXPECT_GT(number(last["cpu_ms_alone"]), 0);
     EXPECT_EQ(last["linear_error"], "") << "it falls";
+    EXPECT_EQ(last["own_error"] == "", std::ranges::count(app::report::own_step_integrators, i.key) == 0);
+    EXPECT_EQ(last["promise_kept"], "1");
+    EXPECT_GT(number(last["substeps_taken"]), 0);
+    if (!i.automatic) {
+      EXPECT_EQ(number(last["substeps_taken"]), number(last["substeps"]) * i.substeps_per_step);
+    }
     curve->second.pop_back();
     for (Row& before : curve->second)
       EXPECT_TRUE(before["blew_up"] == "1" || number(before["error"]) > known) << i.key << ": nothing more is learnt";
@@ -89,6 +95,20 @@ TEST(SolverReportErrors, ComeBeforeAnythingRuns) {
   }
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
   EXPECT_EQ(run({"report", "solver", "--scene", "nowhere", "--out", folder.path()}).status, 2);
+}
+
+/// The reference is coarser than the report's, but for the errors at hand fine enough.
+TEST(SolverScenes, AutoKeepsItsPromiseUnlessABodyBreathesHard) {
+  constexpr app::report::SolverRun run;
+  constexpr double bound = 1e-3;           // R, a tenth of what is promised
+  constexpr std::uint64_t steps = 60'000;  // of the reference, at most
+  for (const app::report::SolverScene& scene : app::report::solver_scenes()) {
+    const app::report::SolverReference reference = find_solver_reference(scene, run, bound, steps);
+    EXPECT_TRUE(reference.converged) << scene.key;
+    const app::report::SolverCase c = begin_case(scene, run, reference);
+    EXPECT_EQ(c.keeps_promise(), scene.key != "swollen")
+        << scene.key << ": " << c.own("auto").error << " R of " << c.allowed() << " R";
+  }
 }
 
 }  // namespace

@@ -47,6 +47,39 @@ TEST(SolverCaseOrder, NeedsTwoFallsOrOneThatReachesTheUncertainty) {
   EXPECT_NEAR(order({0, 0, 1.6e-4, 1e-5}).value_or(0), 4, 1e-9);
 }
 
+/// Returns a case in which `auto` and semi-implicit Euler have these errors (R) with their own steps.
+report::SolverCase with_own_errors(double of_auto, double of_semi_implicit) {
+  report::SolverCase c{.key = "ball", .name = "Ball", .reference = "", .promised = 0.01};
+  for (const auto& [key, error] : {std::pair("auto", of_auto), std::pair("semi-implicit-euler", of_semi_implicit)}) {
+    const report::WorkPoint own{.error = error};
+    c.curves.push_back({softbody::find_integrator(key), {own}, own});
+  }
+  return c;
+}
+
+TEST(SolverCasePromise, IsTheBoundOrTwiceTheErrorOfSemiImplicitEuler) {
+  EXPECT_TRUE(with_own_errors(0.01, 1e-3).keeps_promise());
+  EXPECT_FALSE(with_own_errors(0.011, 1e-3).keeps_promise());
+  EXPECT_TRUE(with_own_errors(0.04, 0.02).keeps_promise());
+  EXPECT_FALSE(with_own_errors(0.041, 0.02).keeps_promise());
+}
+
+TEST(SolverCasePromise, IsNotKeptByWhatBlowsUp) {
+  report::SolverCase c = with_own_errors(0, 0);
+  c.curves[1].own->blew_up = true;
+  EXPECT_DOUBLE_EQ(c.allowed(), 0.01);
+  c.curves[0].own->blew_up = true;
+  EXPECT_FALSE(c.keeps_promise());
+}
+
+TEST(SolverPage, ShowsWhetherThePromiseIsKept) {
+  report::SolverResults r;
+  r.cases.push_back(with_own_errors(0.004, 1e-3));
+  EXPECT_NE(report::solver_page(r).markdown(false).find("| kept |"), std::string::npos);
+  r.cases.push_back(with_own_errors(0.02, 1e-3));
+  EXPECT_NE(report::solver_page(r).markdown(false).find("| MISSED |"), std::string::npos);
+}
+
 TEST(SolverCaseOrder, IsNothingIfErrorsDoNotFallOrNothingMoves) {
   EXPECT_EQ(order({}), std::nullopt);
   EXPECT_EQ(order({0, 0}), std::nullopt);
@@ -59,7 +92,7 @@ TEST(SolverCaseOrder, IsNothingIfErrorsDoNotFallOrNothingMoves) {
 std::string left_out(const std::vector<int>& ends) {
   report::SolverResults r;
   r.bound = bound, r.max_run_seconds = 0.5, r.max_substeps = 64;
-  report::SolverCase& c = r.cases.emplace_back(report::SolverCase{.key = "ball", .name = "Ball", .reference = ""});
+  report::SolverCase& c = r.cases.emplace_back(with_own_errors(1e-6, 1e-6));
   for (const int n : ends)
     c.curves.push_back({softbody::find_integrator("rk4"), {{.substeps = n, .error = n == 1 ? 1e-6 : 1e-2}}});
   const std::string text = report::solver_page(r).markdown(false);

@@ -22,6 +22,7 @@ Table solver_table(const SolverResults& results) {
             {{"scene", c.key},
              {"integrator", curve.integrator->key},
              {"substeps", when(fixed, p.substeps)},
+             {"substeps_taken", p.taken},
              {"steps_per_second", when(fixed, p.substeps * curve.integrator->substeps_per_step / results.frame_time)},
              {"cpu_ms_alone", p.cpu_alone},
              {"cpu_ms_batch", p.cpu_batch},
@@ -33,6 +34,10 @@ Table solver_table(const SolverResults& results) {
              {"volume_error", when(good, p.volume)},
              {"internal_speed", when(good, p.speed)},
              {"observed_order", c.order(curve, results.bound)},
+             {"own_substeps", when(curve.own.has_value(), curve.own.value_or(WorkPoint{}).taken)},
+             {"own_error", when(curve.own && !curve.own->blew_up, curve.own.value_or(WorkPoint{}).error)},
+             {"promised_error", c.allowed()},
+             {"promise_kept", c.keeps_promise()},
              {"reference_step", c.step},
              {"reference_change", c.change},
              {"reference_converged", c.converged},
@@ -180,6 +185,29 @@ void add_overview(Page& page, const SolverResults& r) {
   page.table(table);
 }
 
+/// Shows whether `auto` keeps its promise, beside the integrators that the promise is about.
+void add_promise(Page& page, const SolverResults& r) {
+  Table table;
+  for (const SolverCase& c : r.cases) {
+    TableRow row{{"scene", c.name}};
+    for (const WorkCurve& curve : c.curves) {
+      if (!curve.own) continue;
+      const WorkPoint& own = *curve.own;
+      row.push_back({fmt::format("{}: R", curve.integrator->name), own.blew_up ? "blew up" : two_digits(own.error)});
+      row.push_back({fmt::format("{}: substeps", curve.integrator->name), fmt::format("{:.3g}", own.taken)});
+    }
+    row.push_back({"promised: R", two_digits(c.allowed())});
+    row.push_back({"promise", c.keeps_promise() ? "kept" : "MISSED"});
+    table.add(row);
+  }
+  page.text("## What `auto` promises");
+  page.text(
+      "Errors, and substeps per frame on average, with the steps that each chooses itself. `auto` promises an error of "
+      "at most 0.01 R, of balls on a floor 1 cm in each centre, or twice that of semi-implicit Euler, whichever is "
+      "larger.");
+  page.table(table);
+}
+
 Table costs(const SolverResults& r, const SolverCase& c) {
   Table table;
   for (const WorkCurve& curve : c.curves) {
@@ -243,6 +271,7 @@ Page solver_page(const SolverResults& results) {
   add_introduction(page, results);
   page.warn(warn_of_busy_machine(results.timed));
   add_overview(page, results);
+  add_promise(page, results);
   for (const SolverCase& c : results.cases) {
     page.text("## {}", c.name);
     page.text(

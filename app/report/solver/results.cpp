@@ -1,12 +1,24 @@
 #include "app/report/solver/results.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace app::report {
 
 bool WorkCurve::reaches(double error) const {
   return std::ranges::any_of(points, [&](const WorkPoint& p) { return !p.blew_up && p.error <= error; });
+}
+
+const WorkPoint& SolverCase::own(std::string_view integrator) const {
+  const auto curve = std::ranges::find(curves, integrator, [](const WorkCurve& c) { return c.integrator->key; });
+  assert(curve != curves.end() && curve->own);
+  return *curve->own;
+}
+
+double SolverCase::allowed() const {
+  const WorkPoint& rival = own("semi-implicit-euler");
+  return rival.blew_up ? promised : std::max(promised, 2 * rival.error);
 }
 
 std::optional<double> SolverCase::order(const WorkCurve& curve, double bound) const {

@@ -2,8 +2,10 @@
 // What `report solver` measures, and its table, page and plots.
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/base/timings.h"
@@ -15,10 +17,11 @@ namespace app::report {
 /// One integrator with one number of steps per frame.
 struct WorkPoint {
   int substeps = 0;                           // 0: it chose them itself
+  double taken = 0;                           // substeps per frame that it took, on average
   double cpu_alone = 0;                       // ms of processor time per simulated second, of a lone body
   std::optional<double> cpu_batch{};          // the same per body, of a full block
   bool blew_up = false;                       // then the rest has no meaning
-  double error = 0;                           // R, RMS of the positions at the end
+  double error = 0;                           // R, at the end, see SolverScene::of_centres
   double energy = 0;                          // of the reference's, in the energy scale
   std::optional<double> linear{}, angular{};  // momentum, of the reference's; only where nothing acts from outside
   std::optional<double> volume{};             // of the reference's; only closed bodies
@@ -32,8 +35,13 @@ inline std::string steps_text(const WorkPoint& p) { return p.substeps > 0 ? std:
 struct WorkCurve {
   const softbody::Integrator* integrator;
   std::vector<WorkPoint> points{};   // by substeps
+  std::optional<WorkPoint> own{};    // with the steps that it chooses itself, untimed; see own_step_integrators
   bool reaches(double error) const;  // R
 };
+
+/// Integrators that are also run with the steps that they choose themselves: `auto`, and those that its promise is
+/// about.
+inline constexpr std::array<std::string_view, 3> own_step_integrators{"auto", "imex-euler", "semi-implicit-euler"};
 
 struct SolverCase {
   std::string key, name;
@@ -43,7 +51,15 @@ struct SolverCase {
   double change = 0;       // R, when its step was halved
   bool converged = false;  // change is within the bound
   double growth = 0;       // of a disturbance
+  double promised = 0;     // R, see SolverScene
+  bool of_centres = false;
   std::vector<WorkCurve> curves{};
+  /// Returns the run of one of own_step_integrators with the steps that it chose itself.
+  const WorkPoint& own(std::string_view integrator) const;
+  /// Returns the error (R) that `auto` promises not to exceed: `promised`, or twice that of semi-implicit Euler with
+  /// its own steps.
+  double allowed() const;
+  bool keeps_promise() const { return !own("auto").blew_up && own("auto").error <= allowed(); }
   /// Returns the uncertainty (R) of the reference if its change is to be within `bound`. Smaller errors say nothing. A
   /// curve ends with the first of them.
   double uncertainty(double bound) const { return std::max(bound, change); }

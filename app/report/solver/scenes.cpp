@@ -1,6 +1,11 @@
 #include "app/report/solver/scenes.h"
 
+#include <cmath>
+#include <numbers>
+#include <utility>
+
 #include <glm/geometric.hpp>
+
 #include "app/report/steps.h"
 #include "softbody/contact/keys.h"
 #include "softbody/forces/gas.h"
@@ -61,6 +66,60 @@ SolverScene cloth() {
   return s;
 }
 
+/// The rubber of the shipped scenes, without what the reference does not model. Nearly all of its stiffness is its gas.
+Material rubber() {
+  Material m;
+  m.name = "rubber";
+  m.set(StructuralSprings::keys, {200, 0.1});
+  m.set(BendSprings::keys, {50, 0.1});
+  m[GasPressure::inside] = 113'000;
+  m[GasPressure::outside] = 101'325;
+  m[softbody::contact::rolling_resistance] = 0;
+  return m;
+}
+
+/// A rubber ball whose particles start where `start` puts them, at rest or in motion.
+SolverScene deformed(std::string key, std::string name, const auto& start) {
+  SolverScene s{.key = std::move(key), .name = std::move(name)};
+  s.scene = lone_scene(rubber());
+  Particles& particles = s.start.emplace_back(particles_of(softbody::World(s.scene, {.integrator = one_step()}), 0));
+  for (softbody::Particle& p : particles) p = start(p.position);
+  return s;
+}
+
+SolverScene inflated() {
+  return deformed("inflated", "Inflated by 10 %", [](const dvec3& x) {
+    return softbody::Particle{1.1 * x, dvec3(0.0)};
+  });
+}
+
+/// It turns once a second across the axis along which it is stretched.
+SolverScene stretched(std::string key, std::string name, double across) {
+  return deformed(std::move(key), std::move(name), [=](const dvec3& x) {
+    const dvec3 place = x * dvec3(1.2, across, across);
+    return softbody::Particle{place, glm::cross(dvec3(0, 2 * std::numbers::pi, 0), place)};
+  });
+}
+
+/// Three balls fall onto the ground, and a fourth onto them.
+SolverScene four_balls() {
+  SolverScene s{.key = "four-balls", .name = "Four balls on a floor", .of_centres = true};
+  s.scene = lone_scene(rubber());
+  const double radius = softbody::World(s.scene, {.integrator = one_step()}).model(0).radius;
+  s.promised = 0.01 / radius;  // a centimetre
+  s.scene.gravity = {0, -9.81, 0};
+  s.scene.ground = softbody::Ground{};
+  const double apart = 2 * radius + 0.1, height = radius + 0.1, up = apart * std::sqrt(2.0 / 3);
+  const double across = apart / std::sqrt(3.0);  // from the middle of three
+  s.scene.bodies.resize(4, s.scene.bodies[0]);
+  for (int i = 0; i < 3; ++i) {
+    const double angle = i * 2 * std::numbers::pi / 3;
+    s.scene.bodies[std::size_t(i)].position = {across * std::cos(angle), height, across * std::sin(angle)};
+  }
+  s.scene.bodies[3].position = {0, height + up, 0};
+  return s;
+}
+
 }  // namespace
 
 Material ball_material(double stiffness, double damping_ratio) {
@@ -91,8 +150,16 @@ Particles particles_of(const softbody::World& world, softbody::BodyId body) {
 }
 
 std::vector<SolverScene> solver_scenes() {
-  return {free_flight(1e3, "1e3"), free_flight(1e6, "1e6"), on_the_ground(),
-          in_balance(1e3, "1e3"),  in_balance(1e6, "1e6"),  cloth()};
+  return {free_flight(1e3, "1e3"),
+          free_flight(1e6, "1e6"),
+          on_the_ground(),
+          in_balance(1e3, "1e3"),
+          in_balance(1e6, "1e6"),
+          cloth(),
+          inflated(),
+          stretched("stretched", "Stretched by 20 %, spinning", 1 / std::sqrt(1.2)),
+          stretched("swollen", "Stretched by 20 % and swollen, spinning", 1),
+          four_balls()};
 }
 
 }  // namespace app::report

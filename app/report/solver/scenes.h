@@ -1,5 +1,6 @@
 #pragma once
-// Scenes for measuring solvers. Only springs, gas, gravity and solids act in them, so that the reference models them.
+// Scenes for measuring solvers. Only springs, gas, gravity and solids act on lone bodies, so that the reference models
+// them.
 
 #include "softbody/world/world.h"
 
@@ -22,11 +23,13 @@ struct SolverScene {
   softbody::Scene scene{};
   std::vector<Particles> start{};  // per body; empty: as the scene has it
   bool at_rest = false;            // all motion is jitter
+  bool of_centres = false;         // the error is the largest of a body's centre; else the RMS of all particles
+  double promised = 0.01;          // R, the error that `auto` promises, see SolverCase::allowed()
   /// Copies side by side do not touch, so a batch of them can be timed.
   bool repeatable = true;
 };
 
-/// Returns the scenes of `report solver`.
+/// Returns the scenes of `report solver`: easy ones, and those in which IMEX Euler is weakest.
 std::vector<SolverScene> solver_scenes();
 
 }  // namespace app::report

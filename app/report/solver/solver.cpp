@@ -13,7 +13,8 @@
 namespace app::report {
 namespace {
 
-constexpr std::array quick_scenes{"free-1e3", "contact-1e3", "rest-1e3", "cloth"};
+constexpr std::array quick_scenes{"free-1e3", "contact-1e3", "rest-1e3", "cloth",
+                                  "inflated", "stretched",   "swollen",  "four-balls"};
 
 struct Effort {
   double seconds;                 // of processor time: the steps per frame are doubled until a run takes longer
@@ -62,11 +63,10 @@ class SolverReport {
     const SolverScene& scene = scenes_[s];
     say(scene.key + ": reference", double(s) / double(scenes_.size()));
     const SolverReference reference = find_solver_reference(scene, run_, results.bound, effort_.reference_steps);
-    SolverCase c{scene.key,      scene.name,       scene.at_rest,       reference.what,
-                 reference.step, reference.change, reference.converged, reference.growth};
-    for (const softbody::Integrator& integrator : softbody::integrators()) {
+    SolverCase c = begin_case(scene, run_, reference);
+    for (WorkCurve& curve : c.curves) {
+      const softbody::Integrator& integrator = *curve.integrator;
       say(scene.key + ": " + std::string(integrator.key), double(s) / double(scenes_.size()));
-      WorkCurve& curve = c.curves.emplace_back(WorkCurve{&integrator});
       double took = 0;
       const int max_steps = integrator.automatic ? 1 : effort_.max_substeps;
       for (int n = 1; n <= max_steps && took < effort_.seconds && !curve.reaches(c.uncertainty(results.bound));
@@ -75,7 +75,7 @@ class SolverReport {
         took = outcome.finite ? outcome.timed.processor : 0;
         WorkPoint point = judge(scene, outcome, reference);
         if (!integrator.automatic) point.substeps = n;
-        if (!point.blew_up) points_.push_back({s, c.curves.size() - 1, curve.points.size(), n});
+        if (!point.blew_up) points_.push_back({s, std::size_t(&curve - c.curves.data()), curve.points.size(), n});
         point.cpu_alone = 1e3 * outcome.timed.processor / run_.seconds() / double(outcome.bodies.size());
         curve.points.push_back(point);
       }
@@ -100,7 +100,7 @@ class SolverReport {
     WorkPoint& point = results.cases[p.scene].curves[p.curve].points[p.point];
     const double bodies = double(scenes_[p.scene].scene.bodies.size());
     point.cpu_alone = p.alone.median() / run_.seconds() / bodies;
-    if (!p.batch.ms.empty()) point.cpu_batch = p.batch.median() / run_.seconds() / softbody::lanes;
+    if (!p.batch.ms.empty()) point.cpu_batch = p.batch.median() / run_.seconds() / softbody::lanes / bodies;
   }
 
   std::vector<SolverScene> scenes_;

@@ -41,26 +41,41 @@ World make_world(const SolverScene& of, const SolverRun& run, const softbody::In
 
 Outcome advance(World& world, int frames) {
   Outcome o;
+  int substeps = 0;
   for (int frame = 0; frame < frames && o.finite; ++frame) {
     const double start = thread_seconds();
     const double wall_ms = time_ms([&] { world.step(); });
     o.timed += {.wall = 1e-3 * wall_ms, .processor = thread_seconds() - start};
     o.finite = softbody::measure(world).finite;
+    substeps += world.last_step().substeps;
   }
+  o.taken = double(substeps) / world.frame();
   for (BodyId b = 0; b < world.bodies().count(); ++b) o.bodies.push_back(reference::state_of(world, b));
   o.energy = softbody::measure(world).energy;
   return o;
 }
 
 /// Returns the RMS error (R) over all bodies.
-double error_of(const std::vector<reference::BodyState>& a, const std::vector<reference::BodyState>& b,
-                const World& world) {
+double rms_error(const std::vector<reference::BodyState>& a, const std::vector<reference::BodyState>& b,
+                 const World& world) {
   double square_sum = 0;
   for (BodyId id = 0; id < b.size(); ++id) {
     const double e = reference::rms_distance(a[id].x, b[id].x) / world.model(id).radius;
     square_sum += e * e / double(b.size());
   }
   return std::sqrt(square_sum);
+}
+
+/// Returns the error (R) by which the scene is judged.
+double error_of(const std::vector<reference::BodyState>& a, const std::vector<reference::BodyState>& b,
+                const World& world, bool of_centres) {
+  if (!of_centres) return rms_error(a, b, world);
+  double largest = 0;
+  for (BodyId id = 0; id < b.size(); ++id) {
+    const double e = glm::distance(reference::rigid_motion(a[id]).centre, reference::rigid_motion(b[id]).centre);
+    largest = std::max(largest, e / world.model(id).radius);
+  }
+  return largest;
 }
 
 /// Returns the outcome of the world's own rk4 in floats, for scenes that ReferenceBody does not model.
@@ -78,7 +93,7 @@ SolverReference world_reference(const SolverScene& scene, const SolverRun& run, 
   while (!t.converged && std::uint64_t(2 * substeps) * std::uint64_t(run.frames) <= steps) {
     substeps *= 2;
     Outcome finer = outcome(scene, substeps);
-    t.change = error_of(best.bodies, finer.bodies, world);
+    t.change = error_of(best.bodies, finer.bodies, world, scene.of_centres);
     t.converged = t.change <= bound;
     best = std::move(finer);
   }
@@ -89,7 +104,7 @@ SolverReference world_reference(const SolverScene& scene, const SolverRun& run, 
     for (std::size_t i = 0; i < shifted.start[b].size(); i += 2) shifted.start[b][i].position.x += shift;
   }
   t.growth =
-      error_of(outcome(shifted, substeps).bodies, best.bodies, world) * world.model(0).radius / (shift / std::sqrt(2));
+      rms_error(outcome(shifted, substeps).bodies, best.bodies, world) * world.model(0).radius / (shift / std::sqrt(2));
   t.bodies = std::move(best.bodies);
   t.energy = best.energy;
   t.step = run.frame_time / substeps;
@@ -146,10 +161,11 @@ SolverReference find_solver_reference(const SolverScene& scene, const SolverRun&
 
 WorkPoint judge(const SolverScene& scene, const Outcome& o, const SolverReference& reference) {
   WorkPoint p;
+  p.taken = o.taken;
   const World world(scene.scene, {.integrator = one_step()});
   p.blew_up = !o.finite;
   if (p.blew_up) return p;
-  p.error = error_of(o.bodies, reference.bodies, world);
+  p.error = error_of(o.bodies, reference.bodies, world, scene.of_centres);
   p.blew_up = p.error > 10;  // R
   p.energy = std::abs(o.energy - reference.energy) / reference.energy_scale;
   double square_sum = 0, volume = 0;
@@ -171,6 +187,25 @@ WorkPoint judge(const SolverScene& scene, const Outcome& o, const SolverReferenc
   if (alone && glm::length(expected.velocity) > 1e-6) p.linear = relative(actual.velocity, expected.velocity);
   if (alone && glm::length(expected.momentum) > 1e-6) p.angular = relative(actual.momentum, expected.momentum);
   return p;
+}
+
+SolverCase begin_case(const SolverScene& scene, const SolverRun& run, const SolverReference& reference) {
+  SolverCase c{.key = scene.key,
+               .name = scene.name,
+               .at_rest = scene.at_rest,
+               .reference = reference.what,
+               .step = reference.step,
+               .change = reference.change,
+               .converged = reference.converged,
+               .growth = reference.growth,
+               .promised = scene.promised,
+               .of_centres = scene.of_centres};
+  for (const softbody::Integrator& integrator : softbody::integrators()) {
+    WorkCurve& curve = c.curves.emplace_back(WorkCurve{&integrator});
+    if (std::ranges::find(own_step_integrators, integrator.key) != own_step_integrators.end())
+      curve.own = judge(scene, run_solver(scene, run, integrator, 0, 1), reference);
+  }
+  return c;
 }
 
 }  // namespace app::report

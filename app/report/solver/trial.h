@@ -19,10 +19,11 @@ struct Outcome {
   bool finite = true;
   std::vector<reference::BodyState> bodies{};
   double energy = 0;  // J
+  double taken = 0;   // substeps per frame, on average
 };
 
-/// Runs `copies` of the scene side by side, with `substeps` a frame unless the integrator chooses its steps. Ends with
-/// the first frame that is not finite.
+/// Runs `copies` of the scene side by side, with `substeps` a frame, or with those that the integrator chooses itself
+/// if it is `auto` or `substeps` is 0. Ends with the first frame that is not finite.
 Outcome run_solver(const SolverScene& scene, const SolverRun& run, const softbody::Integrator& integrator, int substeps,
                    int copies);
 
@@ -45,5 +46,8 @@ double energy_scale(const softbody::World& world, softbody::BodyId body);
 
 /// Returns the point without its substeps and times.
 WorkPoint judge(const SolverScene& scene, const Outcome& outcome, const SolverReference& reference);
+
+/// Returns the case with a curve for each integrator, that has no points yet: only the runs of own_step_integrators.
+SolverCase begin_case(const SolverScene& scene, const SolverRun& run, const SolverReference& reference);
 
 }  // namespace app::report
