@@ -77,6 +77,7 @@ void Solver::add_solids(std::span<const Extent> extents, double seconds) {
 
 Solver::Frame Solver::begin_frame(double seconds) {
   contacts_.begin_frame();
+  const bool press = contacts_.surfaces().presses();  // in the last frame; a search forgets it
   const double searches = contacts_.has_surfaces() ? contacts_.wake_hit_sleepers(seconds) : 0;
   solids_.begin_frame();
   pushed_.assign(state_.batches().size(), 0);
@@ -102,7 +103,7 @@ Solver::Frame Solver::begin_frame(double seconds) {
        .penalty_pairs = penalty_.pairs.size(),
        .near_solids = near_solids,
        .surface_contact = contacts_.has_surfaces(),
-       .surfaces_touch = contacts_.surfaces().rows() > 0 || (solids_.has_features() && near_solids),
+       .surfaces_touch = press || (solids_.has_features() && near_solids),
        .too_large = std::ranges::any_of(moving, [](const Batch* b) { return b->particles() > max_implicit_particles; }),
        .rounding = StepBounds::rounding(moving, extents),
        .sleep_speed = scene_.sleep.speed},
