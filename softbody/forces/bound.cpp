@@ -154,9 +154,9 @@ SurfaceShape measure_surface(const BodyModel& p, const std::vector<glm::dvec3>& 
   for (const auto& [i, j, k] : p.mesh.triangles) {
     const glm::dvec3 a = vertices[i], b = vertices[j], c = vertices[k], third = glm::cross(b - a, c - a) / 6.0;
     for (const Index corner : {i, j, k}) area[corner] += third;
-    const double from_a = glm::distance(a, (b + c) / 2.0), from_b = glm::distance(b, (c + a) / 2.0),
-                 from_c = glm::distance(c, (a + b) / 2.0);
-    s.two_medians = std::max({s.two_medians, from_a + from_b, from_b + from_c, from_c + from_a});
+    const auto square = [](const glm::dvec3& v) { return glm::dot(v, v); };
+    const double of_a = square(a - (b + c) / 2.0), of_b = square(b - (c + a) / 2.0), of_c = square(c - (a + b) / 2.0);
+    s.two_medians = std::max(s.two_medians, std::sqrt(2 * std::max({of_a + of_b, of_b + of_c, of_c + of_a})));
   }
   for (const glm::dvec3& a : area) s.area2 += glm::dot(a, a);
   visit_forces<Coordinate::length>(p, {}, SumStretch{area, s.stretch});

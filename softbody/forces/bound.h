@@ -24,7 +24,7 @@ struct SurfaceShape {
   double volume = 0;       // m^3
   double area2 = 0;        // m^4: the sum over the particles of |A|^2
   double stretch = 0;      // N m^3: the sum over the pairs of the stiffness times |A_i - A_j|^2
-  double two_medians = 0;  // m: the largest sum of two medians of one face
+  double two_medians = 0;  // m: of one face, the largest root of twice the sum of the squares of two medians
 };
 SurfaceShape measure_surface(const BodyModel& model, const std::vector<glm::dvec3>& vertices);
 

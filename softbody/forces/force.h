@@ -20,6 +20,7 @@ struct ForceBatch {
   const Batch& batch;
   double h;            // s
   glm::dvec3 gravity;  // m/s^2
+  Field<float> f;      // N, on the batch's particles
 };
 
 }  // namespace softbody

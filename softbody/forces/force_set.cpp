@@ -1,13 +1,13 @@
 #include "softbody/forces/force_set.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace softbody {
 namespace {
 
 LaneBodies<float> lanes_of(const ForceBatch& b) {
-  const State& state = b.state;
-  return {*b.batch.model, b.batch.used, field(state.x, b.batch.base), field(b.state.f, b.batch.base)};
+  return {*b.batch.model, b.batch.used, field(std::as_const(b.state).x, b.batch.base), b.f};
 }
 
 KickArguments arguments_of(const ForceBatch& b) {
@@ -41,9 +41,9 @@ void ForceSet::add_unprojected(const ForceBatch& b) const {
   add_if(b, []<class F>(Name<F>) { return is_unprojected<F>(); });
 }
 
-void ForceSet::advance(const ForceBatch& b, Volumes how, LaneVolumes& volumes) const {
+void ForceSet::advance(const ForceBatch& b, const Advance& how, LaneVolumes& volumes) const {
   add_if(b, []<class F>(Name<F>) { return !is_of_length<F>() && !is_of_volume<F>() && !Kicks<F>; });
-  force_kernels(b.batch.width).kick(lanes_of(b), arguments_of(b), how, field(b.state.v, b.batch.base), volumes);
+  force_kernels(b.batch.width).advance(lanes_of(b), arguments_of(b), how, field(b.state.v, b.batch.base), volumes);
   kick(b);
 }
 
@@ -71,12 +71,13 @@ void ForceSet::kick(const ForceBatch& b) const {
   });
 }
 
-ForceBound bound_of(const Batch& b, Field<const float> x, VectorArray& area) {
+ForceBound bound_of(const Batch& b, Field<const float> x) {
   const BodyModel& p = *b.model;
   const double springs = stiffness_per_mass(p, {});
   ForceBound bound{springs, springs, damping_bound(p) / p.particle_mass};
   if (p.forces->pressure <= 0) return bound;
-  for (auto& component : area) component.assign(b.values(), 0);
+  VectorArray area;
+  for (auto& component : area) component.resize(b.values());
   SurfaceShape shapes[lanes];
   force_kernels(b.width).measure_surfaces({p, b.used, x, field(area)}, shapes);
   for (std::size_t l = 0; l < std::size_t(b.used); ++l) {

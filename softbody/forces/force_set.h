@@ -23,8 +23,9 @@ class ForceSet {
   void add(const ForceBatch& batch) const;
   /// The same without those that project() or kick() stands for.
   void add_unprojected(const ForceBatch& batch) const;
-  /// Changes velocities by all forces in a substep, v += h (f / m + g). Forces must be 0. After it, they are scratch.
-  void advance(const ForceBatch& batch, Volumes how, LaneVolumes& volumes) const;
+  /// Changes velocities by all forces in a substep, v += h (f / m + g). Forces must be 0. After it, they are scratch,
+  /// or 0 if the positions have moved, too.
+  void advance(const ForceBatch& batch, const Advance& how, LaneVolumes& volumes) const;
   /// Changes velocities that contacts have changed since advance(), so that they fit the pressure at the end again.
   void press_again(const ForceBatch& batch, LaneVolumes& volumes) const;
   /// XPBD, on the displacements d in a step that started at x0, when the positions are x0 + d. It uses the forces as
@@ -41,8 +42,8 @@ class ForceSet {
   ForceMask taken_;
 };
 
-/// Returns the bound of the forces inside those bodies of a batch that move. Its particles are at x. area: scratch.
-ForceBound bound_of(const Batch& batch, Field<const float> x, VectorArray& area);
+/// Returns the bound of the forces inside those bodies of a batch that move. Its particles are at x.
+ForceBound bound_of(const Batch& batch, Field<const float> x);
 
 /// True if some force of a model acts on its bodies from outside.
 bool has_external_force(const BodyModel& model);

@@ -9,15 +9,17 @@
 namespace softbody {
 namespace {
 
-HeldBody held_body(State& s, BodyId id) {
-  return {s.model(id), s.body(id).origin, s.field_of(id, s.x), s.field_of(id, s.v), s.field_of(id, s.f)};
+/// f: where its forces are read or added.
+HeldBody held_body(State& s, BodyId id, const BodyField& f = {}) {
+  return {s.model(id), s.body(id).origin, s.field_of(id, s.x), s.field_of(id, s.v), f};
 }
 
 }  // namespace
 
 void Hand::add(const ForceBatch& b) const {
-  if (grab_ && b.state.body(grab_->body).batch == b.batch.index)
-    add_force(held_body(b.state, grab_->body), b.h, b.gravity);
+  if (!grab_ || b.state.body(grab_->body).batch != b.batch.index) return;
+  const BodyField f{b.f, std::size_t(b.state.body(grab_->body).lane), std::size_t(b.batch.width)};
+  add_force(held_body(b.state, grab_->body, f), b.h, b.gravity);
 }
 
 void Hand::kick(const ForceBatch& b) const {

@@ -213,7 +213,7 @@ void PenaltyContact::add(const ForceBatch& b) const {
   const auto [begin, end] = particles_of(b.batch);
   if (begin == end) return;
   penalty_kernels().add(std::span(slot_).subspan(begin, end - begin), first_end_.data() + begin, ends_.data(),
-                        force.data(), field(b.state.f));
+                        force.data(), b.batch.base, b.f);
 }
 
 double PenaltyContact::energy() const { return std::accumulate(stored_.begin(), stored_.end(), 0.0); }

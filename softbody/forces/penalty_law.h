@@ -92,8 +92,8 @@ struct PenaltyLaw {
   HWY_INLINE V slope_bound(V s, V d2, V u) const { return stiffness * damping(u) * (weight(s, d2) + V(Real(0.5))); }
 
   // Upper bounds wherever the pair is; k may be what all contacts of a particle share.
-  /// In N/m. The push falls fastest at s = h/3, by 4/3 k; the friction spring adds k.
-  static HWY_INLINE V stiffness_bound(V k) { return V(Real(4) / 3 * approach_limit + 1) * k; }
+  /// In N/m, along any direction. The push falls fastest at s = h/3, by 4/3 k. The friction spring acts across n, by k.
+  static HWY_INLINE V stiffness_bound(V k) { return V(Real(4) / 3 * approach_limit) * k; }
   /// Returns how large the force can be (N) with sliding friction: Coulomb's limit moves with the push.
   HWY_INLINE V max_force() const {
     return body::square_root(V(1) + friction * friction) * V(approach_limit) * stiffness * thickness;

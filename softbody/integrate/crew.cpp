@@ -1,6 +1,7 @@
 #include "softbody/integrate/crew.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace softbody {
 
@@ -37,6 +38,13 @@ std::span<const Batch* const> Crew::joined(int thread) const {
     return std::size_t(std::ranges::upper_bound(cost_, most) - cost_.begin());
   };
   return std::span(joined_).subspan(first(thread), first(thread + 1) - first(thread));
+}
+
+void Crew::for_each(std::size_t count, const std::function<void(std::size_t)>& use) const {
+  std::atomic<std::size_t> next = 0;
+  run([&](const Worker&) {
+    for (std::size_t i; (i = next++) < count;) use(i);
+  });
 }
 
 void Crew::run(const std::function<void(const Worker&)>& task) const {

@@ -21,12 +21,20 @@ void Motion::set_plan(const Plan& plan) {
   forces_.set_plan(taken);
 }
 
-void Motion::begin_frame(const Integrator& integrator, const glm::dvec3& gravity) {
+void Motion::begin_frame(const Integrator& integrator, const glm::dvec3& gravity, const Crew& crew) {
   gravity_ = gravity;
   scratch_.resize(std::size_t(integrator.scratch));
   for (auto& one : scratch_)
     for (auto& c : one) c.resize(parts_.state.x[0].size());
   volumes_.resize(parts_.state.batches().size());
+  std::size_t most = 0;
+  for (const Batch* b : crew.moving()) {
+    clear(*b, forces);
+    most = std::max(most, b->values());
+  }
+  own_forces_.resize(std::size_t(crew.active()));
+  for (auto& one : own_forces_)
+    for (auto& c : one) c.assign(most, 0);
 }
 
 void Motion::begin_substeps(const Integrator& integrator, float h) {
@@ -49,9 +57,22 @@ void Motion::all_forces(const Batch& b) {
   forces_.add(step_of(b, h_));
 }
 
-void Motion::advance_velocities(const Batch& b, float h, Volumes how) {
-  clear(b, forces);
-  forces_.advance(step_of(b, h), how, volumes_[b.index]);
+void Motion::advance_velocities(const Worker& worker, const Batch& b, float h, Volumes how) {
+  ForceBatch step = step_of(b, h);
+  Field<float> drift{};
+  if (!is_acted_on(b)) {
+    step.f = field(own_forces_[std::size_t(worker.index())]);
+    drift = field(parts_.state.x, b.base);
+  }
+  forces_.advance(step, {how, drift}, volumes_[b.index]);
+}
+
+void Motion::advance_positions(const Batch& b, float h) {
+  if (is_acted_on(b)) {
+    drift(b, h);
+    clear(b, forces);
+  }
+  show(b);
 }
 
 /// Contacts stop a part of what the pressure at the end was found for. Each time the pressure is found again, what is
@@ -59,11 +80,15 @@ void Motion::advance_velocities(const Batch& b, float h, Volumes how) {
 void Motion::contacts_under_pressure(const Worker& worker, float h) {
   constexpr int times = 3;
   contacts(worker, h);
-  const auto touches = [&](const Batch* b) { return parts_.contacts.may_touch(*b); };
-  if (std::ranges::none_of(worker.batches(), touches) && !parts_.contacts.meets_others(worker)) return;
+  const auto near = [&](const Batch& b) { return !parts_.solids.near(b).empty(); };
+  const auto near_one = [&](const Batch* b) { return near(*b); };
+  const bool surfaces = parts_.contacts.meets_others(worker), touch = surfaces && parts_.contacts.surfaces().rows() > 0;
+  if (!touch && (surfaces ? std::ranges::none_of(parts_.state.batches(), near)  // all threads are to agree
+                          : std::ranges::none_of(worker.batches(), near_one)))
+    return;
   for (int i = 0; i < times; ++i) {
     for (const Batch* b : worker.batches())
-      if (touches(b)) forces_.press_again(step_of(*b, h), volumes_[b->index]);
+      if (touch || near(*b)) forces_.press_again(step_of(*b, h), volumes_[b->index]);
     contacts(worker, h);
   }
 }

@@ -38,7 +38,7 @@ class Motion {
 
   void set_plan(const Plan& plan);
   /// gravity in m/s^2.
-  void begin_frame(const Integrator& integrator, const glm::dvec3& gravity);
+  void begin_frame(const Integrator& integrator, const glm::dvec3& gravity, const Crew& crew);
   /// h: of the coming substeps of this integrator, s.
   void begin_substeps(const Integrator& integrator, float h);
 
@@ -48,8 +48,10 @@ class Motion {
   /// slips. The batches are those of the start of a frame, or of the last show().
   void contact_forces(const Worker& worker, float h);
   void all_forces(const Batch& batch);  // at the current positions and velocities
-  /// Does what all_forces() and kick() do together, faster. The forces are scratch after it.
-  void advance_velocities(const Batch& batch, float h, Volumes how);
+  /// Does what all_forces() and kick() do together, faster, and drift() where nothing else acts on the batch.
+  void advance_velocities(const Worker& worker, const Batch& batch, float h, Volumes how);
+  /// Ends what it has begun: drift() of the others, and show().
+  void advance_positions(const Batch& batch, float h);
   void other_forces(const Batch& batch);    // all but those that project() and pull() stand for
   void kick(const Batch& batch, float h);   // v += h (f / m + g)
   void accelerations(const Batch& batch);   // f = f / m + g
@@ -78,12 +80,16 @@ class Motion {
   Field<const float> x(const Batch& b) const { return field(std::as_const(parts_.state.x), b.base); }
   Field<float> v(const Batch& b) { return field(parts_.state.v, b.base); }
   Field<float> f(const Batch& b) { return field(parts_.state.f, b.base); }
-  ForceBatch step_of(const Batch& batch, float h) { return {parts_.state, batch, double(h), gravity_}; }
+  ForceBatch step_of(const Batch& batch, float h) { return {parts_.state, batch, double(h), gravity_, f(batch)}; }
+
+  /// True if contacts or the hand may act on the batch after its forces.
+  bool is_acted_on(const Batch& b) const { return parts_.contacts.may_touch(b) || parts_.hand.grab(); }
 
   MotionParts parts_;
   ForceSet forces_;
   std::vector<VectorArray> scratch_;
-  std::vector<LaneVolumes> volumes_;  // of each batch
+  std::vector<LaneVolumes> volumes_;     // of each batch
+  std::vector<VectorArray> own_forces_;  // of each thread, room for those on a batch: they stay in the cache; 0
   glm::dvec3 gravity_{0.0};
   float h_ = 0;
 };

@@ -13,14 +13,6 @@
 namespace softbody {
 namespace {
 
-/// Calls visit(i) for each i below `count`; the threads share them.
-void for_each_index(const Crew& crew, std::size_t count, const auto& visit) {
-  crew.run([&](const Worker& worker) {
-    const collide::Part part = worker.part(count);
-    for (std::size_t i = part.begin; i < part.end; ++i) visit(i);
-  });
-}
-
 constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a momentum in a second, see MomentumRestorer
 
 }  // namespace
@@ -36,7 +28,7 @@ Solver::Solver(const Scene& scene, const Crew& crew)
       contacts_(scene, state_, solids_, crew_),
       implicit_(std::make_unique<ImplicitSteps>()),
       motion_({state_, hand_, penalty_, solids_, contacts_, *implicit_}),
-      bounds_(state_, penalty_, solids_) {}
+      bounds_(state_, penalty_, solids_, crew_) {}
 
 Solver::~Solver() = default;
 
@@ -74,11 +66,8 @@ void Solver::join(BodyId body) {
   joined_[state_.body(body).batch] = true;
 }
 
-/// Finds which solids are near which bodies that move.
-void Solver::add_solids(double seconds) {
-  std::vector<Extent> extents(crew_.moving().size());
-  for_each_index(crew_, extents.size(),
-                 [&](std::size_t i) { extents[i] = state_.extent(*crew_.moving()[i], state_.x, state_.v); });
+/// Finds which solids are near which bodies.
+void Solver::add_solids(std::span<const Extent> extents, double seconds) {
   for (std::size_t i = 0; i < extents.size(); ++i)
     for_each_solid(scene_, [&](const auto& solid) {
       solids_.add(*crew_.moving()[i], extents[i], solid, scene_.gravity, seconds,
@@ -101,23 +90,25 @@ Solver::Frame Solver::begin_frame(double seconds) {
   }
   crew_.take(std::move(batches), particles);
   const std::vector<const Batch*>& moving = crew_.moving();
-  if (has_solids(scene_)) add_solids(seconds);
+  std::vector<Extent> extents(moving.size());
+  crew_.for_each(moving.size(), [&](std::size_t i) { extents[i] = state_.extent(*moving[i], state_.x, state_.v); });
+  add_solids(extents, seconds);
   const StepBound bound = bounds_.measure(steps_.bounds_of());
+  const bool near_solids = std::ranges::any_of(moving, [&](const Batch* b) { return !solids_.near(*b).empty(); });
   steps_.begin_frame(
       {.seconds = seconds,
        .particles = state_.particle_count(),
        .moving = particles,
        .penalty_pairs = penalty_.pairs.size(),
-       .near_solids = std::ranges::any_of(moving, [&](const Batch* b) { return !solids_.near(*b).empty(); }),
+       .near_solids = near_solids,
        .surface_contact = contacts_.has_surfaces(),
-       .surfaces_near = (contacts_.has_surfaces() || solids_.has_features()) &&
-                        std::ranges::any_of(moving, [&](const Batch* b) { return contacts_.may_touch(*b); }),
+       .surfaces_touch = contacts_.surfaces().rows() > 0 || (solids_.has_features() && near_solids),
        .too_large = std::ranges::any_of(moving, [](const Batch* b) { return b->particles() > max_implicit_particles; }),
-       .rounding = steps_.automatic() ? bounds_.rounding() : 0,
+       .rounding = StepBounds::rounding(moving, extents),
        .sleep_speed = scene_.sleep.speed},
       bound);
   steps_.spend(work::surface * searches);
-  motion_.begin_frame(*steps_.plan().integrator, gravity());
+  motion_.begin_frame(*steps_.plan().integrator, gravity(), crew_);
   for (const auto* bodies : {&penalty_.pairs.body_a, &penalty_.pairs.body_b})
     for (const BodyId body : *bodies) join(body);
   if (hand_.grab()) mark_pushed(hand_.grab()->body);
@@ -270,7 +261,7 @@ void Solver::run(int count, float h, bool first, const std::function<void()>& af
 
 void Solver::finish_frame(double seconds, Field<float> places) {
   const std::span<const Batch> batches = state_.batches();
-  for_each_index(crew_, batches.size(), [&](std::size_t i) {
+  crew_.for_each(batches.size(), [&](std::size_t i) {
     if (batches[i].any_moves()) finish(batches[i], seconds);
     state_.write_positions(batches[i], vertices_->first, places);  // while they are in the cache
   });
@@ -294,8 +285,7 @@ void Solver::finish(const Batch& b, double seconds) {
 
 void Solver::write_positions(Field<float> to) const {
   const std::span<const Batch> batches = state_.batches();
-  for_each_index(crew_, batches.size(),
-                 [&](std::size_t i) { state_.write_positions(batches[i], vertices_->first, to); });
+  crew_.for_each(batches.size(), [&](std::size_t i) { state_.write_positions(batches[i], vertices_->first, to); });
 }
 
 SolverState Solver::save() const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "softbody/contact/keys.h"
 #include "softbody/forces/penalty_law.h"
@@ -27,49 +28,52 @@ double max_coordinate(const Extent& e, std::size_t l) {
 
 }  // namespace
 
-StepBound StepBounds::measure(const Integrator& integrator) {
-  StepBound bound;
-  for (const Batch& b : state_.batches()) {
-    if (!b.any_moves()) continue;
-    const BodyModel& p = *b.model;
-    const ForceBound force = bound_of(b, field(state_.x, b.base), area_);
-    const double contact = penalty_.pairs.empty()
-                               ? 0
-                               : PenaltyLaw<double>::stiffness_bound(p.material[contact::stiffness]) / p.particle_mass;
-    const auto rate = [&](double stiffness) { return 1 / integrator.stable_step(stiffness + contact, force.damping); };
-    unsigned near = 0;  // bits: lanes
-    for (const SolidArguments& solid : solids_.near(b)) near |= solid.near;
-    const Extent motion = state_.extent(b, state_.v, state_.v);
-    const double pace = 0.1 * p.radius;
-    bound.stable = std::max(bound.stable, rate(force.implicit_volume));
-    bound.breathing = std::max(bound.breathing, rate(force.stiffness));
-    bound.deformation =
-        std::max(bound.deformation, max_of_moving(b, [&](std::size_t l) { return motion.diagonal(l); }) / pace);
-    bound.passing = std::max(
-        bound.passing, max_of_moving(b, [&](std::size_t l) { return near >> l & 1u ? motion.length(l) : 0; }) / pace);
-  }
-  return bound;
+StepBound StepBounds::measure(const Integrator& integrator) const {
+  const std::vector<const Batch*>& moving = crew_.moving();
+  std::vector<StepBound> bounds(moving.size());
+  crew_.for_each(moving.size(), [&](std::size_t i) { bounds[i] = measure(*moving[i], integrator); });
+  StepBound most;
+  for (const StepBound& b : bounds)
+    for (const auto rate : {&StepBound::stable, &StepBound::breathing, &StepBound::deformation, &StepBound::passing})
+      most.*rate = std::max(most.*rate, b.*rate);
+  return most;
+}
+
+StepBound StepBounds::measure(const Batch& b, const Integrator& integrator) const {
+  const BodyModel& p = *b.model;
+  const ForceBound force = bound_of(b, field(state_.x, b.base));
+  const double contact = penalty_.pairs.empty()
+                             ? 0
+                             : PenaltyLaw<double>::stiffness_bound(p.material[contact::stiffness]) / p.particle_mass;
+  const auto rate = [&](double stiffness) { return 1 / integrator.stable_step(stiffness + contact, force.damping); };
+  unsigned near = 0;  // bits: lanes
+  for (const SolidArguments& solid : solids_.near(b)) near |= solid.near;
+  const Extent motion = state_.extent(b, state_.v, state_.v);
+  const double pace = 0.1 * p.radius;
+  return {rate(force.implicit_volume), rate(force.stiffness),
+          max_of_moving(b, [&](std::size_t l) { return motion.diagonal(l); }) / pace,
+          max_of_moving(b, [&](std::size_t l) { return near >> l & 1u ? motion.length(l) : 0; }) / pace};
 }
 
 int StepBounds::trusted_substeps(double h) const {
-  double trusted = 16;
-  for (const Batch& b : state_.batches()) {
-    if (!b.any_moves()) continue;
-    const Extent motion = state_.extent(b, state_.x, state_.v);
+  const std::vector<const Batch*>& moving = crew_.moving();
+  std::vector<double> trusted(moving.size());
+  crew_.for_each(moving.size(), [&](std::size_t i) {
+    const Batch& b = *moving[i];
+    const Extent motion = state_.extent(b, state_.v, state_.v);
     const double speed = max_of_moving(b, [&](std::size_t l) { return motion.length(l); });
-    trusted = std::min(trusted, 0.2 * b.model->radius / (speed * h));
-  }
-  return static_cast<int>(trusted);
+    trusted[i] = 0.2 * b.model->radius / (speed * h);
+  });
+  return static_cast<int>(
+      std::accumulate(trusted.begin(), trusted.end(), 16.0, [](double a, double b) { return std::min(a, b); }));
 }
 
-double StepBounds::rounding() const {
+double StepBounds::rounding(std::span<const Batch* const> batches, std::span<const Extent> extents) {
   constexpr double rounding = 1.0 / (1 << 24);
   double farthest = 0;
-  for (const Batch& b : state_.batches()) {
-    if (!b.any_moves()) continue;
-    const Extent extent = state_.extent(b, state_.x, state_.v);
-    farthest = std::max(farthest, max_of_moving(b, [&](std::size_t l) { return max_coordinate(extent, l); }));
-  }
+  for (std::size_t i = 0; i < batches.size(); ++i)
+    farthest =
+        std::max(farthest, max_of_moving(*batches[i], [&](std::size_t l) { return max_coordinate(extents[i], l); }));
   return rounding * farthest;
 }
 

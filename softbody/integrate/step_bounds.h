@@ -5,6 +5,7 @@
 
 #include "softbody/contact/solid_contact.h"
 #include "softbody/forces/force_set.h"
+#include "softbody/integrate/crew.h"
 #include "softbody/integrate/step_controller.h"
 
 namespace softbody {
@@ -12,23 +13,25 @@ namespace softbody {
 class StepBounds {
  public:
   /// All of these must outlive this.
-  StepBounds(const State& state, const PenaltyContact& penalty, const SolidContact& solids)
-      : state_(state), penalty_(penalty), solids_(solids) {}
+  StepBounds(const State& state, const PenaltyContact& penalty, const SolidContact& solids, const Crew& crew)
+      : state_(state), penalty_(penalty), solids_(solids), crew_(crew) {}
 
   /// Returns the bounds of steps of this integrator. No step is to change the shape of a body by more than a tenth of
   /// its radius, nor to move it by more where solids are near.
-  StepBound measure(const Integrator& integrator);
+  StepBound measure(const Integrator& integrator) const;
   /// Returns for how many substeps of h seconds the bounds hold: until the fastest body has moved a fifth of its
   /// radius, since a body that is being crushed gets stiffer. It may be 0; then they hold for less than one.
   int trusted_substeps(double h) const;
-  /// Returns what is lost where positions are rounded to floats, in m.
-  double rounding() const;
+  /// Returns what is lost where positions are rounded to floats, in m. extents: of the batches' positions.
+  static double rounding(std::span<const Batch* const> batches, std::span<const Extent> extents);
 
  private:
+  StepBound measure(const Batch& batch, const Integrator& integrator) const;
+
   const State& state_;
   const PenaltyContact& penalty_;
   const SolidContact& solids_;
-  VectorArray area_;  // m^2, scratch
+  const Crew& crew_;
 };
 
 }  // namespace softbody

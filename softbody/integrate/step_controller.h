@@ -32,10 +32,10 @@ struct FrameConditions {
   std::size_t particles = 0, moving = 0;  // of all bodies, and of those that move
   std::size_t penalty_pairs = 0;
   bool near_solids = false, surface_contact = false;
-  bool surfaces_near = false;  // that may touch each other, or solids
-  bool too_large = false;      // a body has too many particles for implicit steps
-  double rounding = 0;         // m, of positions
-  double sleep_speed = 0;      // m/s, below which bodies fall asleep
+  bool surfaces_touch = false;  // each other, or perhaps a solid's edges
+  bool too_large = false;       // a body has too many particles for implicit steps
+  double rounding = 0;          // m, of positions
+  double sleep_speed = 0;       // m/s, below which bodies fall asleep
 };
 
 struct StepPlan {

@@ -10,6 +10,10 @@
 #include <type_traits>
 #include <vector>
 
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
 #include <glm/vec3.hpp>
 
 namespace softbody {
@@ -30,17 +34,27 @@ decltype(auto) with_width(int width, const F& f) {
 /// Number of bodies that implicit steps solve side by side, in double: all or a part of a block.
 inline constexpr int implicit_lanes = 8;
 
-/// Allocates memory that starts on a cache line.
+/// Allocates memory that starts on a cache line; much of it, on a huge page, and asks the system for such pages: passes
+/// over all particles would miss the table of others at each one.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;
-  static constexpr std::align_val_t line{64};
   CacheLineAllocator() = default;
   template <class U>
   explicit CacheLineAllocator(const CacheLineAllocator<U>&) {}
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
-  void deallocate(T* p, std::size_t) { ::operator delete(p, line); }
+  T* allocate(std::size_t n) {
+    void* p = ::operator new(n * sizeof(T), alignment(n));
+#ifdef __linux__
+    if (alignment(n) == huge_page) madvise(p, n * sizeof(T), MADV_HUGEPAGE);
+#endif
+    return static_cast<T*>(p);
+  }
+  void deallocate(T* p, std::size_t n) { ::operator delete(p, alignment(n)); }
   bool operator==(const CacheLineAllocator&) const = default;
+
+ private:
+  static constexpr std::align_val_t line{64}, huge_page{std::size_t{1} << 21};
+  static std::align_val_t alignment(std::size_t n) { return n * sizeof(T) < std::size_t(huge_page) ? line : huge_page; }
 };
 template <class Real>
 using LaneArray = std::vector<Real, CacheLineAllocator<Real>>;

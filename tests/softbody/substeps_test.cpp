@@ -15,7 +15,12 @@ StepBound bound_of(const World& world) {
   State state = WorldTestAccess::solver(world).save().bodies;
   const PenaltyContact penalty;
   const SolidContact solids(state);
-  return StepBounds(state, penalty, solids).measure(world.integrator_choice().integrator());
+  collide::Workers workers(1);
+  Crew crew(workers, 0);
+  std::vector<const Batch*> moving;
+  for (const Batch& b : state.batches()) moving.push_back(&b);
+  crew.take(std::move(moving), state.particle_count());
+  return StepBounds(state, penalty, solids, crew).measure(world.integrator_choice().integrator());
 }
 
 TEST(StepBounds, AreOfTheBodyThatNeedsMost) {

@@ -213,7 +213,7 @@ TEST(SurfaceContact, TakesSubstepsForItsFastestPair) {
   Scene scene = ball_in_space(rubber(), {0, -30, 0});
   add_body(scene, {0.03, -1.3, 0.02}, glm::dvec3(0.0));
   const auto rate = [&] {
-    World world(scene, {});
+    World world(scene, {.integrator = {"semi-implicit-euler"}});
     world.step();
     return WorldTestAccess::solver(world).surface_contact().candidates().substep_rate();
   };

@@ -222,6 +222,15 @@ inline double pressure_at_end(const VolumeStep& s, double start_volume, const au
   }
 }
 
+/// Returns A = dV/dx of particle i, which is at x: a sixth of the sum of cross products over its faces.
+template <class V, int width>
+HWY_INLINE Vec<V> area_of(const LaneBodies<float>& b, Index i, const Vec<V>& x) {
+  Vec<V> six{};
+  for (const auto& [j, l] : b.model.edges_opposite(i))
+    six = six + cross(load<V>(b.x, j * width) - x, load<V>(b.x, l * width) - x);
+  return V(1.0f / 6) * six;
+}
+
 /// The change of velocity in a substep, v += h (f / m + g), but for the gas, in one pass over the particles. The forces
 /// between two of them act where the pass comes to the first one, which is complete then: nothing after it needs its
 /// velocity of old or its force. So the velocity gets its new value, and the place of the force takes A = dV/dx.
@@ -250,10 +259,7 @@ HWY_INLINE void kick(const LaneBodies<float>& b, const KickArguments& k, Field<f
       const Vec<V> u = before + scale * force + g;
       store(v, at, u);
       if (!presses) continue;
-      Vec<V> six_areas{};
-      for (const auto& [j, l] : b.model.edges_opposite(i))
-        six_areas = six_areas + cross(load<V>(b.x, j * width) - x, load<V>(b.x, l * width) - x);
-      const Vec<V> area = V(1.0f / 6) * six_areas;
+      const Vec<V> area = area_of<V, width>(b, i, x);
       store(b.f, at, area);
       part += dot(area, x - from);
       rate += dot(area, u);
@@ -304,6 +310,16 @@ HWY_INLINE void press(const LaneBodies<float>& b, const KickArguments& k, bool i
   const V pushes = load<V>(push);
   for (std::size_t at = 0; at < b.model.mesh.vertices.size() * width; at += width)
     store(v, at, load<V>(v, at) + pushes * load<V>(b.f, at));
+}
+
+/// Moves the positions by the velocities, and makes the forces 0.
+template <class V, int width>
+HWY_INLINE void drift(const LaneBodies<float>& b, const KickArguments& k, Field<const float> v, Field<float> x) {
+  const V step = k.h * load<V>(k.moves);
+  for (std::size_t at = 0; at < b.model.mesh.vertices.size() * width; at += width) {
+    store(x, at, load<V>(x, at) + step * load<V>(v, at));
+    store(b.f, at, Vec<V>{});
+  }
 }
 
 /// XPBD, one pass without accumulated multipliers (Macklin et al. 2016, eq. 18 and 26 times the stiffness): a law as a
@@ -363,19 +379,18 @@ struct Project {
   }
 };
 
-/// SurfaceShape::two_medians of each lane: the largest sum of two medians of one face.
+/// SurfaceShape::two_medians of each lane: that of two medians is at most the root of twice the sum of their squares.
 template <class V, int width>
 HWY_INLINE void medians(std::span<const Triangle> faces, Field<const float> x, float* result) {
-  V largest{};
+  V largest{};  // of four times these sums
   for (const auto& [a, b, c] : faces) {
     const Vec<V> pa = load<V>(x, a * width), ab = load<V>(x, b * width) - pa, ac = load<V>(x, c * width) - pa;
     const Vec<V> bc = ac - ab, twice_a = ab + ac, twice_b = bc - ab,
                  twice_c = bc + ac;  // each of length twice a median
-    const V from_a = square_root(dot(twice_a, twice_a)), from_b = square_root(dot(twice_b, twice_b)),
-            from_c = square_root(dot(twice_c, twice_c));
-    largest = larger(larger(from_a + from_b, larger(from_b + from_c, from_c + from_a)), largest);
+    const V of_a = dot(twice_a, twice_a), of_b = dot(twice_b, twice_b), of_c = dot(twice_c, twice_c);
+    largest = larger(of_a + of_b, larger(of_b + of_c, larger(of_c + of_a, largest)));
   }
-  store(result, largest / 2.0f);
+  store(result, square_root(largest / 2.0f));
 }
 
 /// SurfaceShape::stretch: adds the stiffness of pairs times the squared difference of the vectors at their ends.

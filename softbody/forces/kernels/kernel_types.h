@@ -68,6 +68,12 @@ struct MotionSums {
   double strain[lanes];                   // the largest, of a spring
 };
 
+/// How a substep of all forces is done.
+struct Advance {
+  Volumes volumes;
+  Field<float> drift{};  // positions that are to move at its end, if nothing else acts before
+};
+
 /// The volumes V of the bodies of a batch in a substep. A = dV/dx.
 struct LaneVolumes {
   float volume[lanes];    // m^3, at its start

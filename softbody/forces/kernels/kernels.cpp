@@ -50,32 +50,33 @@ struct Kernels {
       at(all.from(l), own, v + l, l);
     }
   }
-  static void kick(const LaneBodies<float>& all, const KickArguments& k, Volumes how, Field<float> v,
-                   LaneVolumes& volumes) {
+  static void advance(const LaneBodies<float>& all, const KickArguments& k, const Advance& how, Field<float> v,
+                      LaneVolumes& volumes) {
     const bool presses = all.model.forces->pressure > 0;
     for_each_run(all, k, v, [&](const auto& b, const auto& own, Field<float> u, std::size_t lane) HWY_ATTR {
-      body::kick<V, width>(b, own, u, volumes, lane);
-      if (presses) body::press<V, width>(b, own, how == Volumes::implicit_, u, volumes, lane);
+      kick<V, width>(b, own, u, volumes, lane);
+      if (presses) press<V, width>(b, own, how.volumes == Volumes::implicit_, u, volumes, lane);
+      if (how.drift.x) drift<V, width>(b, own, u, how.drift + lane);
     });
   }
   static void press_again(const LaneBodies<float>& all, const KickArguments& k, Field<float> v, LaneVolumes& volumes) {
     for_each_run(all, k, v, [&](const auto& b, const auto& own, Field<float> u, std::size_t lane) HWY_ATTR {
       volume_rate<V, width>(b, u, volumes.rate + lane);
-      body::press<V, width>(b, own, true, u, volumes, lane);
+      press<V, width>(b, own, true, u, volumes, lane);
     });
   }
   static void measure_surfaces(const LaneBodies<float>& all, SurfaceShape* result) {
     const std::vector<Triangle>& faces = all.model.mesh.triangles;
     for (std::size_t first = 0; first < std::size_t(all.used); first += step) {
       const LaneBodies<float> b = all.from(first);
-      float volumes[lanes]{}, area2[lanes]{}, stretch[lanes]{}, two_medians[lanes]{}, one[lanes];
-      std::fill_n(one, lanes, 1.0f);
+      float volumes[lanes]{}, area2[lanes]{}, stretch[lanes]{}, two_medians[lanes]{};
       body::volume<V, width>(faces, b.x, volumes);
       medians<V, width>(faces, b.x, two_medians);
-      push_faces<V, width>(faces, b.x, one, b.f);
       V square{}, sum{};
-      for (std::size_t at = 0; at < b.model.mesh.vertices.size() * width; at += width) {
-        const Vec<V> a = load<V>(b.f, at);
+      for (Index i = 0; i < b.model.mesh.vertices.size(); ++i) {
+        const std::size_t at = i * width;
+        const Vec<V> a = area_of<V, width>(b, i, load<V>(b.x, at));
+        store(b.f, at, a);
         square += dot(a, a);
       }
       store(area2, square);
@@ -132,7 +133,7 @@ struct Kernels {
       if constexpr (HasElements<F>) kernels.add[index_of<F>] = &Kernels::template add<F>;
       if constexpr (is_projected<F>()) kernels.project[index_of<F>] = &Kernels::template project<F>;
     });
-    kernels.kick = &Kernels::kick;
+    kernels.advance = &Kernels::advance;
     kernels.press_again = &Kernels::press_again;
     kernels.measure_surfaces = &Kernels::measure_surfaces;
     kernels.measure_motion = &Kernels::measure_motion;

@@ -13,11 +13,11 @@ struct ForceKernels {
   std::array<void (*)(const LaneBodies<float>&, const Moving&), force_count> add;
   std::array<void (*)(const LaneBodies<float>&, const Projection&), force_count> project;
   /// Changes the velocities v by a substep of all forces, see body::kick() and body::press(). f: what forces without
-  /// elements do, and those of offsets and paths; after it, A.
-  void (*kick)(const LaneBodies<float>&, const KickArguments&, Volumes, Field<float> v, LaneVolumes&);
+  /// elements do, and those of offsets and paths; after it, A, or 0 if the positions have moved, too.
+  void (*advance)(const LaneBodies<float>&, const KickArguments&, const Advance&, Field<float> v, LaneVolumes&);
   /// Finds the implicit pressure again, for velocities that contacts have changed since. f: A.
   void (*press_again)(const LaneBodies<float>&, const KickArguments&, Field<float> v, LaneVolumes&);
-  /// Measures the surface of the body in each lane. f: room for dV/dx, and zero.
+  /// Measures the surface of the body in each lane. f: room for dV/dx.
   void (*measure_surfaces)(const LaneBodies<float>&, SurfaceShape*);
   void (*measure_motion)(const MovingBodies&, MotionSums&);
 };

@@ -125,7 +125,7 @@ void set_normals(const Batch& batch, Field<const float> x, std::span<const std::
 }
 
 void add(std::span<const std::uint32_t> slots, const std::uint32_t* first_end, const PenaltyEnd* ends,
-         const glm::vec4* force, Field<float> f) {
+         const glm::vec4* force, std::size_t base, Field<float> f) {
   using One = Wide<float, 4>;
   constexpr std::uint32_t ahead = 32;  // ends, of pairs that stand anywhere
   const std::uint32_t last = first_end[slots.size()];
@@ -137,7 +137,7 @@ void add(std::span<const std::uint32_t> slots, const std::uint32_t* first_end, c
     }
     float more[4];
     store(more, sum);
-    softbody::add(f, slots[i], {more[0], more[1], more[2]});
+    softbody::add(f, slots[i] - base, {more[0], more[1], more[2]});
   }
 }
 

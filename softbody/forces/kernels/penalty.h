@@ -33,9 +33,9 @@ struct PenaltyKernels {
   /// Writes the surface's unit normals at particles of a batch, whose slots are given and ascend. x: of the batch.
   void (*set_normals)(const Batch&, Field<const float> x, std::span<const std::uint32_t> slots,
                       PenaltyParticle* traits);
-  /// Adds the forces of the ends of each particle, which begin at first_end.
+  /// Adds the forces of the ends of each particle, which begin at first_end. f: on particles from the slot `base` on.
   void (*add)(std::span<const std::uint32_t> slots, const std::uint32_t* first_end, const PenaltyEnd*,
-              const glm::vec4* force, Field<float> f);
+              const glm::vec4* force, std::size_t base, Field<float> f);
 };
 
 const PenaltyKernels& penalty_kernels();

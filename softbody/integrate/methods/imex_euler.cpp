@@ -5,12 +5,9 @@ namespace softbody {
 
 void imex_euler(Motion& motion, const Worker& worker, const Substep& substep) {
   motion.contact_forces(worker, substep.h);
-  for (const Batch* batch : worker.batches()) motion.advance_velocities(*batch, substep.h, Volumes::implicit_);
+  for (const Batch* batch : worker.batches()) motion.advance_velocities(worker, *batch, substep.h, Volumes::implicit_);
   motion.contacts_under_pressure(worker, substep.h);
-  for (const Batch* batch : worker.batches()) {
-    motion.drift(*batch, substep.h);
-    motion.show(*batch);
-  }
+  for (const Batch* batch : worker.batches()) motion.advance_positions(*batch, substep.h);
   worker.barrier();
 }
 

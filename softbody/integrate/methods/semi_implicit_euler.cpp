@@ -5,12 +5,9 @@ namespace softbody {
 
 void semi_implicit_euler(Motion& motion, const Worker& worker, const Substep& substep) {
   motion.contact_forces(worker, substep.h);
-  for (const Batch* batch : worker.batches()) motion.advance_velocities(*batch, substep.h, Volumes::explicit_);
+  for (const Batch* batch : worker.batches()) motion.advance_velocities(worker, *batch, substep.h, Volumes::explicit_);
   motion.contacts(worker, substep.h);
-  for (const Batch* batch : worker.batches()) {
-    motion.drift(*batch, substep.h);
-    motion.show(*batch);
-  }
+  for (const Batch* batch : worker.batches()) motion.advance_positions(*batch, substep.h);
   worker.barrier();
 }
 
