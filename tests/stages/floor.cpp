@@ -70,12 +70,17 @@ double stream_ns(std::size_t bytes) {
   return 1e6 * ms / double(passes) / double(3 * sizeof(float) * count);
 }
 
-double root_and_quotient_ns() {
-  constexpr std::size_t rounds = 200'000;
-  float sink[16];
-  std::size_t in_round = 1;
-  const double ms = median_ms([&] { in_round = HWY_DYNAMIC_DISPATCH(RootsAndQuotients)(rounds, sink); });
-  return 1e6 * ms / double(rounds) / double(in_round);
+double root_and_quotient_ns(collide::Workers& workers) {
+  constexpr std::size_t rounds = 1'000'000;
+  std::size_t in_round = 0;
+  const double ms = app::time_ms([&] {
+    workers.run([&](int thread) {
+      float sink[16];
+      const std::size_t n = HWY_DYNAMIC_DISPATCH(RootsAndQuotients)(rounds, sink);
+      if (thread == 0) in_round = n;
+    });
+  });
+  return 1e6 * ms / double(rounds * in_round) / workers.threads();
 }
 
 }  // namespace stages

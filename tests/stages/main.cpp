@@ -48,9 +48,9 @@ constexpr std::array<StageKind, count> kinds{{
     {"frame begins", Per::particle, 2 * vector},
     {"of which step bounds", Per::particle, 2 * vector},
     {"pairs", Per::pair_substep, of_pair},
-    {"kick and press", Per::particle_substep, 3 * vector, true},
+    {"kick, press; drift of the free", Per::particle_substep, 3 * vector, true},
     {"contacts of solids", Per::particle_substep},
-    {"drift", Per::particle_substep, 3 * vector},
+    {"drift of the others", Per::particle_substep, 3 * vector},
     {"waiting for threads", Per::particle_substep},
     {"frame ends", Per::particle, 4 * vector},
     {"detection", Per::particle, vector},
@@ -97,17 +97,14 @@ void take_substep(const SolverTestAccess& s, const softbody::Worker& worker, flo
     watch.add(wait);
   }
   for (const softbody::Batch* b : worker.batches())
-    s.motion.advance_velocities(*b, h, implicit ? softbody::Volumes::implicit_ : softbody::Volumes::explicit_);
+    s.motion.advance_velocities(worker, *b, h, implicit ? softbody::Volumes::implicit_ : softbody::Volumes::explicit_);
   watch.add(kick);
   if (implicit)
     s.motion.contacts_under_pressure(worker, h);
   else
     s.motion.contacts(worker, h);
   watch.add(contacts);
-  for (const softbody::Batch* b : worker.batches()) {
-    s.motion.drift(*b, h);
-    s.motion.show(*b);
-  }
+  for (const softbody::Batch* b : worker.batches()) s.motion.advance_positions(*b, h);
   watch.add(drift);
   worker.barrier();
   watch.add(wait);
@@ -185,10 +182,10 @@ struct Moment {
   std::array<std::array<app::Timings, count>, 2> timings{};
 };
 
-void print(const Moment& moment, int threads) {
+void print(const Moment& moment, int threads, double root_and_quotient) {
   const FrameFacts& f = moment.facts;
   const double stream = stages::stream_ns(f.alone ? f.batch_bytes : 2 * vector * f.particles);
-  const double roots = f.springs * stages::root_and_quotient_ns();
+  const double roots = f.springs * root_and_quotient;
   app::Table table;
   for (std::size_t i = 0; i < count; ++i) {
     const StageKind& kind = kinds[i];
@@ -213,18 +210,25 @@ void print(const Moment& moment, int threads) {
 void run(int repetitions, int threads) {
   const softbody::Scene scene = softbody::find_scene("drop-3000", SBCOLLIDE_SCENES);
   World one(scene, {.threads = 1}), all(scene, {.threads = threads});
+  collide::Workers lone(1), crew(threads);
+  app::Timings dividing_alone, dividing;  // ns
   std::array<Moment, 2> moments{{{.name = "Free fall", .frame = 10}, {.name = "Heap", .frame = 60}}};
   for (Moment& moment : moments) {
     while (all.frame() < moment.frame) all.step();
     moment.start = all.snapshot();
   }
-  for (int r = 0; r < repetitions; ++r)
+  for (int r = 0; r < repetitions; ++r) {
+    dividing_alone.ms.push_back(stages::root_and_quotient_ns(lone));
+    dividing.ms.push_back(stages::root_and_quotient_ns(crew));
     for (Moment& moment : moments)
       for (const bool shared : {false, true}) {
         const Times times = measure(shared ? all : one, moment.start, moment.facts);
         for (std::size_t i = 0; i < count; ++i) moment.timings[shared][i].ms.push_back(times[i]);
       }
-  for (const Moment& moment : moments) print(moment, threads);
+  }
+  for (const Moment& moment : moments) print(moment, threads, dividing_alone.median());
+  fmt::print("Gain of {} threads that only compute, in registers: {}\n", threads,
+             app::brief(dividing_alone.median() / dividing.median()));
 }
 
 }  // namespace
