@@ -220,6 +220,14 @@ void Solver::prepare_implicit(float h) {
   for (const Batch* b : crew_.moving()) implicit_->prepare(b->model, double(h), crew_.active());
 }
 
+/// in_step: all batches take each substep together, as if contacts joined them all.
+void Solver::share_batches(bool in_step) {
+  crew_.share([&](const Batch& b) {
+    if (!in_step && !joined_[b.index]) return std::size_t{0};
+    return b.values() + std::size_t(work::penalty_pair / 2 * double(penalty_.ends_of(b).size()));
+  });
+}
+
 void Solver::run(int count, float h, bool first, const std::function<void()>& after_substep) {
   last_substep_ = h;
   set_staggering(double(h), first);
@@ -236,10 +244,7 @@ void Solver::run(int count, float h, bool first, const std::function<void()>& af
     integrator.advance(motion_, worker, {h, first && s == 0});
     if (holds) hand_.book_work(state_, double(h));
   };
-  crew_.share([&](const Batch& b) {
-    if (!after_substep && !joined_[b.index]) return std::size_t{0};
-    return b.values() + std::size_t(work::penalty_pair / 2 * double(penalty_.ends_of(b).size()));
-  });
+  share_batches(bool(after_substep));
   std::atomic<std::size_t> next = 0;
   crew_.run([&](const Worker& worker) {
     for (int s = 0; s < count; ++s) {
