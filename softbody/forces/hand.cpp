@@ -17,13 +17,13 @@ HeldBody held_body(State& s, BodyId id, const BodyField& f = {}) {
 }  // namespace
 
 void Hand::add(const ForceBatch& b) const {
-  if (!grab_ || b.state.body(grab_->body).batch != b.batch.index) return;
+  if (!holds(b.state, b.batch)) return;
   const BodyField f{b.f, std::size_t(b.state.body(grab_->body).lane), std::size_t(b.batch.width)};
   add_force(held_body(b.state, grab_->body, f), b.h, b.gravity);
 }
 
 void Hand::kick(const ForceBatch& b) const {
-  if (grab_ && b.state.body(grab_->body).batch == b.batch.index) add_impulse(held_body(b.state, grab_->body), b.h);
+  if (holds(b.state, b.batch)) add_impulse(held_body(b.state, grab_->body), b.h);
 }
 
 void Hand::take(const std::optional<Grab>& grab) {

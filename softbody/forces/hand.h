@@ -37,6 +37,9 @@ class Hand {
   const std::optional<Grab>& grab() const { return grab_; }
   /// Returns whether the hand pulls this body.
   bool holds(BodyId body) const { return grab_ && grab_->body == body; }
+  bool holds(const State& state, const Batch& batch) const {  // one of its bodies
+    return grab_ && state.body(grab_->body).batch == batch.index;
+  }
   /// Follows the ids when a body is taken out of the world, and those after it move up by one.
   void remove(BodyId body);
 

@@ -16,7 +16,7 @@ namespace softbody {
 std::optional<Springs::Data> Springs::join(const BodyModel& p, const std::vector<Edge>& pairs, double stiffness,
                                            double damping_ratio) {
   if (stiffness <= 0 || pairs.empty()) return {};
-  assert(std::ranges::is_sorted(pairs));
+  assert(std::ranges::is_sorted(pairs) && std::ranges::all_of(pairs, [](const Edge& e) { return e[0] < e[1]; }));
   Data data;
   std::vector<int> meeting(p.mesh.vertices.size(), 0);
   for (const auto& [i, j] : pairs) ++meeting[i], ++meeting[j];

@@ -42,8 +42,8 @@ class ContactPass {
     return has_surfaces_ && !surfaces_.candidates().empty() && !worker.is_alone();
   }
   /// True if apply() may change velocities of the batch.
-  bool may_touch(const Batch& batch) const {
-    return (has_surfaces_ && !surfaces_.candidates().empty()) || !solids_.near(batch).empty();
+  bool may_touch(const Worker& worker, const Batch& batch) const {
+    return meets_others(worker) || !solids_.near(batch).empty();
   }
   /// Changes the velocities so that in a step of h from here surfaces do not pass through each other, nor particles
   /// into solids. The velocities of all batches must be there. Needs a barrier after it.

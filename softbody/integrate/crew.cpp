@@ -22,20 +22,22 @@ void Crew::take(std::vector<const Batch*> moving, std::size_t particles) {
 }
 
 void Crew::share(const std::function<std::size_t(const Batch&)>& cost) {
-  joined_.clear(), alone_.clear(), cost_.clear();
+  joined_.clear(), alone_.clear(), middle_.clear();
   std::size_t sum = 0;
   for (const Batch* b : moving_) {
     const std::size_t own = cost(*b);
     (own > 0 ? joined_ : alone_).push_back(b);
-    if (own > 0) cost_.push_back(sum += own);
+    if (own > 0) middle_.push_back(sum + own / 2);
+    sum += own;
   }
+  total_cost_ = sum;
 }
 
 std::span<const Batch* const> Crew::joined(int thread) const {
   assert(thread >= 0 && thread < active_);
   const auto first = [&](int t) {  // of the batches whose middle lies in the thread's part of all costs
-    const std::size_t most = cost_.empty() ? 0 : cost_.back() * std::size_t(t) / std::size_t(active_);
-    return std::size_t(std::ranges::upper_bound(cost_, most) - cost_.begin());
+    const std::size_t before = total_cost_ * std::size_t(t) / std::size_t(active_);
+    return std::size_t(std::ranges::lower_bound(middle_, before) - middle_.begin());
   };
   return std::span(joined_).subspan(first(thread), first(thread + 1) - first(thread));
 }

@@ -73,7 +73,8 @@ class Crew {
   collide::Workers& workers_;
   std::size_t min_shared_;
   std::vector<const Batch*> moving_, joined_, alone_;
-  std::vector<std::size_t> cost_;  // of the joined batches up to each one
+  std::vector<std::size_t> middle_;  // of each joined batch's part of the costs of all, one after another
+  std::size_t total_cost_ = 0;
   int active_ = 1;
 };
 

@@ -57,7 +57,7 @@ void Motion::all_forces(const Batch& b) {
 void Motion::advance_velocities(const Worker& worker, const Batch& b, float h, Volumes how) {
   ForceBatch step = step_of(b, h);
   Field<float> drift{};
-  if (is_acted_on(b)) {
+  if (is_acted_on(worker, b)) {
     clear(b, forces);
   } else {
     step.f = field(own_forces_[std::size_t(worker.index())]);
@@ -66,8 +66,8 @@ void Motion::advance_velocities(const Worker& worker, const Batch& b, float h, V
   forces_.advance(step, {how, drift}, volumes_[b.index]);
 }
 
-void Motion::advance_positions(const Batch& b, float h) {
-  if (is_acted_on(b)) drift(b, h);
+void Motion::advance_positions(const Worker& worker, const Batch& b, float h) {
+  if (is_acted_on(worker, b)) drift(b, h);
   show(b);
 }
 

@@ -50,8 +50,8 @@ class Motion {
   void all_forces(const Batch& batch);  // at the current positions and velocities
   /// Does what all_forces() and kick() do together, faster, and drift() where nothing else acts on the batch.
   void advance_velocities(const Worker& worker, const Batch& batch, float h, Volumes how);
-  /// Ends what it has begun: drift() of the others, and show().
-  void advance_positions(const Batch& batch, float h);
+  /// Ends a substep that advance_velocities() has begun: drift() where it has not done so, and show().
+  void advance_positions(const Worker& worker, const Batch& batch, float h);
   void other_forces(const Batch& batch);    // all but those that project() and pull() stand for
   void kick(const Batch& batch, float h);   // v += h (f / m + g)
   void accelerations(const Batch& batch);   // f = f / m + g
@@ -83,7 +83,9 @@ class Motion {
   ForceBatch step_of(const Batch& batch, float h) { return {parts_.state, batch, double(h), gravity_, f(batch)}; }
 
   /// True if contacts or the hand may act on the batch after its forces.
-  bool is_acted_on(const Batch& b) const { return parts_.contacts.may_touch(b) || parts_.hand.grab(); }
+  bool is_acted_on(const Worker& worker, const Batch& b) const {
+    return parts_.contacts.may_touch(worker, b) || parts_.hand.holds(parts_.state, b);
+  }
 
   MotionParts parts_;
   ForceSet forces_;

@@ -94,6 +94,8 @@ Solver::Frame Solver::begin_frame(double seconds) {
   std::vector<Extent> extents(moving.size());
   crew_.for_each(moving.size(), [&](std::size_t i) { extents[i] = state_.extent(*moving[i], state_.x, state_.v); });
   add_solids(extents, seconds);
+  if (std::ranges::any_of(moving, [&](const Batch* b) { return solids_.pushed(*b) != 0; }))  // eased out
+    penalty_.gather(field(std::as_const(state_.x)), field(std::as_const(state_.v)));
   const StepBound bound = bounds_.measure(steps_.bounds_of());
   const bool near_solids = std::ranges::any_of(moving, [&](const Batch* b) { return !solids_.near(*b).empty(); });
   steps_.begin_frame(
@@ -234,9 +236,7 @@ void Solver::run(int count, float h, bool first, const std::function<void()>& af
   const Integrator& integrator = *steps_.plan().integrator;
   motion_.begin_substeps(integrator, h);
   if (integrator.implicit) prepare_implicit(h);
-  const auto holds_body = [&](const Batch* b) {
-    return hand_.grab() && state_.body(hand_.grab()->body).batch == b->index;
-  };
+  const auto holds_body = [&](const Batch* b) { return hand_.holds(state_, *b); };
   const auto advance = [&](const Worker& worker, int s) {
     for (const Batch* b : worker.batches()) solids_.note_velocities(*b);
     const bool holds = std::ranges::any_of(worker.batches(), holds_body);

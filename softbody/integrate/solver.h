@@ -33,7 +33,7 @@ struct SolverState {
   PenaltyPairs penalty_pairs;
   std::vector<SolidPush> pushes;
   SurfaceContact::State surface;
-  SubstepHysteresis substep_hysteresis;
+  StepController::Hysteresis substep_hysteresis;
 
   std::size_t bytes() const;
 };

@@ -36,7 +36,7 @@ void StepController::begin_frame(const FrameConditions& c, const StepBound& boun
   spent_ = 0;
   most_ = budget_.of(c.particles);
   work_of_substep_ = work::substep + double(c.moving) + work::penalty_pair * double(c.penalty_pairs);
-  hysteresis_.advance(c.seconds);
+  for (SubstepHysteresis& h : hysteresis_) h.advance(c.seconds);
   plan_.substeps = plan_.needed = 0;
   if (automatic() && c.moving > 0) choose(bound, c);
 }
@@ -48,8 +48,9 @@ double StepController::explicit_rate(const StepBound& b) {
   const double asked = std::max({stable_rate(b, *plan_.integrator), b.deformation, accurate ? accurate_rate : 0});
   const double rate = std::max({1 / longest_step, b.passing, asked});
   if (fixed()) return rate;
-  hysteresis_.raise(std::min(asked, 0.5 * most_ / work_of_substep_ / seconds_));
-  return std::max(rate, hysteresis_.rate());
+  SubstepHysteresis& kept = hysteresis_[plan_.integrator->implicit_volume ? 0 : 1];
+  kept.raise(std::min(asked, 0.5 * most_ / work_of_substep_ / seconds_));
+  return std::max(rate, kept.rate());
 }
 
 /// A body does not stay round if a step bends it by more than its radius, ten times as much as `deformation` allows.
@@ -73,8 +74,8 @@ void StepController::choose(const StepBound& b, const FrameConditions& c) {
   // The stable step is 0.8 (2 / omega), or less: the speed of the fastest oscillation that rounding keeps alive.
   const double trembling = c.rounding * 1.6 * stable_rate(b, *plan_.integrator);
   if (cheaper && trembling <= rest) {
-    plan_.why = plan_.integrator->implicit_volume ? "stiff by its gas only, which alone is taken implicitly"
-                                                  : "explicit substeps are stable, and cheaper than implicit steps";
+    plan_.why = gas_decides ? "stiff by its gas only, which alone is taken implicitly"
+                            : "explicit substeps are stable, and cheaper than implicit steps";
   } else if (c.surface_contact) {
     plan_.why = "contact of the true surfaces wants short steps";
   } else if (c.too_large) {

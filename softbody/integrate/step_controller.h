@@ -4,6 +4,7 @@
 // (Integrator::substeps_per_step).
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string_view>
 
@@ -69,6 +70,8 @@ class SubstepHysteresis {
 
 class StepController {
  public:
+  using Hysteresis = std::array<SubstepHysteresis, 2>;  // of integrators that are implicit in the volume, and of others
+
   /// Takes the integrator, or `auto`, and the number of its steps in a frame if that is fixed.
   void set_choice(const IntegratorChoice& choice);
   void set_budget(const WorkBudget& budget) { budget_ = budget; }
@@ -97,8 +100,8 @@ class StepController {
   /// Returns false if the frame has spent its budget.
   bool may_go_on() const { return fixed() || spent_ < most_; }
 
-  const SubstepHysteresis& hysteresis() const { return hysteresis_; }
-  void set_hysteresis(const SubstepHysteresis& hysteresis) { hysteresis_ = hysteresis; }
+  const Hysteresis& hysteresis() const { return hysteresis_; }
+  void set_hysteresis(const Hysteresis& hysteresis) { hysteresis_ = hysteresis; }
 
  private:
   void choose(const StepBound& bound, const FrameConditions& conditions);
@@ -108,7 +111,7 @@ class StepController {
   const Integrator* chosen_ = nullptr;
   int fixed_steps_ = 0;  // 0: not fixed
   WorkBudget budget_;
-  SubstepHysteresis hysteresis_;
+  Hysteresis hysteresis_;
   double seconds_ = 0;                                 // how long this frame is
   double work_of_substep_ = 0, spent_ = 0, most_ = 0;  // of work, in this frame; the last is its budget
   StepPlan plan_;

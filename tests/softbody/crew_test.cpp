@@ -37,6 +37,29 @@ TEST_F(CrewOfThree, SharesBatchesInTheirOrder) {
   }
 }
 
+TEST_F(CrewOfThree, SharesJoinedBatchesByWhatTheyCostAndLeavesTheOthersAlone) {
+  take(8);
+  const auto first = crew.moving()[0];
+  crew.share([&](const Batch& b) { return std::array{60, 0, 40, 0, 100, 0, 50, 50}[std::size_t(&b - first)]; });
+  std::vector<std::vector<std::ptrdiff_t>> joined(3);
+  for (int i = 0; i < 3; ++i)
+    for (const Batch* b : Worker(crew, i).batches()) joined[std::size_t(i)].push_back(b - first);
+  EXPECT_EQ(joined, (std::vector<std::vector<std::ptrdiff_t>>{{0, 2}, {4}, {6, 7}}));
+  ASSERT_EQ(crew.alone().size(), 3u);
+  const Worker alone = Worker(crew, 1).alone_with(crew.alone()[1]);
+  EXPECT_EQ(alone.batches()[0] - first, 3);
+  EXPECT_EQ(alone.index(), 1);
+  EXPECT_EQ(alone.part(100).end, 0u) << "the others share these";
+  alone.barrier();  // nobody else is to come
+}
+
+TEST_F(CrewOfThree, VisitsEachIndexOnce) {
+  take(8);
+  std::array<std::atomic<int>, 50> visits{};
+  crew.for_each(visits.size(), [&](std::size_t i) { ++visits[i]; });
+  for (const std::atomic<int>& v : visits) EXPECT_EQ(v, 1);
+}
+
 TEST_F(CrewOfThree, SharesItems) {
   take(1);
   std::size_t next = 0;

@@ -206,18 +206,22 @@ struct VolumeStep {
   double volume, drift, yield;  // m^3, m^3, m^3/Pa
 };
 
-/// Returns the pressure P that a law has at the end of the step: P = -pull(v + drift + yield P), by Newton's method.
-/// The first iterate is enough where the volume hardly changes. pull: returns a Jet.
+/// Returns the pressure P that a law has at the end of the step: P = -pull(v + drift + yield P). What the volume
+/// becomes with the pressure that the law has there falls with it, so there is one root: by Newton's method, which the
+/// bounds found so far keep from leaping to and fro where the law bends. The first iterate is enough where the volume
+/// hardly changes. pull: returns a Jet.
 inline double pressure_at_end(const VolumeStep& s, double start_volume, const auto& pull) {
-  constexpr int most = 8;
+  constexpr int most = 60;
   constexpr double little = 0.01, enough = 1e-4;  // of the starting volume
-  const auto change = [&](double pressure) { return s.drift + s.yield * pressure; };
-  double at = 0;  // change of the volume, where the law is made linear
+  const double whole = std::abs(start_volume);
+  double at = 0, low = -HUGE_VAL, high = HUGE_VAL;  // changes of the volume
   for (int i = 0;; ++i) {
     const Jet law = pull(s.volume + at);
-    const double pressure = -(law.value + law.slope * (s.drift - at)) / (1 + law.slope * s.yield);
-    const double next = change(pressure), off = std::abs(next - at);
-    if (i == most || off < (i == 0 ? little : enough) * start_volume) return pressure;
+    (at < s.drift - s.yield * law.value ? low : high) = at;
+    double next = (s.drift - s.yield * (law.value - law.slope * at)) / (1 + law.slope * s.yield);
+    if (!(next >= low && next <= high)) next = (low + high) / 2;
+    if (i == most || std::abs(next - at) < (i == 0 ? little : enough) * whole)
+      return -(law.value + law.slope * (next - at));
     at = next;
   }
 }
