@@ -95,15 +95,15 @@ Solver::Frame Solver::begin_frame(double seconds) {
   crew_.for_each(moving.size(), [&](std::size_t i) { extents[i] = state_.extent(*moving[i], state_.x, state_.v); });
   add_solids(extents, seconds);
   const StepBound bound = bounds_.measure(steps_.bounds_of());
-  const bool near_solids = std::ranges::any_of(moving, [&](const Batch* b) { return !solids_.near(*b).empty(); });
   steps_.begin_frame(
       {.seconds = seconds,
        .particles = state_.particle_count(),
        .moving = particles,
        .penalty_pairs = penalty_.pairs.size(),
-       .near_solids = near_solids,
+       .near_solids = std::ranges::any_of(moving, [&](const Batch* b) { return !solids_.near(*b).empty(); }),
        .surface_contact = contacts_.has_surfaces(),
-       .surfaces_touch = press || (solids_.has_features() && near_solids),
+       .surfaces_touch =
+           press || std::ranges::any_of(moving, [&](const Batch* b) { return solids_.meets_features(*b); }),
        .too_large = std::ranges::any_of(moving, [](const Batch* b) { return b->particles() > max_implicit_particles; }),
        .rounding = StepBounds::rounding(moving, extents),
        .sleep_speed = scene_.sleep.speed},
