@@ -170,7 +170,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   if (frame.substeps == 0 && !implicit && plan.substeps >= many_substeps)
     for (const Batch* b : crew_.moving()) frame.momenta.note({*b, field(state_.x, b->base), field(state_.v, b->base)});
   const double h = frame.left / plan.substeps;
-  int now = fixed ? plan.substeps : std::clamp(bounds_.trusted_substeps(h), 1, plan.substeps);
+  int now = fixed ? plan.substeps : std::clamp(StepBounds::trusted_substeps(frame.bound.fastest, h), 1, plan.substeps);
   // Then it is looked whether the candidates still hold: at once where their speed decides the count.
   if (!candidates.empty()) now = std::min(now, fixed || surfaces_decide ? 1 : 4);
   // What pulls at bodies, and drives them off the motion that candidates were found for, shows only after a substep.
@@ -187,7 +187,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   };
   if (frame.substeps == 0 && now > 1 && !fixed) {
     go_on(1);  // what pulls at bodies that were moved by hand, or let go, shows in their speed only then
-    now = std::min(now, 1 + bounds_.trusted_substeps(h));
+    now = std::min(now, 1 + StepBounds::trusted_substeps(bounds_.fastest(), h));
   }
   // One implicit step can be a large part of the work that there may be.
   while (done < now && (done == 0 || steps_.may_go_on())) go_on(implicit ? 1 : now - done);
@@ -220,6 +220,14 @@ void Solver::prepare_implicit(float h) {
   for (const Batch* b : crew_.moving()) implicit_->prepare(b->model, double(h), crew_.active());
 }
 
+/// in_step: all batches take each substep together, as if contacts joined them all.
+void Solver::share_batches(bool in_step) {
+  crew_.share([&](const Batch& b) {
+    if (!in_step && !joined_[b.index]) return std::size_t{0};
+    return b.values() + std::size_t(work::penalty_pair / 2 * double(penalty_.ends_of(b).size()));
+  });
+}
+
 void Solver::run(int count, float h, bool first, const std::function<void()>& after_substep) {
   last_substep_ = h;
   set_staggering(double(h), first);
@@ -236,10 +244,7 @@ void Solver::run(int count, float h, bool first, const std::function<void()>& af
     integrator.advance(motion_, worker, {h, first && s == 0});
     if (holds) hand_.book_work(state_, double(h));
   };
-  crew_.share([&](const Batch& b) {
-    if (!after_substep && !joined_[b.index]) return std::size_t{0};
-    return b.values() + std::size_t(work::penalty_pair / 2 * double(penalty_.ends_of(b).size()));
-  });
+  share_batches(bool(after_substep));
   std::atomic<std::size_t> next = 0;
   crew_.run([&](const Worker& worker) {
     for (int s = 0; s < count; ++s) {

@@ -82,6 +82,7 @@ class Solver {
   void restore(const SolverState& saved);
 
  private:
+  friend struct SolverTestAccess;  // for a benchmark of its stages
   /// A frame in progress.
   struct Frame {
     double left;            // s
@@ -101,6 +102,7 @@ class Solver {
   void take_substeps(Frame& frame, const std::function<void()>& after_substep);
   void set_staggering(double h, bool first);
   void prepare_implicit(float h);
+  void share_batches(bool in_step);
   void run(int substeps, float h, bool first, const std::function<void()>& after_substep);
 
   const Scene& scene_;

@@ -1,5 +1,5 @@
 #pragma once
-// A world's solver, for tests of the solver.
+// A world's solver and its parts, for tests and benchmarks of the solver.
 
 #include "softbody/world/world_parts.h"
 
@@ -7,6 +7,7 @@ namespace softbody {
 
 struct WorldTestAccess {
   static const Solver& solver(const World& world) { return world.parts_->solver; }
+  static Solver& solver(World& world) { return world.parts_->solver; }
   /// J, that the penalty pairs of the last frame hold now.
   static double penalty_energy(const World& world) {
     PenaltyContact last = solver(world).penalty_contact();
@@ -17,6 +18,22 @@ struct WorldTestAccess {
   }
   /// m, of the penalty force: grows slowly towards the tolerance.
   static float penalty_thickness(const World& world) { return world.parts_->penalty_thickness; }
+};
+
+/// The parts of a solver with which a benchmark takes a frame by itself, stage by stage.
+struct SolverTestAccess {
+  explicit SolverTestAccess(Solver& s)
+      : solver(s), crew(s.crew_), motion(s.motion_), penalty(s.penalty_), solids(s.solids_), bounds(s.bounds_) {}
+  void begin_frame(double seconds) { solver.begin_frame(seconds); }
+  void share_batches() { solver.share_batches(false); }
+  double penalty_energy() { return solver.penalty_energy(); }
+
+  Solver& solver;
+  Crew& crew;
+  Motion& motion;
+  PenaltyContact& penalty;
+  SolidContact& solids;
+  StepBounds& bounds;
 };
 
 /// Returns the point (m) that the hand holds.
