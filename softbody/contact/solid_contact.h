@@ -48,8 +48,10 @@ class SolidContact {
   void clear_velocities(const Batch& batch);
   /// Changes the velocities of a batch so that in a step of h seconds no particle enters a solid.
   void apply(const Batch& batch, float h);
-  /// True if it keeps faces and edges, too, off solids; see set_parts().
-  bool has_features() const { return has_features_; }
+  /// True if solids may touch faces or edges of a batch in this frame; see set_parts().
+  bool meets_features(const Batch& batch) const {
+    return batch.index < of_batch_.size() && !of_batch_[batch.index].features.empty();
+  }
   /// Adds a row for each particle of a body that a solid may stop in this substep if it comes `travel` (m) nearer.
   void add_particle_rows(BodyId body, float travel, std::vector<ContactRow>& rows) const;
   /// Books the impulses of these rows as those of the solids. Threads may call it at once for different bodies.

