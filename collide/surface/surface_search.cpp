@@ -70,6 +70,12 @@ bool SurfaceSearch::check_valid(const Frame& now, float elapsed, float ahead) {
   return valid;
 }
 
+float SurfaceSearch::holds_until() const {
+  float until = predicted_until_;
+  for (const SweptBody& body : swept_) until = std::min(until, body.holds_until());
+  return until;
+}
+
 void SurfaceSearch::check_feature_limit(std::size_t features) const {
   if (features > query_.max_features)
     throw std::length_error("more than " + std::to_string(query_.max_features) +

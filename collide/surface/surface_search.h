@@ -100,6 +100,8 @@ class SurfaceSearch {
   bool check_valid(const Frame& now, float elapsed, float ahead = 0);
   /// Returns until when (s after find()) the motion of all bodies is predicted.
   float predicted_until() const { return predicted_until_; }
+  /// Returns until when (s after find()) the candidates are likely to be complete, by what the last check_valid() saw.
+  float holds_until() const;
   /// Returns the last prediction of a body, and its largest deviation in any check_valid() since.
   const SweptBody& body(Index body) const { return swept_[body]; }
 

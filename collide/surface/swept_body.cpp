@@ -49,7 +49,7 @@ void SweptBody::predict(const Motion& now, Index body, const SurfaceBody& traits
                         float min_seconds) {
   traits_ = traits;
   begin_ = begin, end_ = end;
-  deviation_ = 0;
+  deviation_ = 0, holds_until_ = std::numeric_limits<float>::infinity();
   live_ = expired_ = false;
   count_ = now.positions.bodies->size(body);
   if (count_ == 0 || !traits.surface) return;
@@ -173,6 +173,7 @@ void SweptBody::update_deviation(const Frame& now, Index body, float time, float
     deviation2 = std::max(deviation2, glm::dot(deviation, deviation));
   }
   deviation_ = std::max(deviation_, std::sqrt(deviation2));
+  if (time > begin_ && deviation_ > 0) holds_until_ = begin_ + (time - begin_) * std::sqrt(traits_.slack / deviation_);
   expired_ = exceeds_slack() || end_ < until;
 }
 

@@ -83,6 +83,9 @@ class SweptBody {
   /// that exceeds the slack or if the prediction ends before `until`.
   void update_deviation(const Frame& now, Index body, float time, float until);
   float deviation() const { return deviation_; }  // m: the largest that was measured since begin()
+  /// Returns until when the deviation stays within the slack, if it grows with the square of the time since begin(), as
+  /// under a constant acceleration. Infinite before the first update_deviation().
+  float holds_until() const { return holds_until_; }
   bool exceeds_slack() const { return !(deviation_ <= traits_.slack); }
   bool expired() const { return expired_; }
   /// Sets deviation() and begin() to those of an earlier prediction.
@@ -101,6 +104,7 @@ class SweptBody {
   glm::vec3 centre_{0.0f}, spin_{0.0f};                    // m; 1/s, about the centre
   float velocity_spread_ = 0, max_deformation_speed_ = 0;  // m/s
   float deviation_ = 0;                                    // m
+  float holds_until_ = std::numeric_limits<float>::infinity();
   Aabb local_box_{}, world_box_{};
   BoxList vertex_boxes_, face_boxes_, edge_boxes_;
 };

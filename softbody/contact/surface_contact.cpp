@@ -23,6 +23,12 @@ std::size_t SurfaceContact::rows() const {
   return sum;
 }
 
+bool SurfaceContact::presses() const {
+  return std::ranges::any_of(candidates_.pairs(), [&](const Pair& p) {
+    return std::ranges::any_of(rows_of(p), [](const ContactRow& row) { return row.normal_impulse > 0; });
+  });
+}
+
 std::vector<SurfaceContactPoint> SurfaceContact::contact_points(const collide::Bodies& vertices) const {
   std::vector<SurfaceContactPoint> list;
   for (const Pair& p : candidates_.pairs())

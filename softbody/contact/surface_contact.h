@@ -62,6 +62,8 @@ class SurfaceContact {
   double work_of_substep() const;
 
   std::size_t rows() const;
+  /// Returns true if some row pressed in the last substep. A snapshot keeps such rows only.
+  bool presses() const;
   /// Adds up the energy that the rows of a substep give, which all threads must have solved. On every thread.
   void add_row_energies(int thread, int threads);
   /// Returns the energy (J) that pushing apart has given to bodies since the last call.

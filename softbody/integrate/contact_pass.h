@@ -34,8 +34,8 @@ class ContactPass {
   /// Finds the candidates of surface contact, unless those at hand hold: for the seconds `ahead` at least, of those
   /// that are left of the frame; of bodies that are strained fast, for the seconds `least` only. Returns the work.
   double find(double left, double ahead, double least);
-  /// Returns for how many substeps of h seconds the candidates may be taken, if they hold: at least one.
-  int predicted_substeps(double left, double h) const;
+  /// Returns for how many substeps of h seconds the candidates are likely to hold: at least one.
+  int trusted_substeps(double left, double h) const;
 
   /// True if the worker's bodies may be pushed by surfaces. Then its part of apply() waits for the other threads.
   bool meets_others(const Worker& worker) const {

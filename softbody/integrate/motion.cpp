@@ -28,10 +28,7 @@ void Motion::begin_frame(const Integrator& integrator, const glm::dvec3& gravity
     for (auto& c : one) c.resize(parts_.state.x[0].size());
   volumes_.resize(parts_.state.batches().size());
   std::size_t most = 0;
-  for (const Batch* b : crew.moving()) {
-    clear(*b, forces);
-    most = std::max(most, b->values());
-  }
+  for (const Batch* b : crew.moving()) most = std::max(most, b->values());
   own_forces_.resize(std::size_t(crew.active()));
   for (auto& one : own_forces_)
     for (auto& c : one) c.assign(most, 0);
@@ -60,7 +57,9 @@ void Motion::all_forces(const Batch& b) {
 void Motion::advance_velocities(const Worker& worker, const Batch& b, float h, Volumes how) {
   ForceBatch step = step_of(b, h);
   Field<float> drift{};
-  if (!is_acted_on(b)) {
+  if (is_acted_on(b)) {
+    clear(b, forces);
+  } else {
     step.f = field(own_forces_[std::size_t(worker.index())]);
     drift = field(parts_.state.x, b.base);
   }
@@ -68,10 +67,7 @@ void Motion::advance_velocities(const Worker& worker, const Batch& b, float h, V
 }
 
 void Motion::advance_positions(const Batch& b, float h) {
-  if (is_acted_on(b)) {
-    drift(b, h);
-    clear(b, forces);
-  }
+  if (is_acted_on(b)) drift(b, h);
   show(b);
 }
 

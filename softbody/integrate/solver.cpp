@@ -77,6 +77,7 @@ void Solver::add_solids(std::span<const Extent> extents, double seconds) {
 
 Solver::Frame Solver::begin_frame(double seconds) {
   contacts_.begin_frame();
+  const bool press = contacts_.surfaces().presses();  // in the last frame; a search forgets it
   const double searches = contacts_.has_surfaces() ? contacts_.wake_hit_sleepers(seconds) : 0;
   solids_.begin_frame();
   pushed_.assign(state_.batches().size(), 0);
@@ -102,7 +103,7 @@ Solver::Frame Solver::begin_frame(double seconds) {
        .penalty_pairs = penalty_.pairs.size(),
        .near_solids = near_solids,
        .surface_contact = contacts_.has_surfaces(),
-       .surfaces_touch = contacts_.surfaces().rows() > 0 || (solids_.has_features() && near_solids),
+       .surfaces_touch = press || (solids_.has_features() && near_solids),
        .too_large = std::ranges::any_of(moving, [](const Batch* b) { return b->particles() > max_implicit_particles; }),
        .rounding = StepBounds::rounding(moving, extents),
        .sleep_speed = scene_.sleep.speed},
@@ -169,10 +170,11 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   if (frame.substeps == 0 && !implicit && plan.substeps >= many_substeps)
     for (const Batch* b : crew_.moving()) frame.momenta.note({*b, field(state_.x, b->base), field(state_.v, b->base)});
   const double h = frame.left / plan.substeps;
-  int now = fixed ? plan.substeps : std::clamp(bounds_.trusted_substeps(h), 1, plan.substeps);
+  int now = fixed ? plan.substeps : std::clamp(StepBounds::trusted_substeps(frame.bound.fastest, h), 1, plan.substeps);
   // Then it is looked whether the candidates still hold: at once where their speed decides the count.
   if (!candidates.empty()) now = std::min(now, fixed || surfaces_decide ? 1 : 4);
-  if (surfaces) now = std::min(now, contacts_.predicted_substeps(frame.left, h));
+  // What pulls at bodies, and drives them off the motion that candidates were found for, shows only after a substep.
+  if (surfaces) now = frame.substeps == 0 ? 1 : std::min(now, contacts_.trusted_substeps(frame.left, h));
   int done = 0;
   const auto go_on = [&](int steps) {
     run(steps, static_cast<float>(h), frame.substeps == 0, after_substep);
@@ -185,7 +187,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   };
   if (frame.substeps == 0 && now > 1 && !fixed) {
     go_on(1);  // what pulls at bodies that were moved by hand, or let go, shows in their speed only then
-    now = std::min(now, 1 + bounds_.trusted_substeps(h));
+    now = std::min(now, 1 + StepBounds::trusted_substeps(bounds_.fastest(), h));
   }
   // One implicit step can be a large part of the work that there may be.
   while (done < now && (done == 0 || steps_.may_go_on())) go_on(implicit ? 1 : now - done);

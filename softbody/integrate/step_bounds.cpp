@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "softbody/contact/keys.h"
 #include "softbody/forces/penalty_law.h"
@@ -34,7 +33,8 @@ StepBound StepBounds::measure(const Integrator& integrator) const {
   crew_.for_each(moving.size(), [&](std::size_t i) { bounds[i] = measure(*moving[i], integrator); });
   StepBound most;
   for (const StepBound& b : bounds)
-    for (const auto rate : {&StepBound::stable, &StepBound::breathing, &StepBound::deformation, &StepBound::passing})
+    for (const auto rate :
+         {&StepBound::stable, &StepBound::breathing, &StepBound::deformation, &StepBound::passing, &StepBound::fastest})
       most.*rate = std::max(most.*rate, b.*rate);
   return most;
 }
@@ -52,20 +52,24 @@ StepBound StepBounds::measure(const Batch& b, const Integrator& integrator) cons
   const double pace = 0.1 * p.radius;
   return {rate(force.implicit_volume), rate(force.stiffness),
           max_of_moving(b, [&](std::size_t l) { return motion.diagonal(l); }) / pace,
-          max_of_moving(b, [&](std::size_t l) { return near >> l & 1u ? motion.length(l) : 0; }) / pace};
+          max_of_moving(b, [&](std::size_t l) { return near >> l & 1u ? motion.length(l) : 0; }) / pace,
+          StepBounds::pace(b, motion)};
 }
 
-int StepBounds::trusted_substeps(double h) const {
+double StepBounds::pace(const Batch& b, const Extent& motion) {
+  return max_of_moving(b, [&](std::size_t l) { return motion.length(l); }) / b.model->radius;
+}
+
+double StepBounds::fastest() const {
   const std::vector<const Batch*>& moving = crew_.moving();
-  std::vector<double> trusted(moving.size());
-  crew_.for_each(moving.size(), [&](std::size_t i) {
-    const Batch& b = *moving[i];
-    const Extent motion = state_.extent(b, state_.v, state_.v);
-    const double speed = max_of_moving(b, [&](std::size_t l) { return motion.length(l); });
-    trusted[i] = 0.2 * b.model->radius / (speed * h);
-  });
-  return static_cast<int>(
-      std::accumulate(trusted.begin(), trusted.end(), 16.0, [](double a, double b) { return std::min(a, b); }));
+  std::vector<double> paces(moving.size());
+  crew_.for_each(moving.size(),
+                 [&](std::size_t i) { paces[i] = pace(*moving[i], state_.extent(*moving[i], state_.v, state_.v)); });
+  return paces.empty() ? 0 : *std::ranges::max_element(paces);
+}
+
+int StepBounds::trusted_substeps(double fastest, double h) {
+  return static_cast<int>(std::min(16.0, 0.2 / (fastest * h)));
 }
 
 double StepBounds::rounding(std::span<const Batch* const> batches, std::span<const Extent> extents) {

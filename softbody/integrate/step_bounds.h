@@ -19,14 +19,17 @@ class StepBounds {
   /// Returns the bounds of steps of this integrator. No step is to change the shape of a body by more than a tenth of
   /// its radius, nor to move it by more where solids are near.
   StepBound measure(const Integrator& integrator) const;
+  /// Returns how many times its radius the fastest body goes in a second, now.
+  double fastest() const;
   /// Returns for how many substeps of h seconds the bounds hold: until the fastest body has moved a fifth of its
   /// radius, since a body that is being crushed gets stiffer. It may be 0; then they hold for less than one.
-  int trusted_substeps(double h) const;
+  static int trusted_substeps(double fastest, double h);
   /// Returns what is lost where positions are rounded to floats, in m. extents: of the batches' positions.
   static double rounding(std::span<const Batch* const> batches, std::span<const Extent> extents);
 
  private:
   StepBound measure(const Batch& batch, const Integrator& integrator) const;
+  static double pace(const Batch& batch, const Extent& motion);
 
   const State& state_;
   const PenaltyContact& penalty_;

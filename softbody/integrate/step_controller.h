@@ -18,6 +18,7 @@ struct StepBound {
   double breathing = 0;    // ... are stable, if gas resists changes of the volume explicitly
   double deformation = 0;  // ... keep up with the body that changes its shape fastest
   double passing = 0;      // ... keep up with the fastest body near a solid, and with surfaces that pass each other
+  double fastest = 0;      // and how many times its radius the fastest body goes in a second
 };
 
 /// Returns the lowest rate (1/s) at which the integrator's steps are stable.

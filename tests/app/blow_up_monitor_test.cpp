@@ -98,7 +98,7 @@ TEST(BlowUpMonitor, AcceptsAHeldBodyThatSpringsBack) {
   scene.bodies.resize(1);
   scene.bodies[0].release = 10;
   scene.gravity = glm::dvec3(0.0);
-  scene.materials[0][softbody::GasPressure::inside] = 171'527;
+  scene.materials[0][softbody::GasPressure::inside] = 300'000;
   scene.materials[0][softbody::GasPressure::outside] = 101'325;
   scene.materials[0][softbody::Material::start_in_equilibrium] = false;
   softbody::World world(scene, {});

@@ -174,6 +174,29 @@ TEST(SurfaceSearch, IsValidWhileDeviationsStayWithinTheSlack) {
   EXPECT_FALSE(again.search.check_valid(m.scene.frame(), 0)) << "once expired, a prediction stays expired";
 }
 
+/// Under a constant acceleration the deviation grows with the square of the time.
+TEST(SurfaceSearch, HoldsUntilTheDeviationIsLikelyToExceedTheSlack) {
+  std::mt19937 random(68);
+  MovingScene m;
+  m.add(ball(0.5f), glm::vec3(0), 0.01f, 0.05f, [](const glm::vec3&) { return glm::vec3(3, -20, 1); });
+  m.seconds = 1;
+  SearchRun run(m, false);
+  EXPECT_EQ(run.search.holds_until(), run.search.predicted_until());
+  Scene off = m.scene;
+  const auto fall = [&](float seconds) {
+    for (std::size_t i = 0; i < off.state.x.size(); ++i) {
+      off.state.x[i] = m.scene.state.x[i] + 3 * seconds;
+      off.state.y[i] = m.scene.state.y[i] - 20 * seconds - 500 * seconds * seconds;
+      off.state.z[i] = m.scene.state.z[i] + seconds;
+    }
+  };
+  fall(0.002f);
+  ASSERT_TRUE(run.search.check_valid(off.frame(), 0.002f));
+  EXPECT_NEAR(run.search.holds_until(), 0.01f, 1e-5);
+  fall(0.0101f);
+  EXPECT_FALSE(run.search.check_valid(off.frame(), 0.0101f));
+}
+
 TEST(SurfaceSearch, MaxRelativeSpeedBoundsAllVerticesOfAPair) {
   std::mt19937 random(67);
   const MovingScene m = swarm(random, 5, 0.02f, 0.01f);

@@ -222,12 +222,11 @@ TEST(MaxCandidates, EndAFrameEarlyIfItHasMoved) {
   add_body(scene, {5, 0, 0}, {});
   scene.contact_surface = ContactSurface::surfaces;
   scene.ground = Ground{-0.6};
-  const IntegratorChoice integrator{"semi-implicit-euler"};
-  World whole(scene, {.integrator = integrator});
+  World whole(scene, {});
   whole.step();
   const std::size_t touching = WorldTestAccess::solver(whole).surface_contact().candidates().search().features().size();
   ASSERT_GT(touching, 1u);
-  World world(scene, {.integrator = integrator, .max_candidates = {.least = touching / 2, .per_particle = 0}});
+  World world(scene, {.max_candidates = {.least = touching / 2, .per_particle = 0}});
   EnergyWatch watch;
   watch.look(world, measure_bodies(world));
   world.step();

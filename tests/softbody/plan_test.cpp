@@ -170,7 +170,8 @@ const Idle idle_stages[]{
      }},
     {"features", Stage::solid_features,
      [](Scene& s) {
-       s.spheres = {{.centre = {3000, 0, 0}}};
+       s.contact_surface = ContactSurface::surfaces;
+       s.spheres.clear();
      },
      [](Scene& s) {
        s.contact_surface = ContactSurface::surfaces;

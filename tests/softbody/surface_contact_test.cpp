@@ -7,6 +7,8 @@
 #include <set>
 
 #include "softbody/contact/law.h"
+#include "softbody/integrate/integrators.h"
+#include "softbody/world/snapshot.h"
 #include "tests/softbody/surface_rig.h"
 #include "tests/support/world_test_access.h"
 
@@ -207,6 +209,59 @@ TEST(SurfaceContact, TellsWhereBodiesTouch) {
     EXPECT_LT(glm::distance(apart, 0.005 * glm::dvec3(touch.normal)), 0.004);
   }
   EXPECT_EQ(met, (std::set<std::pair<Index, Index>>{{0, 1}, {0, 2}}));
+}
+
+/// Two balls meet in the middle of a frame. Candidates are found again on the way, also while there are none yet: the
+/// speed of the ball that is pulled down is 0 when the frame begins.
+TEST(SurfaceContact, FindsSurfacesThatMeetWithinAFrameByEveryIntegrator) {
+  for (const Integrator& integrator : integrators()) {
+    for (const double speed : {20.0, 40.0, 0.0}) {
+      SCOPED_TRACE(testing::Message() << integrator.key << ", " << speed << " m/s");
+      Scene scene = ball_in_space(gas_ball());
+      scene.bodies[0].release = 1000;
+      add_body(scene, {0, 1.15, 0}, {0, -speed, 0});
+      if (speed == 0) scene.gravity = {0, -2000, 0};
+      World world(scene, {.integrator = {std::string(integrator.key)}});
+      Judge judge(world);
+      world.step();
+      EXPECT_GT(WorldTestAccess::solver(world).surface_contact().rows(), 0u);
+      EXPECT_LE(judge.look().deepest, speed > 0 ? 0 : 0.05);
+      world.step();
+      EXPECT_LE(judge.look().deepest, speed > 0 ? 0 : 0.05);
+    }
+  }
+}
+
+/// What `auto` takes must not depend on rows that a snapshot does not keep.
+TEST(SurfaceContact, GoesOnTheSameFromASnapshotIfBodiesAreOnlyNear) {
+  Scene scene = ball_in_space(rubber());
+  add_body(scene, {0, 1.0005, 0}, {});
+  World world(scene, {});
+  world.step();
+  ASSERT_GT(WorldTestAccess::solver(world).surface_contact().rows(), 0u);
+  ASSERT_FALSE(WorldTestAccess::solver(world).surface_contact().presses());
+  const Snapshot then = world.snapshot();
+  const auto hash_after_a_frame = [&] {
+    world.step();
+    return world.state_hash();
+  };
+  const std::uint64_t hash = hash_after_a_frame();
+  world.restore(then);
+  EXPECT_EQ(hash_after_a_frame(), hash);
+}
+
+/// Beside a sleeper, the search for what hits it forgets the rows of those that touch.
+TEST(SurfaceContact, TakesShortStepsWhileSurfacesPressAlsoBesideASleeper) {
+  Scene scene = ball_in_space(rubber());
+  add_body(scene, {0, 4, 0}, {0, -1.5, 0});
+  add_body(scene, {9, 0, 0}, {});
+  World world(scene, {});
+  const auto presses = [&] { return WorldTestAccess::solver(world).surface_contact().presses(); };
+  while (world.frame() < 200 && !presses()) world.step();
+  ASSERT_TRUE(presses());
+  ASSERT_TRUE(world.body(2).asleep);
+  world.step();
+  EXPECT_EQ(WorldTestAccess::solver(world).steps().plan().integrator->key, "semi-implicit-euler");
 }
 
 TEST(SurfaceContact, TakesSubstepsForItsFastestPair) {

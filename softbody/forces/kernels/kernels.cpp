@@ -70,15 +70,17 @@ struct Kernels {
     for (std::size_t first = 0; first < std::size_t(all.used); first += step) {
       const LaneBodies<float> b = all.from(first);
       float volumes[lanes]{}, area2[lanes]{}, stretch[lanes]{}, two_medians[lanes]{};
-      body::volume<V, width>(faces, b.x, volumes);
       medians<V, width>(faces, b.x, two_medians);
-      V square{}, sum{};
+      const Vec<V> from = load<V>(b.x, 0);
+      V three_volumes{}, square{}, sum{};
       for (Index i = 0; i < b.model.mesh.vertices.size(); ++i) {
         const std::size_t at = i * width;
-        const Vec<V> a = area_of<V, width>(b, i, load<V>(b.x, at));
+        const Vec<V> x = load<V>(b.x, at), a = area_of<V, width>(b, i, x);
         store(b.f, at, a);
+        three_volumes += dot(a, x - from);
         square += dot(a, a);
       }
+      store(volumes, three_volumes / V(3.0f));
       store(area2, square);
       for_each_force(Forces{}, [&]<class F>(Name<F>) HWY_ATTR {
         if constexpr (HasElements<F>) {
