@@ -196,15 +196,15 @@ TEST(PressureAtEnd, IsTheRootWhateverTheGas) {
     for (const double volume : {-0.3, 0.055, 0.3, 0.6})
       for (const double drift : {-0.5, -0.01, 0.0, 0.2})
         for (const double yield : {1e-9, 1e-6, 4e-5}) {
-          const Gas gas{.amount = inside * 0.52, .ambient = 101'325, .rest_volume = 0.52};
+          const Gas law{.amount = inside * 0.52, .ambient = 101'325, .rest_volume = 0.52};
           const auto excess = [&](double pressure) {  // falls with the pressure
-            return gas.gauge(volume + drift + yield * pressure) - pressure;
+            return law.gauge(volume + drift + yield * pressure) - pressure;
           };
           double low = -1e9, high = 1e9;
           for (int i = 0; i < 100; ++i) (excess((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
           const double found =
-              body::pressure_at_end({volume, drift, yield}, 0.52, [&](double v) { return gas.pull(Jet(v, 1)); });
-          EXPECT_NEAR(found, low, 1e-3 * (std::abs(low) + gas.scale()))
+              body::pressure_at_end({volume, drift, yield}, 0.52, [&](double v) { return law.pull(Jet(v, 1)); });
+          EXPECT_NEAR(found, low, 1e-3 * (std::abs(low) + law.scale()))
               << inside << " Pa, " << volume << " m^3, " << drift << ", " << yield;
         }
 }

@@ -279,7 +279,7 @@ TEST(Auto, TakesMoreExplicitSubstepsInContactThanInFlight) {
 TEST(Auto, StaysExplicitInAHeap) {
   Scene scene = find_scene("A", SBCOLLIDE_SCENES);
   scene.materials[0][Material::mass] = 0.012;
-  scene.materials[0][contact::stiffness] *= 40;
+  scene.materials[0][contact::stiffness] *= 65;
   World world(scene, {});
   int most = 0;
   for (int frame = 0; frame < 60; ++frame) {

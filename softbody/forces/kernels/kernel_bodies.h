@@ -212,14 +212,15 @@ struct VolumeStep {
 /// hardly changes. pull: returns a Jet.
 inline double pressure_at_end(const VolumeStep& s, double start_volume, const auto& pull) {
   constexpr int most = 60;
-  constexpr double little = 0.01, enough = 1e-4;  // of the starting volume
+  constexpr double little = 0.01, enough = 1e-5;  // of the starting volume
   const double whole = std::abs(start_volume);
   double at = 0, low = -HUGE_VAL, high = HUGE_VAL;  // changes of the volume
   for (int i = 0;; ++i) {
     const Jet law = pull(s.volume + at);
     (at < s.drift - s.yield * law.value ? low : high) = at;
     double next = (s.drift - s.yield * (law.value - law.slope * at)) / (1 + law.slope * s.yield);
-    if (!(next >= low && next <= high)) next = (low + high) / 2;
+    if (!(next > low && next < high))
+      next = std::isfinite(low) && std::isfinite(high) ? (low + high) / 2 : std::clamp(next, low, high);
     if (i == most || std::abs(next - at) < (i == 0 ? little : enough) * whole)
       return -(law.value + law.slope * (next - at));
     at = next;
