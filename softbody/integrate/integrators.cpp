@@ -49,8 +49,9 @@ double unconditional(double, double) { return std::numeric_limits<double>::infin
 constexpr std::array all_integrators{
     Integrator{.key = "auto",
                .name = "Auto",
-               .summary = "Takes as many steps of semi-implicit Euler as are stable, or an implicit step if that is "
-                          "cheaper.",
+               .summary =
+                   "Takes semi-implicit Euler, IMEX Euler where gas alone sets the steps, or implicit steps where "
+                   "these are cheaper.",
                .order = 1,
                .advance = semi_implicit_euler,
                .stable_step = stable_step,
