@@ -104,7 +104,7 @@ void take_substep(const SolverTestAccess& s, const softbody::Worker& worker, flo
   else
     s.motion.contacts(worker, h);
   watch.add(contacts);
-  for (const softbody::Batch* b : worker.batches()) s.motion.advance_positions(*b, h);
+  for (const softbody::Batch* b : worker.batches()) s.motion.advance_positions(worker, *b, h);
   watch.add(drift);
   worker.barrier();
   watch.add(wait);

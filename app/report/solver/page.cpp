@@ -279,6 +279,7 @@ Page solver_page(const SolverResults& results) {
         "grows {:.3g} times.",
         c.reference, c.step, c.change, c.converged ? "" : ", so it has not converged: smaller errors mean nothing",
         c.growth);
+    if (c.of_centres) page.text("Here the error is the largest of a body's centre.");
     page.text("ms for an error of at most ... (steps per frame):");
     page.table(costs(results, c));
     add_left_out(page, results, c);
