@@ -49,14 +49,8 @@ double unconditional(double, double) { return std::numeric_limits<double>::infin
 constexpr std::array all_integrators{
     Integrator{.key = "auto",
                .name = "Auto",
-<<<<<<< HEAD
                .summary = "Takes as many steps of semi-implicit Euler as are stable, of IMEX Euler if only gas would "
                           "need more, or an implicit step if that is cheaper.",
-=======
-               .summary =
-                   "Takes semi-implicit Euler, IMEX Euler where gas alone sets the steps, or implicit steps where "
-                   "these are cheaper.",
->>>>>>> 4798bf9030e48870bd474d83e85df6d83f2b120f
                .order = 1,
                .advance = semi_implicit_euler,
                .stable_step = stable_step,
