@@ -21,6 +21,8 @@ bool nearly_closed(const Mesh& mesh) {
   return mesh.closed || glm::length(sum) < 0.1 * size;
 }
 
+}  // namespace
+
 void list_faces(BodyModel& p) {
   std::vector<std::vector<Index>> at(p.mesh.vertices.size());
   for (Index f = 0; f < p.mesh.triangles.size(); ++f)
@@ -34,8 +36,6 @@ void list_faces(BodyModel& p) {
     p.first_face.push_back(static_cast<Index>(p.face.size()));
   }
 }
-
-}  // namespace
 
 std::shared_ptr<BodyModel> make_body_mesh(const MeshSource& source) {
   auto p = std::make_shared<BodyModel>();

@@ -54,6 +54,9 @@ struct BodyModel {
   }
 };
 
+/// Lists the faces at each vertex of the mesh.
+void list_faces(BodyModel& model);
+
 /// Returns a body model that has its mesh, in the shape in which it starts, and no material yet.
 std::shared_ptr<BodyModel> make_body_mesh(const MeshSource& mesh);
 

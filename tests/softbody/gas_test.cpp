@@ -55,6 +55,7 @@ BodyModel model_of(const Solid& solid, const Gas& gas) {
   BodyModel model;
   model.mesh.vertices = solid.corners;
   model.mesh.triangles = solid.faces;
+  list_faces(model);
   return with_force<GasPressure>(std::move(model), gas);
 }
 
