@@ -206,10 +206,10 @@ struct VolumeStep {
   double volume, drift, yield;  // m^3, m^3, m^3/Pa
 };
 
-/// Returns the pressure P that a law has at the end of the step: P = -pull(v + drift + yield P). What the volume
-/// becomes with the pressure that the law has there falls with it, so there is one root: by Newton's method, which the
-/// bounds found so far keep from leaping to and fro where the law bends. The first iterate is enough where the volume
-/// hardly changes. pull: returns a Jet.
+/// Returns the pressure P that a law has at the end of the step: P = -pull(v + drift + yield P), by Newton's method.
+/// There is one root, for the law's pressure falls as the volume grows. Each iterate lies on one side of it; the next
+/// one stays between the two nearest, since where the law bends Newton's method alone would leap to and fro. The first
+/// iterate is enough where the volume hardly changes. pull: returns a Jet.
 inline double pressure_at_end(const VolumeStep& s, double start_volume, const auto& pull) {
   constexpr int most = 60;
   constexpr double little = 0.01, enough = 1e-5;  // of the starting volume
