@@ -1,6 +1,7 @@
 #include "softbody/forces/force_set.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace softbody {
@@ -84,6 +85,7 @@ ForceBound bound_of(const Batch& b, Field<const float> x) {
     if (b.moves[l] <= 0) continue;
     bound.stiffness = std::max(bound.stiffness, stiffness_per_mass(p, shapes[l]));
     bound.implicit_volume = std::max(bound.implicit_volume, stiffness_per_mass(p, shapes[l], Volumes::implicit_));
+    bound.volume_change = std::max(bound.volume_change, std::abs(shapes[l].volume / p.start_volume - 1));
   }
   return bound;
 }
