@@ -72,7 +72,7 @@ void StepController::choose(const StepBound& b, const FrameConditions& c) {
   hysteresis_.volume_change.raise(b.volume_change);
   // Contact of surfaces wants short steps. It acts after the gas, and would be solved again for each new pressure.
   const bool gas_decides = !c.surfaces_touch && hysteresis_.volume_change.value() <= quiet_breathing &&
-                           std::max({accurate_rate, 1 / seconds_, b.stable}) < 0.9 * b.breathing;
+                           std::max({accurate_rate, 1 / seconds_, b.stable}) < 0.8 * b.breathing;
   plan_.integrator = find_integrator(gas_decides ? "imex-euler" : "semi-implicit-euler");
   const double most = fixed() ? fixed_steps_ : of_implicit * std::max(1.0, seconds_ * implicit_rate(b));
   const bool cheaper = seconds_ * explicit_rate(b) <= most;
