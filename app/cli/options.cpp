@@ -150,6 +150,7 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
   add_bodies_option(*detect, d.by);
   add_common_options(*detect, options);
   detect->get_option("--tolerance")->required();
+  detect->get_option("--method")->description("detector: a key of `list methods`, or all of them: compares them");
   detect->add_flag("--self,!--no-self", d.self_collision,
                    "whether pairs of one body count (default: yes; of both, the last one holds)");
   detect->add_option("--rest", d.rest, "bodies at rest: no pair of one body counts that is closer than H there")
