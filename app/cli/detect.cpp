@@ -1,198 +1,209 @@
 #include "app/cli/detect.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <iostream>
 #include <iterator>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "app/base/timings.h"
+#include "app/cli/method_runs.h"
+#include "app/compare/score.h"
 #include "app/files/contacts_csv.h"
-#include "app/files/obj_reader.h"
 
 namespace app::cli {
 namespace {
 
-using collide::Index;
+using Json = nlohmann::ordered_json;
 
-/// The content of the files, which are consecutive frames of the same bodies.
-struct Sequence {
-  std::vector<files::ObjBodies> frames;  // only the first keeps its edges, and only until the bodies are made
-  collide::Bodies bodies;
-  std::vector<std::string> notes;  // of the first file; further ones begin with the name of their file
-
-  /// Adds the notes of a file.
-  void note(const std::string& file, const files::ObjBodies& read) {
-    for (const std::string& text : read.notes) {
-      if (std::ranges::find(notes, text) == notes.end())
-        notes.push_back(frames.size() == 1 && &read == &frames[0] ? text : file + ": " + text);
-    }
-  }
-
-  collide::Frame frame(std::size_t number) const {
-    const files::ObjBodies& f = frames[number];
-    return {f.x, f.y, f.z, &bodies};
-  }
-};
-
-void require_match(const files::ObjBodies& bodies, const std::string& file, const files::ObjBodies& first,
-                   const std::string& first_file) {
-  const auto refuse = [&](const std::string& what, std::size_t here, std::size_t there) {
-    throw UsageError(file + ": " + what + " " + std::to_string(here) + ", in " + first_file + " " +
-                     std::to_string(there) + "; give files that match body by body");
-  };
-  if (bodies.count() != first.count()) refuse("number of bodies", bodies.count(), first.count());
-  for (std::size_t b = 0; b < bodies.count(); ++b) {
-    if (bodies.size(b) != first.size(b)) refuse("vertices of body " + std::to_string(b), bodies.size(b), first.size(b));
-  }
-}
-
-/// Makes the bodies of a mesh. rest: nullptr, or the same bodies at rest. Consecutive copies of a mesh share a
-/// topology.
-collide::Bodies make_bodies(const files::ObjBodies& mesh, const files::ObjBodies* rest) {
-  collide::Bodies bodies;
-  std::shared_ptr<const collide::Topology> topology;
-  for (std::size_t b = 0; b < mesh.count(); ++b) {
-    if (b == 0 || mesh.size(b) != mesh.size(b - 1) || mesh.edges[b] != mesh.edges[b - 1])
-      topology = std::make_shared<collide::Topology>(mesh.size(b), mesh.edges[b]);
-    std::vector<glm::vec3> positions;
-    for (Index v = mesh.first[b]; rest && v < mesh.first[b + 1]; ++v)
-      positions.emplace_back(rest->x[v], rest->y[v], rest->z[v]);
-    bodies.add(std::make_shared<collide::Shape>(topology, std::move(positions)));
-  }
-  return bodies;
-}
+constexpr std::string_view all_methods = "all";  // in place of a method's key
 
 // All frames stay in memory, so that the times do not include reading.
 constexpr std::size_t max_positions = std::size_t{1} << 27;  // of all frames together: 1.5 GiB
 
-Sequence read_sequence(const DetectOptions& options) {
-  Sequence sequence;
-  const std::string& first_file = options.files.front();
-  for (const std::string& file : options.files) {
-    sequence.frames.push_back(files::read_obj(file));
-    sequence.note(file, sequence.frames.back());
-    require_match(sequence.frames.back(), file, sequence.frames.front(), first_file);
-    if (sequence.frames.size() > 1) sequence.frames.back().edges = {};
-    const std::size_t vertices = sequence.frames.front().x.size(), files = options.files.size();
-    if (vertices * files > max_positions)
-      throw UsageError(std::to_string(files) + " files of " + std::to_string(vertices) + " vertices each: at most " +
-                       std::to_string(max_positions) + " together; give fewer files at a time");
-  }
-  files::ObjBodies& first = sequence.frames.front();
-  if (options.rest) {
-    const files::ObjBodies rest = files::read_obj(*options.rest);
-    sequence.note(*options.rest, rest);
-    require_match(rest, *options.rest, first, first_file);
-    sequence.bodies = make_bodies(first, &rest);
-  } else {
-    sequence.bodies = make_bodies(first, nullptr);
-  }
-  first.edges = {};
-  return sequence;
+/// Returns the task without its settings, and adds to `notes` what the authors of the files may have meant differently.
+SequenceTask read_sequence(const Options& options, std::vector<std::string>& notes) {
+  const DetectOptions& d = options.detect;
+  files::FrameSequence sequence({d.files.begin(), d.files.end()}, {.by = d.by, .rest = d.rest});
+  const std::size_t vertices = sequence.bodies()->bodies.vertex_count();
+  if (vertices * sequence.count() > max_positions)
+    throw UsageError(std::to_string(sequence.count()) + " files of " + std::to_string(vertices) +
+                     " vertices each: at most " + std::to_string(max_positions) +
+                     " together; give fewer files at a time");
+  SequenceTask task{d.files, {}, {}, options.threads, d.repeat, d.reuse};
+  for (std::size_t f = 0; f < sequence.count(); ++f) task.frames.push_back(sequence.read(f));
+  std::ranges::copy(sequence.notes(), std::back_inserter(notes));
+  return task;
 }
 
-/// The figures of one frame.
-struct DetectRow {
-  std::size_t contacts = 0;
-  std::uint64_t self_contacts = 0;
-  collide::Counters counters;
-  collide::Skipped skipped{};
-  Timings times;  // by repetition
-};
-
-/// Returns the time (ms) from positions in memory to the finished list of contacts.
-double timed_detect(collide::Detector& detector, const collide::Frame& frame, const collide::Settings& settings,
-                    collide::Workers& workers, collide::Result& result, const std::string& file) {
-  try {
-    return time_ms([&] { detector.detect(frame, settings, workers, result); });
-  } catch (const std::length_error& error) {  // more contacts than a method may report
-    throw UsageError(file + ": " + error.what());
-  }
-}
-
-std::vector<DetectRow> run(const Options& options, const collide::Method& method, const collide::Settings& settings,
-                           const Sequence& sequence) {
+MethodRun run_one(const collide::Method& method, const Options& options, const SequenceTask& task) {
   std::optional<files::ContactsCsv> csv;
   if (options.detect.contacts) csv.emplace(*options.detect.contacts);
-  collide::Workers workers(options.threads);
-  collide::Result result;
-  std::vector<DetectRow> rows(sequence.frames.size());
-  for (int repetition = 0; repetition < options.detect.repeat; ++repetition) {
-    auto detector = method.make();
-    for (std::size_t f = 0; f < rows.size(); ++f) {
-      if (!options.detect.reuse) detector->forget();
-      const collide::Frame frame = sequence.frame(f);
-      rows[f].times.ms.push_back(timed_detect(*detector, frame, settings, workers, result, options.detect.files[f]));
-      if (repetition > 0) continue;
-      rows[f].contacts = result.contacts.size();
-      rows[f].self_contacts = result.self_contacts;
-      rows[f].counters = result.counters;
-      rows[f].skipped = result.skipped;
-      if (csv) csv->add(f, frame, result.contacts);  // now, because the lists of all frames may be too large to keep
-    }
-  }
+  // The contacts are written at once, because the lists of all frames may be too large to keep.
+  MethodRun run = run_method(method, task, [&](std::size_t frame, const std::vector<collide::Contact>& contacts) {
+    if (csv) csv->add(frame, task.frames[frame].view(), task.of().meshes.file_vertex, contacts);
+  });
   if (csv) csv->commit();
-  return rows;
+  return run;
 }
 
-void print_json(const Options& options, const collide::Method& method, const std::vector<std::string>& notes,
-                const collide::Bodies& bodies, const std::vector<DetectRow>& rows) {
-  using Json = nlohmann::ordered_json;
-  Json frames = Json::array();
+/// The sums over the frames that a method reached.
+struct Totals {
+  std::size_t contacts = 0, true_contacts = 0, found_true = 0;
+  std::uint64_t pair_tests = 0, hashes = 0;
+  double ms = 0;  // of the frames' medians
+  double recall() const { return compare::share(found_true, true_contacts); }
+  double precision() const { return compare::share(found_true, contacts); }
+};
+
+Totals totals_of(std::span<const DetectRow> rows) {
+  Totals sum;
   for (const DetectRow& r : rows) {
+    sum.contacts += r.contacts;
+    sum.true_contacts += r.true_contacts;
+    sum.found_true += r.found_true;
+    sum.pair_tests += r.counters.pair_tests;
+    sum.hashes += r.counters.hashes;
+    sum.ms += r.times.median();
+  }
+  return sum;
+}
+
+// ---- JSON ----
+
+/// Adds recall and precision over these frames.
+void add_score(Json& object, std::span<const DetectRow> rows) {
+  const Totals sum = totals_of(rows);
+  object["recall"] = sum.recall();
+  object["precision"] = sum.precision();
+}
+
+Json frames_json(const MethodRun& run, bool scored) {
+  Json frames = Json::array();
+  for (const DetectRow& r : run.rows) {
     Json skipped = Json::object();
     for (std::size_t kind = 0; kind < r.skipped.size(); ++kind)
       skipped[std::string(collide::skip_kinds[kind].key)] = r.skipped[kind];
-    frames.push_back({{"frame", frames.size()},
-                      {"contacts", r.contacts},
-                      {"self_contacts", r.self_contacts},
-                      {"ms", {{"min", r.times.min()}, {"median", r.times.median()}}},
-                      {"pair_tests", r.counters.pair_tests},
-                      {"hashes", r.counters.hashes},
-                      {"boxes", r.counters.boxes},
-                      {"skipped", skipped}});
+    Json& frame = frames.emplace_back(Json{{"frame", frames.size()},
+                                           {"contacts", r.contacts},
+                                           {"self_contacts", r.self_contacts},
+                                           {"ms", {{"min", r.times.min()}, {"median", r.times.median()}}},
+                                           {"pair_tests", r.counters.pair_tests},
+                                           {"hashes", r.counters.hashes},
+                                           {"boxes", r.counters.boxes},
+                                           {"skipped", skipped}});
+    if (scored) add_score(frame, std::span(&r, 1));
   }
-  const Json document{
-      {"method", method.key},     {"tolerance", *options.detection.tolerance}, {"threads", options.threads},
-      {"bodies", bodies.count()}, {"vertices", bodies.vertex_count()},         {"warnings", notes},
-      {"frames", frames}};
-  std::cout << document.dump() << '\n';
+  return frames;
 }
 
-void print_table(const Options& options, const collide::Method& method, const std::vector<std::string>& notes,
-                 const collide::Bodies& bodies, const std::vector<DetectRow>& rows) {
-  std::cout << fmt::format("{}, tolerance {:g} m, threads {}, bodies {}, vertices {}\n", method.name,
-                           *options.detection.tolerance, options.threads, bodies.count(), bodies.vertex_count());
+/// What all methods run on, and what is to be said of it.
+struct Given {
+  const Options& options;
+  const SequenceTask& task;
+  const std::vector<std::string>& notes;
+
+  std::vector<std::string> notes_for(const collide::Method& method) const {
+    std::vector<std::string> all = warnings(method, task.settings);
+    std::ranges::copy(notes, std::back_inserter(all));
+    return all;
+  }
+};
+
+/// Returns what one method gives. compared: nullptr, or all runs, of which this is one.
+Json to_json(const Given& given, const MethodRun& run, const MethodRuns* compared) {
+  Json document{{"method", run.method->key},
+                {"tolerance", *given.options.detection.tolerance},
+                {"threads", given.task.threads},
+                {"bodies", given.task.of().bodies.count()},
+                {"vertices", given.task.of().bodies.vertex_count()},
+                {"warnings", given.notes_for(*run.method)}};
+  const bool scored = compared && compared->reference;
+  if (compared) {
+    document["reference"] = scored ? Json(compared->reference->key) : Json(nullptr);
+    if (scored) add_score(document, run.rows);
+    if (!run.not_run.empty()) document["not_run"] = run.not_run;
+  }
+  document["frames"] = frames_json(run, scored);
+  return document;
+}
+
+// ---- tables ----
+
+void print_heading(const Given& given, std::string_view method, const std::vector<std::string>& notes) {
+  std::cout << fmt::format("{}, tolerance {:g} m, threads {}, bodies {}, vertices {}\n", method,
+                           *given.options.detection.tolerance, given.task.threads, given.task.of().bodies.count(),
+                           given.task.of().bodies.vertex_count());
   for (const std::string& note : notes) std::cout << "note: " << note << '\n';
+}
+
+void print_table(const Given& given, const MethodRun& run) {
+  print_heading(given, run.method->name, given.notes_for(*run.method));
   std::cout << "  frame     ms min  ms median   contacts       self     pair tests       hashes      boxes\n";
-  for (std::size_t f = 0; f < rows.size(); ++f) {
-    const DetectRow& r = rows[f];
+  for (std::size_t f = 0; f < run.rows.size(); ++f) {
+    const DetectRow& r = run.rows[f];
     std::cout << fmt::format("{:7} {:10.3f} {:10.3f} {:10} {:10} {:14} {:12} {:10}\n", f, r.times.min(),
                              r.times.median(), r.contacts, r.self_contacts, r.counters.pair_tests, r.counters.hashes,
                              r.counters.boxes);
   }
 }
 
+void print_table(const Given& given, const MethodRuns& all) {
+  std::vector<std::string> notes = given.notes;
+  for (const MethodRun& run : all.runs)
+    for (const std::string& note : warnings(*run.method, given.task.settings))
+      if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+  print_heading(given, "All methods", notes);
+  std::cout << fmt::format(
+      "frames {}: their contacts, tests and hashes together, mean time of one; true contacts: {}\n",
+      given.task.frames.size(), all.reference ? all.reference->name : "not known");
+  std::cout << fmt::format("{:28} {:>10} {:>8} {:>9} {:>12} {:>15} {:>14}\n", "method", "contacts", "recall",
+                           "precision", "ms a frame", "pair tests", "hashes");
+  const auto share = [&](double value) -> std::string {
+    if (!all.reference) return "-";
+    return value < 1 ? fmt::format("{:.5f}", std::floor(1e5 * value) / 1e5) : "1";  // 1 only where nothing is wrong
+  };
+  for (const MethodRun& run : all.runs) {
+    if (!run.not_run.empty()) {
+      std::cout << fmt::format("{:28} not run {}\n", run.method->key, run.not_run);
+      continue;
+    }
+    const Totals sum = totals_of(run.rows);
+    std::cout << fmt::format("{:28} {:10} {:>8} {:>9} {:12.3f} {:15} {:14}\n", run.method->key, sum.contacts,
+                             share(sum.recall()), share(sum.precision()), sum.ms / static_cast<double>(run.rows.size()),
+                             sum.pair_tests, sum.hashes);
+  }
+}
+
 }  // namespace
 
 void detect(const Options& options) {
-  const collide::Method& method = chosen_method(options.detection, collide::default_method);
+  const bool compares = options.detection.method == all_methods;
+  const collide::Method* method = compares ? nullptr : &chosen_method(options.detection, collide::default_method);
+  if (compares && options.detect.contacts)
+    throw UsageError("--contacts " + options.detect.contacts->string() +
+                     ": has the contacts of one method; name it with --method");
   collide::Settings settings;
   settings.self_collision = options.detect.self_collision;
   apply(options.detection, settings);
-  const Sequence sequence = read_sequence(options.detect);
+  std::vector<std::string> notes;
+  SequenceTask task = read_sequence(options, notes);
+  task.settings = settings;
   if (automatic_cell_size(options.detection, true))
-    settings.cell_size = collide::default_cell_size(sequence.frame(0), settings.levels, settings.tolerance);
-  const std::vector<DetectRow> rows = run(options, method, settings, sequence);
-  std::vector<std::string> notes = warnings(method, settings);
-  std::ranges::copy(sequence.notes, std::back_inserter(notes));
-  if (options.json)
-    print_json(options, method, notes, sequence.bodies, rows);
-  else
-    print_table(options, method, notes, sequence.bodies, rows);
+    task.settings.cell_size = collide::default_cell_size(task.frames[0].view(), settings.levels, settings.tolerance);
+  const Given given{options, task, notes};
+  if (compares) {
+    const MethodRuns all = run_all_methods(task);
+    if (!options.json) return print_table(given, all);
+    Json list = Json::array();
+    for (const MethodRun& run : all.runs) list.push_back(to_json(given, run, &all));
+    std::cout << list.dump() << '\n';
+  } else {
+    const MethodRun run = run_one(*method, options, task);
+    if (!options.json) return print_table(given, run);
+    std::cout << to_json(given, run, nullptr).dump() << '\n';
+  }
 }
 
 }  // namespace app::cli

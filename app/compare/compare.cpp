@@ -30,6 +30,17 @@ std::size_t method_index(std::string_view key) {
   return static_cast<std::size_t>(method - collide::method_table().data());
 }
 
+std::optional<std::size_t> choose_reference(const collide::Method& beside,
+                                            const std::function<bool(std::size_t)>& can_run) {
+  const std::size_t brute_force = method_index(collide::reference_method);
+  if (can_run(brute_force)) return brute_force;
+  for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
+    const collide::Method& method = collide::method_table()[i];
+    if (method.exact && method.uses_levels != beside.uses_levels && i != brute_force && can_run(i)) return i;
+  }
+  return std::nullopt;
+}
+
 Comparison::Comparison(std::uint32_t seed, std::uint64_t budget) : budget_(budget), random_(seed) { make_detectors(); }
 
 /// Replaces the detectors, since those of another world may hold much memory.
@@ -95,18 +106,10 @@ void Comparison::detect(std::size_t method, const FrameSnapshot& snapshot) {
 
 std::optional<std::size_t> Comparison::find_reference(const FrameSnapshot& snapshot,
                                                       std::string& reference_note) const {
-  const std::size_t brute_force = method_index(collide::reference_method);
-  const WorkEstimate work = cost_model_.of(brute_force);
-  if (work.cost() <= budget_) return brute_force;
-  reference_note = "brute force would take " + work.in_words();
-  // A method with levels and one without share the least code.
-  const bool driver_uses_levels = collide::method_table()[snapshot.driver].uses_levels;
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    const collide::Method& method = collide::method_table()[i];
-    if (i == brute_force || !method.exact || method.uses_levels == driver_uses_levels) continue;
-    if (entries_[i].done || cost_model_.of(i).cost() <= budget_) return i;
-  }
-  return std::nullopt;
+  if (const WorkEstimate work = cost_model_.of(method_index(collide::reference_method)); work.cost() > budget_)
+    reference_note = "brute force would take " + work.in_words();
+  return choose_reference(collide::method_table()[snapshot.driver],
+                          [&](std::size_t i) { return entries_[i].done || cost_model_.of(i).cost() <= budget_; });
 }
 
 void Comparison::score(const FrameSnapshot& snapshot, CompareReport& report) const {

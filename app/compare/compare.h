@@ -1,6 +1,7 @@
 #pragma once
 // Compares methods on a copy of one frame: the cost of each, and how many of the true contacts it finds.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <random>
@@ -15,6 +16,12 @@ namespace app::compare {
 
 /// Returns the index of a key in collide::method_table(), which must have it.
 std::size_t method_index(std::string_view key);
+
+/// Returns the method whose contacts count as the true ones: brute force if can_run(its index), else the first exact
+/// method that can run and shares little code with `beside`. A method with levels and one without share least. Returns
+/// nothing if there is none.
+std::optional<std::size_t> choose_reference(const collide::Method& beside,
+                                            const std::function<bool(std::size_t)>& can_run);
 
 /// A copy of one frame, and the methods to run on it.
 struct FrameSnapshot {
