@@ -1,6 +1,6 @@
 #include "softbody/scene/recording.h"
 
-#include "collide/core/settings.h"
+#include "collide/methods.h"
 
 namespace softbody {
 

@@ -5,7 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "collide/core/frame.h"
+#include <glm/vec3.hpp>
+
 #include "softbody/model/body_model.h"
 
 namespace softbody {
