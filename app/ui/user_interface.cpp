@@ -20,6 +20,8 @@ void UserInterface::draw(Session& session, UiState& ui, float scale, double seco
   ui.import.update(session);
   sweep_view_.update();
   ui.tour.update(session, &ui.view);
+  for (const render::OverlayRow& row : render::overlay_table)
+    if (row.needs_solver && !session.why_no_solver().empty()) ui.overlays.*row.shown = false;
   session.comparison.choice.on = ui.lower == LowerView::comparison;
   session.comparison.choice.with_paper = ui.marks_story();
   session.comparison.choice.with_misses = ui.overlays.missed;

@@ -2,6 +2,7 @@
 // Bodies whose motion is recorded, frame by frame. A world of a scene with a recording plays it and simulates nothing.
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
