@@ -10,87 +10,33 @@
 
 #include "app/base/timings.h"
 #include "app/files/contacts_csv.h"
-#include "app/files/obj_reader.h"
+#include "app/files/frame_sequence.h"
 
 namespace app::cli {
 namespace {
 
-using collide::Index;
-
-/// The content of the files, which are consecutive frames of the same bodies.
-struct Sequence {
-  std::vector<files::ObjBodies> frames;  // only the first keeps its edges, and only until the bodies are made
-  collide::Bodies bodies;
-  std::vector<std::string> notes;  // of the first file; further ones begin with the name of their file
-
-  /// Adds the notes of a file.
-  void note(const std::string& file, const files::ObjBodies& read) {
-    for (const std::string& text : read.notes) {
-      if (std::ranges::find(notes, text) == notes.end())
-        notes.push_back(frames.size() == 1 && &read == &frames[0] ? text : file + ": " + text);
-    }
-  }
-
-  collide::Frame frame(std::size_t number) const {
-    const files::ObjBodies& f = frames[number];
-    return {f.x, f.y, f.z, &bodies};
-  }
-};
-
-void require_match(const files::ObjBodies& bodies, const std::string& file, const files::ObjBodies& first,
-                   const std::string& first_file) {
-  const auto refuse = [&](const std::string& what, std::size_t here, std::size_t there) {
-    throw UsageError(file + ": " + what + " " + std::to_string(here) + ", in " + first_file + " " +
-                     std::to_string(there) + "; give files that match body by body");
-  };
-  if (bodies.count() != first.count()) refuse("number of bodies", bodies.count(), first.count());
-  for (std::size_t b = 0; b < bodies.count(); ++b) {
-    if (bodies.size(b) != first.size(b)) refuse("vertices of body " + std::to_string(b), bodies.size(b), first.size(b));
-  }
-}
-
-/// Makes the bodies of a mesh. rest: nullptr, or the same bodies at rest. Consecutive copies of a mesh share a
-/// topology.
-collide::Bodies make_bodies(const files::ObjBodies& mesh, const files::ObjBodies* rest) {
-  collide::Bodies bodies;
-  std::shared_ptr<const collide::Topology> topology;
-  for (std::size_t b = 0; b < mesh.count(); ++b) {
-    if (b == 0 || mesh.size(b) != mesh.size(b - 1) || mesh.edges[b] != mesh.edges[b - 1])
-      topology = std::make_shared<collide::Topology>(mesh.size(b), mesh.edges[b]);
-    std::vector<glm::vec3> positions;
-    for (Index v = mesh.first[b]; rest && v < mesh.first[b + 1]; ++v)
-      positions.emplace_back(rest->x[v], rest->y[v], rest->z[v]);
-    bodies.add(std::make_shared<collide::Shape>(topology, std::move(positions)));
-  }
-  return bodies;
-}
-
 // All frames stay in memory, so that the times do not include reading.
 constexpr std::size_t max_positions = std::size_t{1} << 27;  // of all frames together: 1.5 GiB
 
+/// The content of the files, which are consecutive frames of the same bodies.
+struct Sequence {
+  std::vector<files::SequenceFrame> frames;
+  std::vector<std::string> notes;
+
+  const files::BodyMeshes& meshes() const { return frames.front().of->meshes; }
+  const collide::Bodies& bodies() const { return frames.front().of->bodies; }
+};
+
 Sequence read_sequence(const DetectOptions& options) {
+  files::FrameSequence files({options.files.begin(), options.files.end()}, {.by = options.by, .rest = options.rest});
+  const std::size_t vertices = files.bodies()->bodies.vertex_count();
+  if (vertices * files.count() > max_positions)
+    throw UsageError(std::to_string(files.count()) + " files of " + std::to_string(vertices) +
+                     " vertices each: at most " + std::to_string(max_positions) +
+                     " together; give fewer files at a time");
   Sequence sequence;
-  const std::string& first_file = options.files.front();
-  for (const std::string& file : options.files) {
-    sequence.frames.push_back(files::read_obj(file));
-    sequence.note(file, sequence.frames.back());
-    require_match(sequence.frames.back(), file, sequence.frames.front(), first_file);
-    if (sequence.frames.size() > 1) sequence.frames.back().edges = {};
-    const std::size_t vertices = sequence.frames.front().x.size(), files = options.files.size();
-    if (vertices * files > max_positions)
-      throw UsageError(std::to_string(files) + " files of " + std::to_string(vertices) + " vertices each: at most " +
-                       std::to_string(max_positions) + " together; give fewer files at a time");
-  }
-  files::ObjBodies& first = sequence.frames.front();
-  if (options.rest) {
-    const files::ObjBodies rest = files::read_obj(*options.rest);
-    sequence.note(*options.rest, rest);
-    require_match(rest, *options.rest, first, first_file);
-    sequence.bodies = make_bodies(first, &rest);
-  } else {
-    sequence.bodies = make_bodies(first, nullptr);
-  }
-  first.edges = {};
+  for (std::size_t f = 0; f < files.count(); ++f) sequence.frames.push_back(files.read(f));
+  sequence.notes = files.notes();
   return sequence;
 }
 
@@ -124,14 +70,16 @@ std::vector<DetectRow> run(const Options& options, const collide::Method& method
     auto detector = method.make();
     for (std::size_t f = 0; f < rows.size(); ++f) {
       if (!options.detect.reuse) detector->forget();
-      const collide::Frame frame = sequence.frame(f);
+      const collide::Frame frame = sequence.frames[f].view();
       rows[f].times.ms.push_back(timed_detect(*detector, frame, settings, workers, result, options.detect.files[f]));
       if (repetition > 0) continue;
       rows[f].contacts = result.contacts.size();
       rows[f].self_contacts = result.self_contacts;
       rows[f].counters = result.counters;
       rows[f].skipped = result.skipped;
-      if (csv) csv->add(f, frame, result.contacts);  // now, because the lists of all frames may be too large to keep
+      if (csv)
+        csv->add(f, frame, sequence.meshes().file_vertex,
+                 result.contacts);  // now, because the lists of all frames may be too large to keep
     }
   }
   if (csv) csv->commit();
@@ -185,14 +133,14 @@ void detect(const Options& options) {
   apply(options.detection, settings);
   const Sequence sequence = read_sequence(options.detect);
   if (automatic_cell_size(options.detection, true))
-    settings.cell_size = collide::default_cell_size(sequence.frame(0), settings.levels, settings.tolerance);
+    settings.cell_size = collide::default_cell_size(sequence.frames[0].view(), settings.levels, settings.tolerance);
   const std::vector<DetectRow> rows = run(options, method, settings, sequence);
   std::vector<std::string> notes = warnings(method, settings);
   std::ranges::copy(sequence.notes, std::back_inserter(notes));
   if (options.json)
-    print_json(options, method, notes, sequence.bodies, rows);
+    print_json(options, method, notes, sequence.bodies(), rows);
   else
-    print_table(options, method, notes, sequence.bodies, rows);
+    print_table(options, method, notes, sequence.bodies(), rows);
 }
 
 }  // namespace app::cli

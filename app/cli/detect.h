@@ -5,7 +5,7 @@
 
 namespace app::cli {
 
-/// Prints the figures as a table or as JSON, and writes the contacts on request. Throws UsageError or ObjError.
+/// Prints the figures as a table or as JSON, and writes the contacts on request. Throws UsageError or MeshFileError.
 void detect(const Options& options);
 
 }  // namespace app::cli

@@ -128,10 +128,26 @@ CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::
   return simulate;
 }
 
+void add_bodies_option(CLI::App& command, std::optional<files::BodiesBy>& by) {
+  command
+      .add_option_function<std::string>(
+          "--bodies",
+          [&by](const std::string& key) {
+            const auto* choice = std::ranges::find(files::bodies_by_keys, key, &files::BodiesByKey::key);
+            if (choice == files::bodies_by_keys.end())
+              throw UsageError("--bodies " + key + ": unknown; use one of: objects, components, one");
+            by = choice->value;
+          },
+          "what a body is: each object of a file, each part that faces connect, or all as one (default: objects for "
+          "OBJ, components for PLY)")
+      ->type_name("objects|components|one");
+}
+
 CLI::App* add_detect(CLI::App& cli, Options& options) {
   DetectOptions& d = options.detect;
   CLI::App* detect = cli.add_subcommand("detect", "find the contacts in meshes of your own");
-  detect->add_option("FILE", d.files, "OBJ files: consecutive frames; each object is a body")->required();
+  detect->add_option("FILE", d.files, "OBJ or PLY files: consecutive frames of the same bodies")->required();
+  add_bodies_option(*detect, d.by);
   add_common_options(*detect, options);
   detect->get_option("--tolerance")->required();
   detect->add_flag("--self,!--no-self", d.self_collision,
@@ -246,8 +262,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   cli.require_subcommand(0, 1);
   add_scene_options(cli, options);
   cli.add_option("--size", size, "size of the window or the pictures in pixels")->type_name("WxH");
-  cli.add_option("--mesh", options.meshes, "OBJ files whose bodies join the scene in the window")
-      ->type_name("FILE.obj")
+  cli.add_option("--mesh", options.meshes, "OBJ or PLY files whose bodies join the scene in the window")
+      ->type_name("FILE")
       ->check(CLI::ExistingFile);
 
   const CLI::App* simulate = add_simulate(cli, options, size, captures);

@@ -8,6 +8,7 @@
 
 #include "app/base/usage_error.h"
 #include "app/cli/detection_options.h"
+#include "app/files/body_file.h"
 #include "app/report/report.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/scene/scene.h"
@@ -18,8 +19,9 @@ enum class Command { demo, simulate, detect, report, list };
 
 /// The options of `detect` alone.
 struct DetectOptions {
-  std::vector<std::string> files;                 // OBJ, at least one
-  std::optional<std::string> rest;                // OBJ: pairs closer than the tolerance in it are not self-collisions
+  std::vector<std::string> files;                 // meshes, at least one
+  std::optional<files::BodiesBy> by;              // what a body is; otherwise the format's default
+  std::optional<std::string> rest;                // mesh: pairs closer than the tolerance in it are not self-collisions
   std::optional<std::filesystem::path> contacts;  // the CSV file to write
   bool self_collision = true;
   int repeat = 1;
@@ -41,7 +43,7 @@ struct Options {
   double frame_time = 1.0 / 60.0;   // s
   int width = 1280, height = 720;   // pixels
   bool size_given = false;          // the window opens in this size, not in that of the last run
-  std::vector<std::string> meshes;  // OBJ files to open in the window
+  std::vector<std::string> meshes;  // mesh files to open in the window
   int frames = 800;
   std::vector<int> captures;                       // frames to take pictures of, ascending
   std::optional<std::filesystem::path> animation;  // the animated image to write

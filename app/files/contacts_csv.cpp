@@ -1,8 +1,10 @@
 #include "app/files/contacts_csv.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace app::files {
 namespace {
@@ -32,13 +34,24 @@ class Line {
 ContactsCsv::ContactsCsv(const std::filesystem::path& path)
     : file_(path, "frame,vertex_a,vertex_b,body_a,body_b,distance\n") {}
 
-void ContactsCsv::add(std::size_t number, const collide::Frame& frame, const std::vector<collide::Contact>& contacts) {
+void ContactsCsv::add(std::size_t number, const collide::Frame& frame, std::span<const collide::Index> file_vertex,
+                      const std::vector<collide::Contact>& contacts) {
   const auto& [x, y, z, bodies] = frame;
-  for (const auto& [a, b] : contacts) {
+  const auto in_file = [&](const collide::Contact& c) { return std::minmax(file_vertex[c.a], file_vertex[c.b]); };
+  const auto comes_first = [&](const collide::Contact& c, const collide::Contact& d) {
+    return in_file(c) < in_file(d);
+  };
+  std::vector<collide::Contact> sorted;
+  if (!std::ranges::is_sorted(contacts, comes_first)) {
+    sorted = contacts;
+    std::ranges::sort(sorted, comes_first);
+  }
+  for (auto [a, b] : sorted.empty() ? contacts : sorted) {
+    if (file_vertex[a] > file_vertex[b]) std::swap(a, b);
     Line line;
     line.add(number, ',');
-    line.add(a, ',');
-    line.add(b, ',');
+    line.add(file_vertex[a], ',');
+    line.add(file_vertex[b], ',');
     line.add(bodies->body_of(a), ',');
     line.add(bodies->body_of(b), ',');
     line.add_distance(std::sqrt(collide::squared_distance(x[a], y[a], z[a], x[b], y[b], z[b])));

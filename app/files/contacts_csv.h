@@ -12,8 +12,10 @@ class ContactsCsv {
   /// table of contacts: if the user forgets the name after --contacts, the next mesh would be taken for it.
   explicit ContactsCsv(const std::filesystem::path& path);
 
-  /// Adds a line for each contact of frame `number`, in their order.
-  void add(std::size_t number, const collide::Frame& frame, const std::vector<collide::Contact>& contacts);
+  /// Adds a line for each contact of frame `number`. file_vertex: by vertex, its number in the file, which the table
+  /// has; its lines are in ascending order of these numbers.
+  void add(std::size_t number, const collide::Frame& frame, std::span<const collide::Index> file_vertex,
+           const std::vector<collide::Contact>& contacts);
   /// Puts the finished file into its place. Without this call there is no file.
   void commit() { file_.commit(); }
 

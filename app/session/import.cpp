@@ -12,7 +12,7 @@
 #include "app/base/text.h"
 #include "softbody/contact/keys.h"
 #include "softbody/forces/springs.h"
-#include "softbody/mesh/obj_file.h"
+#include "softbody/mesh/file_mesh.h"
 #include "softbody/model/body_model.h"
 #include "softbody/world/body_model_set.h"
 #include "softbody/world/measures.h"
@@ -138,7 +138,7 @@ void Import::open(Session& session) {
     return read(FileReader::SceneToRead{file, session.simulation.threads(), session.scenes.presets_file()});
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending != ".obj") return refuse(path + ": neither a mesh (.obj) nor a scene (.toml)");
+  if (ending != ".obj" && ending != ".ply") return refuse(path + ": neither a mesh (.obj, .ply) nor a scene (.toml)");
   softbody::MeshFile mesh{.path = std::filesystem::absolute(file), .size = double{size}, .weld = weld};
   if (z_is_up) mesh.up = {0, 0, 1};
   read(std::move(mesh));

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cassert>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
@@ -49,6 +50,14 @@ bool LineReader::next(std::string_view& line) {
   line = {buffer_.data() + begin_, end};
   begin_ += after;
   return true;
+}
+
+std::string_view LineReader::bytes(std::size_t count) {
+  assert(count <= max_line_length);
+  while (end_ - begin_ < count)
+    if (!read_more()) return {};
+  begin_ += count;
+  return {buffer_.data() + begin_ - count, count};
 }
 
 /// Joins the line with the next one and returns true, if the line ends with a backslash. Does not join them if the next

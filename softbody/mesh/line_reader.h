@@ -1,5 +1,5 @@
 #pragma once
-// Reads the lines of a text file, such as an OBJ file, of any size, piece by piece.
+// Reads the lines of a text file, such as an OBJ file, of any size, piece by piece; also files with a binary part.
 
 #include <cstdint>
 #include <filesystem>
@@ -24,7 +24,10 @@ class LineReader {
   /// with a letter or #; the backslash and the line end become spaces. Ctrl-Z and NUL at the end of the file are
   /// skipped. Throws std::length_error if the line is longer than max_line_length.
   bool next(std::string_view& line);
-  /// Returns the number, from 1, of the line that next() returned or at which it threw. Of joined lines it is the
+  /// Returns the next `count` bytes as they are; empty if the file has fewer. They are valid until the next call.
+  /// count: at most max_line_length.
+  std::string_view bytes(std::size_t count);
+  /// Returns the number, from 1, of the line that next() returned last or at which it threw. Of joined lines it is the
   /// number of the first one.
   std::uint64_t number() const { return number_; }
 

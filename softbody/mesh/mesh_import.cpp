@@ -12,8 +12,8 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "softbody/mesh/file_mesh.h"
 #include "softbody/mesh/limits.h"
-#include "softbody/mesh/obj_file.h"
 #include "softbody/mesh/polygon.h"
 #include "softbody/mesh/shortest_text.h"
 #include "softbody/mesh/surface.h"
@@ -45,13 +45,13 @@ class Importer {
   explicit Importer(const MeshFile& file) : file_(file), name_(file.path.string()) { require_sensible_file(); }
 
   ImportedMesh run() {
-    obj_ = read_obj_file(file_.path);
-    findings_.file_vertices = obj_.x.size();
-    findings_.file_faces = obj_.faces.size();
-    findings_.weights = obj_.weights;
-    if (obj_.faces.empty()) fail("has no face (line f); export it as a mesh of polygons, not as points or lines");
+    mesh_file_ = read_file_mesh(file_.path);
+    findings_.file_vertices = mesh_file_.x.size();
+    findings_.file_faces = mesh_file_.faces.size();
+    findings_.weights = mesh_file_.weights;
+    if (mesh_file_.faces.empty()) fail("has no face; export it as a mesh of polygons, not as points or lines");
     place();
-    welded_to_ = weld(obj_, position_, file_.weld * findings_.extent);
+    welded_to_ = weld(mesh_file_, position_, file_.weld * findings_.extent);
     for (Index v = 0; v < welded_to_.size(); ++v) findings_.welded_vertices += welded_to_[v] != v;
     take_outlines();
     cut_polygons();
@@ -62,9 +62,9 @@ class Importer {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw ObjError(name_ + ": " + what); }
-  [[noreturn]] void fail(std::uint64_t line, const std::string& what) const {
-    throw ObjError(name_ + ":" + std::to_string(line) + ": " + what);
+  [[noreturn]] void fail(const std::string& what) const { throw MeshFileError(name_ + ": " + what); }
+  [[noreturn]] void fail_at(std::size_t polygon, const std::string& what) const {
+    throw MeshFileError(name_ + ":" + mesh_file_.place(outlines_.face[polygon]) + ": " + what);
   }
 
   void require_sensible_file() const {
@@ -77,14 +77,14 @@ class Importer {
 
   /// Finds positions in metres. The origin is the middle of the bounding box of the vertices that faces use.
   void place() {
-    const std::size_t count = obj_.x.size();
+    const std::size_t count = mesh_file_.x.size();
     std::vector<char> used(count, false);
-    for (const Index corner : obj_.corners) used[corner] = true;
+    for (const Index corner : mesh_file_.corners) used[corner] = true;
     findings_.unused_vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), char(false)));
     const glm::dmat3 turn = to_y(file_.up);
     Box box;
     for (std::size_t i = 0; i < count; ++i) {
-      position_.push_back(turn * glm::dvec3(obj_.x[i], obj_.y[i], obj_.z[i]));
+      position_.push_back(turn * glm::dvec3(mesh_file_.x[i], mesh_file_.y[i], mesh_file_.z[i]));
       if (used[i]) box.add(position_.back());
     }
     findings_.file_extent = box.extent();
@@ -100,7 +100,7 @@ class Importer {
   }
 
   void take_outlines() {
-    outlines_ = outlines(obj_, welded_to_);
+    outlines_ = outlines(mesh_file_, welded_to_);
     findings_.degenerate_faces = outlines_.degenerate_faces;
     findings_.duplicate_faces = outlines_.duplicate_faces;
     std::vector<char> used(position_.size(), false);
@@ -111,11 +111,9 @@ class Importer {
            " are allowed: simplify the mesh first");
     for (std::size_t p = 0; p < outlines_.face.size(); ++p)
       if (const std::size_t corners = outlines_.polygons[p].size(); corners > max_polygon_corners)
-        fail(line_of(p), "a face of " + std::to_string(corners) + " corners; at most " +
-                             std::to_string(max_polygon_corners) + " are allowed: export triangles");
+        fail_at(p, "a face of " + std::to_string(corners) + " corners; at most " + std::to_string(max_polygon_corners) +
+                       " are allowed: export triangles");
   }
-
-  std::uint64_t line_of(std::size_t polygon) const { return obj_.faces[outlines_.face[polygon]].line; }
 
   void cut_polygons() {
     try {
@@ -123,8 +121,8 @@ class Importer {
       mesh_.triangles = std::move(cut.triangles);
       polygon_of_ = std::move(cut.polygon);
     } catch (const PolygonError& error) {
-      fail(
-          line_of(error.polygon),
+      fail_at(
+          error.polygon,
           "a face that cannot be cut into triangles: each cut runs along an edge or a cut of other faces with the same "
           "vertices; repair the mesh, or export triangles");
     }
@@ -167,30 +165,33 @@ class Importer {
     std::sort(faces.begin(), faces.end());
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     const std::size_t first = faces.front(), listed = std::min(faces.size(), std::size_t{4});
-    std::string lines = (listed > 1 ? "lines " : "line ") + std::to_string(obj_.faces[first].line);
+    std::string places = mesh_file_.has_lines() ? "line" : "face";
+    places.append(listed > 1 ? "s " : " ").append(std::to_string(mesh_file_.number_of(first)));
     for (std::size_t i = 1; i < listed; ++i)
-      lines.append(i + 1 < listed ? ", " : " and ").append(std::to_string(obj_.faces[faces[i]].line));
-    const std::string what = error.triangles.size() == 2
-                                 ? "the surface "
-                                 : "the edge between vertices " + edge_in(first, error.edge) + " (counted from 1) ";
-    return what + error.what() + ": see " + lines + "; repair the mesh, or change weld " + where_weld_is;
+      places.append(i + 1 < listed ? ", " : " and ").append(std::to_string(mesh_file_.number_of(faces[i])));
+    if (!mesh_file_.has_lines()) places += " (counted from 0)";
+    const std::string what =
+        error.triangles.size() == 2 ? "the surface " : "the edge between vertices " + edge_in(first, error.edge) + " ";
+    return what + error.what() + ": see " + places + "; repair the mesh, or change weld " + where_weld_is;
   }
 
-  /// Returns the vertex numbers, from 1, that a face of the file has at its side that became this edge of the mesh.
+  /// Returns the vertex numbers that a face of the file has at its side that became this edge of the mesh.
   std::string edge_in(std::size_t face, const Edge& edge) const {
-    const std::size_t begin = face > 0 ? obj_.faces[face - 1].end : 0, end = obj_.faces[face].end;
+    const std::size_t begin = face > 0 ? mesh_file_.faces[face - 1].end : 0, end = mesh_file_.faces[face].end;
     const Edge welded = ordered(in_file_[edge[0]], in_file_[edge[1]]);
     Edge ends = welded;
     for (std::size_t i = begin; i < end; ++i) {
-      const Index a = obj_.corners[i], b = obj_.corners[i + 1 < end ? i + 1 : begin];
+      const Index a = mesh_file_.corners[i], b = mesh_file_.corners[i + 1 < end ? i + 1 : begin];
       if (ordered(welded_to_[a], welded_to_[b]) == welded) ends = ordered(a, b);
     }
-    return std::to_string(ends[0] + std::uint64_t{1}) + " and " + std::to_string(ends[1] + std::uint64_t{1});
+    const std::uint64_t from = mesh_file_.first_number();
+    return std::to_string(ends[0] + from) + " and " + std::to_string(ends[1] + from) + " (counted from " +
+           std::to_string(from) + ")";
   }
 
   const MeshFile& file_;
   std::string name_;
-  ObjFile obj_;
+  FileMesh mesh_file_;
   std::vector<glm::dvec3> position_;  // of each vertex of the file
   std::vector<Index> welded_to_;      // vertex of the file
   Outlines outlines_;

@@ -1,5 +1,5 @@
 #pragma once
-// Imports a mesh from a Wavefront OBJ file and prepares it for a soft body: seams are welded, polygons are cut into
+// Imports a mesh from an OBJ or PLY file and prepares it for a soft body: seams are welded, polygons are cut into
 // triangles, unused vertices are dropped, faces are turned outwards, and the surface is checked.
 
 #include <filesystem>
@@ -41,9 +41,9 @@ struct ImportedMesh {
 inline constexpr std::size_t max_imported_vertices = 100'000;                    // after welding
 inline constexpr std::uintmax_t max_mesh_file_size = std::uintmax_t{256} << 20;  // bytes
 
-/// Imports all objects of the file as one mesh. Throws ObjError (obj_file.h) if the file cannot be read, has no face or
-/// is too large, or if the surface has an edge with more than two faces, has one side only, or is closed without a
-/// volume.
+/// Imports all objects of the file as one mesh. Throws MeshFileError (file_mesh.h) if the file cannot be read, has no
+/// face or is too large, or if the surface has an edge with more than two faces, has one side only, or is closed
+/// without a volume.
 ImportedMesh import_mesh(const MeshFile& file);
 
 /// Returns one line for people, e.g. "12 vertices welded, 3 unused ones dropped; open; 2 components". It is empty for a

@@ -17,7 +17,7 @@ struct MeshSource {
   double width = 3, depth = 3;                     // m, grid
   MeshFile file{};                                 // file
   std::shared_ptr<const ImportedMesh> imported{};  // file: the imported mesh, shared by all its bodies
-  /// Imports the file. Throws ObjError.
+  /// Imports the file. Throws MeshFileError.
   static MeshSource from_file(const MeshFile& file);
   Mesh make() const;
   std::uint64_t vertex_count() const;  // of the mesh, found without making it

@@ -93,17 +93,15 @@ std::vector<Index> outline_key(std::vector<Index> polygon) {
 
 class Seams {
  public:
-  Seams(const ObjFile& file, std::vector<Index> place)
+  Seams(const FileMesh& file, std::vector<Index> place)
       : place_(std::move(place)),
         object_(place_.size()),
         without_length_(place_.size()),
         pieces_(place_.size()),
         scope_(place_.size(), Scope::file) {
-    std::size_t face = 0;
     Index object = 0;
-    file.for_each_face([&](std::span<const Index> corners, std::uint64_t) {
+    file.for_each_face([&](std::span<const Index> corners, std::size_t face) {
       while (object + 1 < file.objects.size() && file.objects[object + 1].first_face <= face) ++object;
-      ++face;
       for (const Index corner : corners) object_[corner] = object;
       for (std::size_t i = 0; i < corners.size(); ++i)
         if (const Index a = corners[i], b = corners[(i + 1) % corners.size()]; place_[a] == place_[b])
@@ -251,13 +249,11 @@ class Seams {
 
 }  // namespace
 
-Outlines outlines(const ObjFile& file, std::span<const Index> welded_to) {
+Outlines outlines(const FileMesh& file, std::span<const Index> welded_to) {
   Outlines found;
   std::set<std::vector<Index>> known;
-  std::size_t number = 0;
   std::vector<Index> outline;
-  file.for_each_face([&](std::span<const Index> corners, std::uint64_t) {
-    const std::size_t face = number++;
+  file.for_each_face([&](std::span<const Index> corners, std::size_t face) {
     outline.clear();
     for (const Index corner : corners) {
       const Index v = welded_to[corner];
@@ -282,7 +278,7 @@ Outlines outlines(const ObjFile& file, std::span<const Index> welded_to) {
   return found;
 }
 
-std::vector<Index> weld(const ObjFile& file, std::span<const glm::dvec3> points, double distance) {
+std::vector<Index> weld(const FileMesh& file, std::span<const glm::dvec3> points, double distance) {
   assert(distance >= 0 && points.size() == file.x.size());
   std::vector<char> used(points.size(), false);
   double reach = 0;

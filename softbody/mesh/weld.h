@@ -1,11 +1,11 @@
 #pragma once
-// Welds the seams of an OBJ file: vertices at the same place become one.
+// Welds the seams of a mesh file: vertices at the same place become one.
 
 #include <cstddef>
 #include <span>
 #include <vector>
 
-#include "softbody/mesh/obj_file.h"
+#include "softbody/mesh/file_mesh.h"
 #include "softbody/mesh/polygon.h"
 
 namespace softbody {
@@ -18,7 +18,7 @@ struct Outlines {
   std::size_t degenerate_faces = 0;  // left out: fewer than three corners remained
   std::size_t duplicate_faces = 0;   // left out: an earlier face has the same outline, in either direction
 };
-Outlines outlines(const ObjFile& file, std::span<const Index> welded_to);
+Outlines outlines(const FileMesh& file, std::span<const Index> welded_to);
 
 /// Returns for each vertex the vertex that it is welded to. Vertices no further apart than `distance` count as at the
 /// same place. Two of them are welded if a side of a face connects them, or if both are ends of open sides, which have
@@ -30,6 +30,6 @@ Outlines outlines(const ObjFile& file, std::span<const Index> welded_to);
 ///   4. all of them; the mesh then has an edge with more than two faces and is refused.
 /// A piece whose faces all lie on faces of other pieces is welded to those pieces. distance: >= 0, in units of
 /// `points`.
-std::vector<Index> weld(const ObjFile& file, std::span<const glm::dvec3> points, double distance);
+std::vector<Index> weld(const FileMesh& file, std::span<const glm::dvec3> points, double distance);
 
 }  // namespace softbody

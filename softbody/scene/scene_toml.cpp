@@ -11,8 +11,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "softbody/forces/material_keys.h"
+#include "softbody/mesh/file_mesh.h"
 #include "softbody/mesh/limits.h"
-#include "softbody/mesh/obj_file.h"
 #include "softbody/scene/limits.h"
 #include "softbody/scene/scene.h"
 #include "softbody/scene/toml_table.h"
@@ -50,12 +50,12 @@ MeshSource read_mesh_file(Table& table, std::vector<MeshSource>& known) {
   file.weld = table.number("weld", file.weld, 0, 0.1);
   file.up = table.vector("up", file.up, -1, 1);
   if (glm::length(file.up) < 0.1) table.fail("up", "must point somewhere, e.g. [0, 0, 1]");
-  if (table.text("path", "").empty()) table.fail("path", "must name an OBJ file, relative to this one");
+  if (table.text("path", "").empty()) table.fail("path", "must name an OBJ or PLY file, relative to this one");
   for (const MeshSource& m : known)
     if (m.file == file) return m;
   try {
     return known.emplace_back(MeshSource::from_file(file));
-  } catch (const ObjError& error) {
+  } catch (const MeshFileError& error) {
     table.fail("path", std::string("cannot be used: ") + error.what());
   }
 }

@@ -9,7 +9,7 @@
 #include <set>
 #include <thread>
 
-#include "app/files/obj_reader.h"
+#include "app/files/body_file.h"
 #include "app/session/export/exporter.h"
 #include "softbody/model/body_model.h"
 #include "tests/app/scenes.h"
@@ -220,14 +220,14 @@ TEST_F(ExporterTest, WritesMotionThatReadsBackAsTheSameBodies) {
   EXPECT_EQ(names(folder.path() / "motion_0002").size(), 3u) << "another body needs another folder";
   const softbody::Mesh& mesh = session.world().model(0).mesh;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    const files::ObjBodies file =
-        files::read_obj(folder.path() / "motion_0001" / ("frame_0000" + std::to_string(i + 1) + ".obj"));
-    ASSERT_EQ(file.count(), 2u);
-    EXPECT_EQ(file.x, seen[i].x);
-    EXPECT_EQ(file.y, seen[i].y);
-    EXPECT_EQ(file.z, seen[i].z);
-    std::set<files::ObjBodies::Edge> edges, expected;
-    for (const auto& [a, b] : file.edges[1]) edges.insert({std::min(a, b), std::max(a, b)});
+    const files::BodyFile file =
+        files::read_bodies(folder.path() / "motion_0001" / ("frame_0000" + std::to_string(i + 1) + ".obj"));
+    ASSERT_EQ(file.meshes.count(), 2u);
+    EXPECT_EQ(file.at.x, seen[i].x);
+    EXPECT_EQ(file.at.y, seen[i].y);
+    EXPECT_EQ(file.at.z, seen[i].z);
+    std::set<files::BodyMeshes::Edge> edges, expected;
+    for (const auto& [a, b] : file.meshes.edges(1)) edges.insert({std::min(a, b), std::max(a, b)});
     for (const auto& [a, b] : mesh.edges) expected.insert({a, b});
     EXPECT_EQ(edges, expected);
   }

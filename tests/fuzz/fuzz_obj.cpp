@@ -1,19 +1,22 @@
 // Arbitrary text as an OBJ file, for `detect` and as the mesh of a soft body: it is read or refused in one line.
 
-#include "app/files/obj_reader.h"
+#include "app/files/body_file.h"
 #include "require.h"
 #include "softbody/mesh/mesh_import.h"
 #include "text_file.h"
 
 namespace {
 
+using app::files::BodiesBy;
 using fuzz::require;
 
-void check(const app::files::ObjBodies& bodies) {
-  require(!bodies.first.empty() && bodies.first.back() == bodies.x.size(), "bodies do not own all vertices");
-  require(bodies.edges.size() == bodies.count(), "not a list of edges for each body");
+void check(const app::files::BodyFile& file) {
+  const app::files::BodyMeshes& bodies = file.meshes;
+  require(bodies.vertex_count() == file.at.x.size(), "bodies do not own all vertices");
+  require(bodies.first_polygon.size() == bodies.count() + 1, "not a list of polygons for each body");
+  require(bodies.first_polygon.back() == bodies.polygons.size(), "bodies do not own all polygons");
   for (std::size_t b = 0; b < bodies.count(); ++b)
-    for (const auto& [i, j] : bodies.edges[b]) require(i < bodies.size(b) && j < bodies.size(b), "an edge to nowhere");
+    for (const auto& [i, j] : bodies.edges(b)) require(i < bodies.size(b) && j < bodies.size(b), "an edge to nowhere");
 }
 
 void check(const softbody::Mesh& mesh) {
@@ -26,7 +29,7 @@ template <class Read>
 void try_to(const std::filesystem::path& file, const Read& read) {
   try {
     check(read());
-  } catch (const softbody::ObjError& error) {
+  } catch (const softbody::MeshFileError& error) {
     fuzz::require_one_line(error.what(), file);
   }
 }
@@ -36,7 +39,8 @@ void try_to(const std::filesystem::path& file, const Read& read) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static fuzz::TextFile text(".obj");
   const std::filesystem::path& file = text.write(data, size);
-  try_to(file, [&] { return app::files::read_obj(file); });
+  for (const BodiesBy by : {BodiesBy::objects, BodiesBy::components, BodiesBy::one})
+    try_to(file, [&] { return app::files::read_bodies(file, by); });
   softbody::MeshFile mesh;
   mesh.path = file;
   try_to(file, [&] { return softbody::import_mesh(mesh).mesh; });

@@ -11,7 +11,7 @@
 #include "softbody/forces/equilibrium.h"
 #include "softbody/forces/shape_matching.h"
 #include "softbody/integrate/force_stage.h"
-#include "softbody/mesh/obj_file.h"
+#include "softbody/mesh/file_mesh.h"
 #include "tests/softbody/helpers.h"
 #include "tests/softbody/obj_lines.h"
 

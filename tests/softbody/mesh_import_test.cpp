@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <sstream>
 
+#include "softbody/mesh/file_mesh.h"
 #include "softbody/mesh/limits.h"
-#include "softbody/mesh/obj_file.h"
 #include "tests/softbody/helpers.h"
 #include "tests/softbody/obj_lines.h"
 
@@ -25,7 +25,7 @@ ImportedMesh read(const std::string& obj, MeshFile file = {}) {
 std::string error_of(const std::string& obj, const MeshFile& file = {}) {
   try {
     read(obj, file);
-  } catch (const ObjError& e) {
+  } catch (const MeshFileError& e) {
     const std::string line = e.what();
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
     EXPECT_NE(line.find("a.obj"), std::string::npos) << line;
@@ -94,8 +94,8 @@ TEST(MeshImport, WhatIsTooSmallOrTooLargeIsRefused) {
   };
   EXPECT_NEAR(read(cube(0.50001 * min_body_size)).findings.extent, min_body_size, 1e-7);
   EXPECT_NEAR(read(cube(0.49999 * max_body_size)).findings.extent, max_body_size, 1);
-  EXPECT_THROW(read(cube(0.0004)), ObjError);
-  EXPECT_THROW(read(cube(6e3)), ObjError);
+  EXPECT_THROW(read(cube(0.0004)), MeshFileError);
+  EXPECT_THROW(read(cube(6e3)), MeshFileError);
   EXPECT_NEAR(read(cube(0.0004), {.size = 1}).findings.extent, 1, 1e-12);
 }
 
@@ -379,7 +379,7 @@ TEST(MeshImport, RefusesALargerFileUnread) {
   try {
     import_mesh({.path = file});
     FAIL() << "was taken";
-  } catch (const ObjError& e) {
+  } catch (const MeshFileError& e) {
     EXPECT_NE(std::string(e.what()).find("large.obj: is larger than 256 MiB"), std::string::npos) << e.what();
   }
 }

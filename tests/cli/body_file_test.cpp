@@ -7,29 +7,30 @@
 #include <string>
 #include <vector>
 
-#include "app/files/obj_reader.h"
+#include "app/files/body_file.h"
 #include "tests/cli/detect_rig.h"
 
 namespace cli::test {
 namespace {
 
-using app::files::ObjBodies;
-using Edges = std::vector<ObjBodies::Edge>;
+using app::files::BodyFile;
+using app::files::BodyMeshes;
+using Edges = std::vector<BodyMeshes::Edge>;
 
-ObjBodies read(const std::string& text) {
+BodyFile read(const std::string& text) {
   const TemporaryFolder folder;
-  return app::files::read_obj(folder.write("a.obj", text));
+  return app::files::read_bodies(folder.write("a.obj", text));
 }
 
 TEST(ReadObj, RoundsNumbersCorrectlyToFloats) {
   // By way of a double, the first number would be rounded twice and end one step too low.
-  const ObjBodies b = read(
+  const BodyFile b = read(
       "v 1.000000059604644775390626 16777217.0000001 0.1\nv 1e-50 -1e-400 7.1e-46\n"
       "v +.5 -2.E+1 3.4028235e38\n");
-  EXPECT_EQ(b.x, (std::vector<float>{1.00000011920928955f, 0.0f, 0.5f}));
-  EXPECT_EQ(b.y, (std::vector<float>{16777218.0f, 0.0f, -20.0f}));
-  EXPECT_EQ(b.z, (std::vector<float>{0.1f, 0x1p-149f, 3.4028235e38f}));
-  EXPECT_TRUE(std::signbit(b.y[1]));
+  EXPECT_EQ(b.at.x, (std::vector<float>{1.00000011920928955f, 0.0f, 0.5f}));
+  EXPECT_EQ(b.at.y, (std::vector<float>{16777218.0f, 0.0f, -20.0f}));
+  EXPECT_EQ(b.at.z, (std::vector<float>{0.1f, 0x1p-149f, 3.4028235e38f}));
+  EXPECT_TRUE(std::signbit(b.at.y[1]));
   std::mt19937 random(1);
   std::string text;
   std::vector<float> expected;
@@ -43,14 +44,15 @@ TEST(ReadObj, RoundsNumbersCorrectlyToFloats) {
     }
     text += "v " + number + " 0 0\n";
   }
-  EXPECT_EQ(read(text).x, expected);
+  EXPECT_EQ(read(text).at.x, expected);
 }
 
 TEST(ReadObj, MakesEachObjectABody) {
-  const ObjBodies b = read("v 0 0 0\nv 1 0 0\no\no named thing\nv 2 0 0\ng group\nv 3 0 0\nv 4 0 0\no last");
-  EXPECT_EQ(b.first, (std::vector<collide::Index>{0, 2, 2, 5, 5}));
-  EXPECT_EQ(read("o only\nv 0 0 0\n").first, (std::vector<collide::Index>{0, 1})) << "no body before the first o";
-  EXPECT_EQ(b.edges.size(), 4u);
+  const BodyFile b = read("v 0 0 0\nv 1 0 0\no\no named thing\nv 2 0 0\ng group\nv 3 0 0\nv 4 0 0\no last");
+  EXPECT_EQ(b.meshes.first, (std::vector<collide::Index>{0, 2, 2, 5, 5}));
+  EXPECT_EQ(read("o only\nv 0 0 0\n").meshes.first, (std::vector<collide::Index>{0, 1}))
+      << "no body before the first o";
+  EXPECT_EQ(b.meshes.count(), 4u);
 }
 
 TEST(ReadObj, ReadsPolygonEdgesFromAllFormsOfFaces) {
@@ -59,37 +61,37 @@ TEST(ReadObj, ReadsPolygonEdgesFromAllFormsOfFaces) {
   for (const char* face : {"f 2 3 4 5", "f 2/1 3/2 4/3 5/4", "f 2//1 3//1 4//1 5//1", "f 2/1/1 3/1/1 4/1/1 5/-1/-1",
                            "f 2// 3// 4// 5//", "f 2/ 3/ 4/ 5/", "f 2/1/ 3/1/ 4/-1/ 5", "f -4 -3 -2 -1",
                            "f\t2  3 4\t5 # a comment", "f 2 3 \\\n4 5", "f 2 3 4 5 \\\r\n"}) {
-    const ObjBodies b = read(points + face);
-    EXPECT_EQ(b.edges[1], quad) << face;
-    EXPECT_TRUE(b.edges[0].empty());
+    const BodyFile b = read(points + face);
+    EXPECT_EQ(b.meshes.edges(1), quad) << face;
+    EXPECT_TRUE(b.meshes.edges(0).empty());
   }
-  EXPECT_EQ(read("f 2 3 4\n" + points).edges[1], (Edges{{2, 0}, {0, 1}, {1, 2}})) << "a face may come first";
+  EXPECT_EQ(read("f 2 3 4\n" + points).meshes.edges(1), (Edges{{2, 0}, {0, 1}, {1, 2}})) << "a face may come first";
 }
 
 TEST(ReadObj, IgnoresOtherStatementsAndLayout) {
-  const ObjBodies b = read(
+  const BodyFile b = read(
       "\xEF\xBB\xBF# C:\\path\\\nv 1 2 3\r\n\r\n  v 4 5 6 1.0\r\nv 7 8 9 0.5 0.5 0.5\nvt 0 \\\n0\nvn 0 0 1\nvp 1\ng a "
       "b\ns off\n"
       "usemtl m\nmtllib x.mtl\nl 1 2\np 1\nobject 1\nv\t-1\t-2\t-3");
-  EXPECT_EQ(b.x, (std::vector<float>{1, 4, 7, -1}));
-  EXPECT_EQ(b.first, (std::vector<collide::Index>{0, 4}));
+  EXPECT_EQ(b.at.x, (std::vector<float>{1, 4, 7, -1}));
+  EXPECT_EQ(b.meshes.first, (std::vector<collide::Index>{0, 4}));
 }
 
 TEST(ReadObj, DoesNotContinueANameThatEndsInABackslash) {
   for (const std::string name : {"g a\\", "usemtl C:\\textures\\", "mtllib C:\\\\", "s \\ ", "# C:\\"}) {
-    const ObjBodies b =
+    const BodyFile b =
         read(name + "\nv 0 0 0\n" + name + "\r\nv 1 0 0\n" + name + "\rv 0 1 0\n" + name + "\nf 1 2 \\\n3\n");
-    EXPECT_EQ(b.x.size(), 3u) << name;
-    EXPECT_EQ(b.edges[0].size(), 3u) << name;
+    EXPECT_EQ(b.at.x.size(), 3u) << name;
+    EXPECT_EQ(b.meshes.edges(0).size(), 3u) << name;
   }
-  EXPECT_EQ(read("o a\\\nv 0 0 0\no b\\\nv 0 0 0\n").first, (std::vector<collide::Index>{0, 1, 2}));
+  EXPECT_EQ(read("o a\\\nv 0 0 0\no b\\\nv 0 0 0\n").meshes.first, (std::vector<collide::Index>{0, 1, 2}));
 }
 
 TEST(ReadObj, IgnoresWeightsAndColours) {
-  const ObjBodies b = read(
+  const BodyFile b = read(
       "v 1 2 3 nan nan nan\nv 4 5 6 1.#QNAN -1.#IND 0\nv 7 8 9 .5 .5\nv 1 1 1 1e999 -inf 2 0.5\nv 2 2 2 1.0\n"
       "v 3 3 3 2\nv 3 3 3 nan\nv 3 3 3 1.#QNAN\n");
-  EXPECT_EQ(b.x, (std::vector<float>{1, 4, 7, 1, 2, 3, 3, 3}));
+  EXPECT_EQ(b.at.x, (std::vector<float>{1, 4, 7, 1, 2, 3, 3, 3}));
   ASSERT_EQ(b.notes.size(), 1u);
   EXPECT_NE(b.notes[0].find("3 vertices have a weight other than 1"), std::string::npos) << b.notes[0];
 }
@@ -99,9 +101,9 @@ constexpr const char* six = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 4 0 0\nv 5 0 
 TEST(ReadObj, GivesObjectsTheVerticesThatTheirFacesName) {
   using First = std::vector<collide::Index>;
   const auto first_of = [](const std::string& text) {
-    const ObjBodies b = read(text);
+    const BodyFile b = read(text);
     EXPECT_EQ(b.notes, std::vector<std::string>{}) << text;
-    return b.first;
+    return b.meshes.first;
   };
   EXPECT_EQ(first_of(std::string(six) + "o a\nf 1 2 3\no b\nf 6 5 4\n"), (First{0, 3, 6}));
   EXPECT_EQ(first_of(std::string(six) + "o a\nf 2 3 4\no b\nf 5 6 5\n"), (First{0, 1, 4, 6}))
@@ -109,14 +111,14 @@ TEST(ReadObj, GivesObjectsTheVerticesThatTheirFacesName) {
   EXPECT_EQ(first_of(std::string(six) + "f 1 2 1\no a\nf 4 3 3\no none\no b\nf 5 6 5\n"), (First{0, 2, 4, 4, 6}));
   EXPECT_EQ(first_of(std::string(six) + "o a\nf 1 2 1\nf 2 3 2\n"), (First{0, 6}));
   EXPECT_EQ(first_of(std::string(six) + "o a\no b\n"), (First{0, 6, 6, 6})) << "without faces, empty objects stay so";
-  EXPECT_EQ(read(std::string(six) + "o a\nf 1 2 3\no b\nf 6 5 4\n").edges[1], (Edges{{0, 2}, {2, 1}, {1, 0}}));
+  EXPECT_EQ(read(std::string(six) + "o a\nf 1 2 3\no b\nf 6 5 4\n").meshes.edges(1), (Edges{{0, 2}, {2, 1}, {1, 0}}));
 }
 
 TEST(ReadObj, NotesObjectsWithoutVerticesOfTheirOwn) {
   const auto noted = [](const std::string& text) {
-    const ObjBodies b = read(text);
+    const BodyFile b = read(text);
     EXPECT_EQ(b.notes.size(), 1u) << text;
-    return b.first;
+    return b.meshes.first;
   };
   using First = std::vector<collide::Index>;
   const std::string mixed = std::string(six) + "o a\nf 1 3 5\no b\nf 2 4 6\n";
@@ -134,9 +136,9 @@ TEST(ReadObj, ReadsLinesAcrossTheEndsOfPieces) {
   constexpr std::size_t count = 150'000;  // some pieces of 1 MiB
   for (std::size_t i = 0; i < count; ++i)
     text += i % 3 ? "v " + std::to_string(i) + " 0 0\n" : "v " + std::to_string(i) + " \\\r\n 0 0\n";
-  const ObjBodies b = read(text);
-  ASSERT_EQ(b.x.size(), count);
-  for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(b.x[i], static_cast<float>(i));
+  const BodyFile b = read(text);
+  ASSERT_EQ(b.at.x.size(), count);
+  for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(b.at.x[i], static_cast<float>(i));
 }
 
 /// Returns the text with a few bytes changed, removed or doubled, or cut short.
@@ -180,16 +182,16 @@ TEST(ReadObj, WithstandsAnyBytes) {
     // A new file each time: some file systems flush a file to disk that replaces another.
     const auto file = folder.write(std::to_string(i) + ".obj", mutated(sources[i % 2], random));
     try {
-      const ObjBodies b = app::files::read_obj(file);
+      const BodyFile b = app::files::read_bodies(file);
       ++read;
-      ASSERT_EQ(b.first.front(), 0u);
-      ASSERT_EQ(b.first.back(), b.x.size());
-      ASSERT_EQ(b.edges.size(), b.count());
-      for (const float x : b.x) ASSERT_TRUE(std::isfinite(x));
-      for (std::size_t k = 0; k < b.count(); ++k) {
-        for (const auto& [p, q] : b.edges[k]) ASSERT_TRUE(p < b.size(k) && q < b.size(k));
+      ASSERT_EQ(b.meshes.first.front(), 0u);
+      ASSERT_EQ(b.meshes.first.back(), b.at.x.size());
+      ASSERT_EQ(b.meshes.first_polygon.size(), b.meshes.count() + 1);
+      for (const float x : b.at.x) ASSERT_TRUE(std::isfinite(x));
+      for (std::size_t k = 0; k < b.meshes.count(); ++k) {
+        for (const auto& [p, q] : b.meshes.edges(k)) ASSERT_TRUE(p < b.meshes.size(k) && q < b.meshes.size(k));
       }
-    } catch (const app::files::ObjError& error) {
+    } catch (const app::files::MeshFileError& error) {
       ++refused;
       const std::string line = error.what();
       ASSERT_TRUE(line.starts_with(file.string() + ":")) << line;

@@ -1,0 +1,226 @@
+#include "app/files/body_file.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+#include "app/files/inputs.h"
+
+namespace app::files {
+namespace {
+
+using collide::Index;
+using softbody::FileMesh;
+
+/// The body of each vertex of a file.
+struct Partition {
+  std::vector<Index> body_of;
+  std::size_t count = 0;  // of the bodies
+};
+
+// ---- objects ----
+
+/// The smallest and the largest vertex that the faces of an object name.
+struct Range {
+  Index min = ~Index{0}, max = 0;
+  bool empty() const { return min > max; }
+};
+
+std::vector<Range> ranges_of_faces(const FileMesh& mesh) {
+  std::vector<Range> ranges(mesh.objects.size());
+  std::size_t object = 0;
+  mesh.for_each_face([&](std::span<const Index> corners, std::size_t face) {
+    while (object + 1 < ranges.size() && mesh.objects[object + 1].first_face <= face) ++object;
+    const auto [min, max] = std::ranges::minmax(corners);
+    ranges[object].min = std::min(ranges[object].min, min);
+    ranges[object].max = std::max(ranges[object].max, max);
+  });
+  return ranges;
+}
+
+/// Returns the first vertex of each object of a file whose vertices all stand before the first `o`: each object gets
+/// the vertices that its faces name. Returns nothing if the vertices of two objects are mixed.
+std::optional<std::vector<Index>> divide_by_faces(std::vector<Index> first, const std::vector<Range>& faces) {
+  for (std::size_t object = faces.size(); object-- > 0;) {
+    const Range& range = faces[object];
+    if (!range.empty() && range.max >= first[object + 1]) return std::nullopt;
+    if (object > 0) first[object] = range.empty() ? first[object + 1] : range.min;
+  }
+  if (first[1] == 0) first.erase(first.begin());
+  return first;
+}
+
+Partition objects_of(const FileMesh& mesh, std::vector<std::string>& notes) {
+  std::vector<Index> first;  // one more at the end
+  for (const FileMesh::Object& object : mesh.objects) first.push_back(object.first_vertex);
+  first.push_back(static_cast<Index>(mesh.x.size()));
+  const std::vector<Range> faces = ranges_of_faces(mesh);
+  std::size_t without_vertices = 0;
+  for (std::size_t object = 0; object < faces.size(); ++object)
+    if (first[object] == first[object + 1] && !faces[object].empty()) ++without_vertices;
+  if (without_vertices > 0) {
+    const bool vertices_first = !mesh.objects[0].named && first[1] == first.back();
+    if (auto divided = vertices_first ? divide_by_faces(first, faces) : std::nullopt)
+      first = *std::move(divided);
+    else
+      notes.push_back(std::to_string(without_vertices) +
+                      " objects have faces of vertices that stand before them and count to another body; write "
+                      "the vertices of an object after its line o");
+  }
+  Partition partition{{}, first.size() - 1};
+  for (Index body = 0; body < partition.count; ++body) partition.body_of.resize(first[body + 1], body);
+  return partition;
+}
+
+// ---- components ----
+
+Partition components_of(const FileMesh& mesh) {
+  constexpr Index none = ~Index{0};
+  std::vector<Index> parent(mesh.x.size());  // a forest; the root of a tree is its smallest vertex
+  std::iota(parent.begin(), parent.end(), Index{0});
+  const auto root = [&](Index v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  std::vector<char> has_face(parent.size(), false);
+  mesh.for_each_face([&](std::span<const Index> corners, std::size_t) {
+    for (const Index corner : corners) {
+      has_face[corner] = true;
+      const Index a = root(corners[0]), b = root(corner);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  });
+  Partition partition{std::vector<Index>(parent.size(), none), 0};
+  for (Index v = 0; v < parent.size(); ++v) {
+    if (!has_face[v]) continue;
+    const Index first = root(v);
+    partition.body_of[v] = first == v ? static_cast<Index>(partition.count++) : partition.body_of[first];
+  }
+  if (std::ranges::count(has_face, char(false)) > 0)
+    std::ranges::replace(partition.body_of, none, static_cast<Index>(partition.count++));
+  return partition;
+}
+
+Partition partition_of(const FileMesh& mesh, BodiesBy by, std::vector<std::string>& notes) {
+  switch (by) {
+    case BodiesBy::objects:
+      return objects_of(mesh, notes);
+    case BodiesBy::components:
+      return components_of(mesh);
+    case BodiesBy::one:
+      break;
+  }
+  return {std::vector<Index>(mesh.x.size(), 0), 1};
+}
+
+/// Returns the offsets of `count` groups of which element i is in group_of(i), for all i < `size`, and one offset more.
+template <class Offset>
+std::vector<Offset> offsets_of(std::size_t count, std::size_t size, const auto& group_of) {
+  std::vector<Offset> first(count + 1, 0);
+  for (std::size_t i = 0; i < size; ++i) ++first[group_of(i) + std::size_t{1}];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  return first;
+}
+
+}  // namespace
+
+BodiesBy default_bodies_by(const FileMesh& mesh) {
+  return mesh.format == FileMesh::Format::obj ? BodiesBy::objects : BodiesBy::components;
+}
+
+BodyMeshes divide(const FileMesh& mesh, BodiesBy by, const std::filesystem::path& file,
+                  std::vector<std::string>& notes) {
+  const auto [body_of, count] = partition_of(mesh, by, notes);
+  if (mesh.weights > 0)
+    notes.push_back(std::to_string(mesh.weights) +
+                    " vertices have a weight other than 1, which is passed over: it is for curves only");
+  BodyMeshes bodies;
+  bodies.first = offsets_of<Index>(count, body_of.size(), [&](std::size_t v) { return body_of[v]; });
+  bodies.file_vertex.resize(body_of.size());
+  std::vector<Index> local(body_of.size());
+  std::vector<Index> next(bodies.first.begin(), bodies.first.end() - 1);
+  for (Index v = 0; v < body_of.size(); ++v) {
+    const Index here = next[body_of[v]]++;
+    bodies.file_vertex[here] = v;
+    local[v] = here - bodies.first[body_of[v]];
+  }
+
+  const auto corners_of = [&](std::size_t face) {
+    const std::size_t begin = face > 0 ? mesh.faces[face - 1].end : 0;
+    return std::span(mesh.corners).subspan(begin, mesh.faces[face].end - begin);
+  };
+  const auto body_of_face = [&](std::size_t face) { return body_of[corners_of(face)[0]]; };
+  bodies.first_polygon = offsets_of<std::size_t>(count, mesh.faces.size(), body_of_face);
+  std::vector<std::size_t> next_polygon(bodies.first_polygon.begin(), bodies.first_polygon.end() - 1);
+  std::vector<std::size_t> face_of(mesh.faces.size());
+  for (std::size_t face = 0; face < face_of.size(); ++face) face_of[next_polygon[body_of_face(face)]++] = face;
+  bodies.polygons.corners.reserve(mesh.corners.size());
+  bodies.polygons.ends.reserve(mesh.faces.size());
+  for (const std::size_t face : face_of) {
+    for (const Index corner : corners_of(face)) {
+      if (body_of[corner] != body_of_face(face))
+        throw MeshFileError(file.string() + ":" + mesh.place(face) +
+                            ": a face across bodies; use the vertices of one object only in a face, or give --bodies "
+                            "components");
+      bodies.polygons.corners.push_back(local[corner]);
+    }
+    bodies.polygons.ends.push_back(bodies.polygons.corners.size());
+  }
+  return bodies;
+}
+
+VertexPositions positions_of(FileMesh mesh, const BodyMeshes& bodies) {
+  assert(mesh.x.size() == bodies.vertex_count());
+  VertexPositions at{std::move(mesh.x), std::move(mesh.y), std::move(mesh.z)};
+  if (std::ranges::is_sorted(bodies.file_vertex)) return at;
+  for (std::vector<float>* axis : {&at.x, &at.y, &at.z}) {
+    const std::vector<float> in_file = *axis;
+    for (Index v = 0; v < in_file.size(); ++v) (*axis)[v] = in_file[bodies.file_vertex[v]];
+  }
+  return at;
+}
+
+BodyFile read_bodies(const std::filesystem::path& file, std::optional<BodiesBy> by) {
+  protect_input(file);
+  FileMesh mesh = softbody::read_file_mesh(file);
+  BodyFile read;
+  read.meshes = divide(mesh, by.value_or(default_bodies_by(mesh)), file, read.notes);
+  read.at = positions_of(std::move(mesh), read.meshes);
+  return read;
+}
+
+std::vector<BodyMeshes::Edge> BodyMeshes::edges(std::size_t body) const {
+  std::vector<Edge> list;
+  for (std::size_t p = first_polygon[body]; p < first_polygon[body + 1]; ++p) {
+    Index previous = polygons[p].back();
+    for (const Index vertex : polygons[p]) {
+      list.push_back({previous, vertex});
+      previous = vertex;
+    }
+  }
+  return list;
+}
+
+std::vector<softbody::Triangle> triangles_of(const BodyMeshes& meshes, std::size_t body, const VertexPositions& at) {
+  std::vector<softbody::Triangle> list;
+  const auto add = [&](Index a, Index b, Index c) {
+    if (a != b && b != c && c != a) list.push_back({a, b, c});
+  };
+  std::vector<glm::dvec3> points;
+  for (std::size_t p = meshes.first_polygon[body]; p < meshes.first_polygon[body + 1]; ++p) {
+    const std::span<const Index> corners = meshes.polygons[p];
+    if (corners.size() == 3 || corners.size() > softbody::max_polygon_corners) {
+      for (std::size_t i = 2; i < corners.size(); ++i) add(corners[0], corners[i - 1], corners[i]);
+      continue;
+    }
+    points.clear();
+    for (const Index corner : corners) {
+      const Index v = meshes.first[body] + corner;
+      points.emplace_back(at.x[v], at.y[v], at.z[v]);
+    }
+    for (const auto& [a, b, c] : softbody::triangulate(points)) add(corners[a], corners[b], corners[c]);
+  }
+  return list;
+}
+
+}  // namespace app::files

@@ -1,0 +1,71 @@
+#pragma once
+// What the readers of OBJ and PLY files share: words, numbers, limits and messages.
+
+#include <charconv>
+#include <string>
+#include <string_view>
+
+#include "softbody/mesh/file_mesh.h"
+#include "softbody/mesh/line_reader.h"
+
+namespace softbody {
+
+/// Splits a line into words. A word that begins with # ends the line.
+class Words {
+ public:
+  explicit Words(std::string_view line) : rest_(line) {}
+  /// Returns the next word; empty if there is none.
+  std::string_view next();
+
+ private:
+  std::string_view rest_;
+};
+
+/// Returns a word of the file for a message: short, and with printable characters only.
+std::string quoted(std::string_view word);
+
+/// Parses a number as from_chars() does, but allows a + before it.
+std::from_chars_result parse(std::string_view word, float& value);
+
+/// Collects the mesh of a file. All members but take() throw MeshFileError.
+class MeshParser {
+ public:
+  /// name: of the file. lines: of the file; it must outlive the parser.
+  MeshParser(std::string name, LineReader& lines) : name_(std::move(name)), lines_(lines) {}
+
+  FileMesh take() { return std::move(mesh_); }
+
+ protected:
+  ~MeshParser() = default;
+
+  [[noreturn]] void fail_at(const std::string& place, const std::string& what) const {
+    throw MeshFileError(name_ + ":" + place + ": " + what);
+  }
+  [[noreturn]] void fail_at_line(const std::string& what) const { fail_at(std::to_string(lines_.number()), what); }
+  static std::string beyond(const std::string& what, std::uint64_t most) {
+    return "more than " + std::to_string(most) + " " + what + "; give a coarser mesh, or a part of it";
+  }
+
+  Index vertex_count() const { return static_cast<Index>(mesh_.x.size()); }
+  /// Returns a number of the line.
+  float number(std::string_view word) const;
+  /// Ends a face whose corners have been added to the mesh. fail(what) throws.
+  void end_face(const auto& fail) {
+    const std::size_t begin = mesh_.faces.empty() ? 0 : mesh_.faces.back().end;
+    if (mesh_.corners.size() - begin < 3) fail("a face of fewer than 3 corners; give it 3 or more, or leave it out");
+    mesh_.faces.push_back({mesh_.corners.size(), lines_.number()});
+  }
+  /// Checks that the vertices of all faces exist. To be called at the end, since a face may come before its vertices.
+  void require_vertices() const;
+
+  std::string name_;
+  LineReader& lines_;
+  FileMesh mesh_;
+};
+
+/// Reads the statements of an OBJ file, beginning with `line`, which has been read from `lines`.
+FileMesh parse_obj(const std::string& name, LineReader& lines, std::string_view line);
+/// Reads a PLY file of which the first line has been read.
+FileMesh parse_ply(const std::string& name, LineReader& lines);
+
+}  // namespace softbody

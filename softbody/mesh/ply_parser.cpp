@@ -1,0 +1,349 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "softbody/mesh/limits.h"
+#include "softbody/mesh/mesh_parser.h"
+
+namespace softbody {
+namespace {
+
+enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+constexpr std::array<std::pair<std::string_view, Type>, 16> types{{{"char", Type::int8},
+                                                                   {"int8", Type::int8},
+                                                                   {"uchar", Type::uint8},
+                                                                   {"uint8", Type::uint8},
+                                                                   {"short", Type::int16},
+                                                                   {"int16", Type::int16},
+                                                                   {"ushort", Type::uint16},
+                                                                   {"uint16", Type::uint16},
+                                                                   {"int", Type::int32},
+                                                                   {"int32", Type::int32},
+                                                                   {"uint", Type::uint32},
+                                                                   {"uint32", Type::uint32},
+                                                                   {"float", Type::float32},
+                                                                   {"float32", Type::float32},
+                                                                   {"double", Type::float64},
+                                                                   {"float64", Type::float64}}};
+
+bool is_real(Type type) { return type == Type::float32 || type == Type::float64; }
+
+enum class Use { none, x, y, z, corners };
+
+struct Property {
+  Type type;
+  std::optional<Type> length;  // of a list: the type of its number of items
+  Use use;
+};
+
+struct Element {
+  enum class Kind { vertex, face, tristrips, other };
+  std::string name;
+  Kind kind;
+  std::uint64_t rows;
+  std::vector<Property> properties;
+
+  bool uses(Use use) const { return std::ranges::find(properties, use, &Property::use) != properties.end(); }
+};
+
+class PlyParser : public MeshParser {
+ public:
+  using MeshParser::MeshParser;
+
+  void run() {
+    mesh_.objects.push_back({0, 0, false});
+    header();
+    words_ = Words({});
+    for (const Element& element : elements_) {
+      element_ = &element;
+      for (row_ = 0; row_ < element.rows; ++row_) row();
+    }
+    require_end();
+    if (mesh_.x.empty()) throw MeshFileError(name_ + ": no vertex in it; give a PLY file with an element vertex");
+    require_vertices();
+  }
+
+ private:
+  bool text() const { return mesh_.format == FileMesh::Format::ply_text; }
+
+  // ---- header ----
+
+  void header() {
+    bool has_format = false;
+    for (std::string_view line;;) {
+      if (!lines_.next(line)) fail_at_line("the file ends before the line 'end_header'; save the file again");
+      Words words(line);
+      const std::string_view keyword = words.next();
+      if (keyword == "end_header") break;
+      if (keyword == "format") {
+        read_format(words.next());
+        has_format = true;
+      } else if (keyword == "element") {
+        begin_element(words);
+      } else if (keyword == "property") {
+        add_property(words);
+      } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
+        fail_at_line(quoted(keyword) + " begins no line of a PLY header; is this a PLY file?");
+      }
+    }
+    if (!has_format) fail_at_line("the header has no line 'format'; is this a PLY file?");
+    for (const Element& element : elements_) require_complete(element);
+  }
+
+  void read_format(std::string_view word) {
+    mesh_.format = word == "ascii" ? FileMesh::Format::ply_text : FileMesh::Format::ply_binary;
+    const bool big = word == "binary_big_endian";
+    if (!text() && !big && word != "binary_little_endian")
+      fail_at_line(quoted(word) + " is no format; write ascii, binary_little_endian or binary_big_endian");
+    foreign_order_ = big != (std::endian::native == std::endian::big);
+  }
+
+  void begin_element(Words words) {
+    const std::string_view name = words.next(), count = words.next();
+    std::uint64_t rows = 0;
+    const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), rows);
+    if (count.empty() || end != count.data() + count.size() || error != std::errc())
+      fail_at_line("an element without the number of its rows; write element NAME COUNT");
+    using Kind = Element::Kind;
+    const Kind kind = name == "vertex"      ? Kind::vertex
+                      : name == "face"      ? Kind::face
+                      : name == "tristrips" ? Kind::tristrips
+                                            : Kind::other;
+    if (kind == Kind::vertex && rows > max_particles) fail_at_line(beyond("vertices", max_particles));
+    elements_.push_back({std::string(name), kind, rows, {}});
+  }
+
+  void add_property(Words words) {
+    if (elements_.empty()) fail_at_line("a property before the first element; write element NAME COUNT first");
+    Element& element = elements_.back();
+    Property property{};
+    std::string_view word = words.next();
+    const bool list = word == "list";
+    if (list) {
+      property.length = type_of(words.next());
+      if (is_real(*property.length)) fail_at_line("a list whose length is no whole number; use e.g. uchar");
+      word = words.next();
+    }
+    property.type = type_of(word);
+    const std::string_view name = words.next();
+    if (element.kind == Element::Kind::vertex && !list) {
+      property.use = name == "x" ? Use::x : name == "y" ? Use::y : name == "z" ? Use::z : Use::none;
+    } else if (list && (name == "vertex_indices" || name == "vertex_index")) {
+      property.use = Use::corners;
+      if (is_real(property.type)) fail_at_line("indices of vertices that are no whole numbers; use e.g. int");
+    }
+    element.properties.push_back(property);
+  }
+
+  Type type_of(std::string_view word) const {
+    const auto* type = std::ranges::find(types, word, &std::pair<std::string_view, Type>::first);
+    if (type == types.end()) fail_at_line(quoted(word) + " is no type of a property; write e.g. float, int or uchar");
+    return type->second;
+  }
+
+  void require_complete(const Element& element) const {
+    const auto refuse = [&](const char* what) {
+      fail_at_line("the element " + softbody::quoted(element.name) + " has no " + what);
+    };
+    if (element.properties.empty() && element.rows > 0) refuse("property; correct the header");
+    switch (element.kind) {
+      case Element::Kind::vertex:
+        if (!element.uses(Use::x) || !element.uses(Use::y) || !element.uses(Use::z))
+          refuse("properties x, y and z; correct the header");
+        break;
+      case Element::Kind::face:
+      case Element::Kind::tristrips:
+        if (element.rows > 0 && !element.uses(Use::corners)) refuse("list vertex_indices; correct the header");
+        break;
+      case Element::Kind::other:
+        break;
+    }
+  }
+
+  // ---- rows ----
+
+  [[noreturn]] void fail(const std::string& what) const {
+    if (text()) fail_at_line(what);
+    fail_at(" element " + softbody::quoted(element_->name) + ", row " + std::to_string(row_) + " (counted from 0)",
+            what);
+  }
+
+  void row() {
+    corners_.clear();
+    for (const Property& property : element_->properties) {
+      if (!property.length) {
+        scalar(property);
+        continue;
+      }
+      const std::int64_t length = integer(*property.length);
+      if (length < 0) fail("a list of " + std::to_string(length) + " items; correct the file");
+      for (std::int64_t i = 0; i < length; ++i) {
+        if (property.use == Use::corners)
+          add_corner(integer(property.type));
+        else
+          skip(property.type);
+      }
+    }
+    if (text() && !words_.next().empty()) fail("more numbers than the header says; correct the header or the line");
+    switch (element_->kind) {
+      case Element::Kind::vertex:
+        mesh_.x.push_back(position_[0]);
+        mesh_.y.push_back(position_[1]);
+        mesh_.z.push_back(position_[2]);
+        break;
+      case Element::Kind::face:
+        add_face(corners_);
+        break;
+      case Element::Kind::tristrips:
+        add_strips();
+        break;
+      case Element::Kind::other:
+        break;
+    }
+  }
+
+  void scalar(const Property& property) {
+    if (property.use == Use::none) return skip(property.type);
+    position_[static_cast<std::size_t>(property.use) - static_cast<std::size_t>(Use::x)] = real(property.type);
+  }
+
+  void add_corner(std::int64_t index) {
+    const bool ends_strip = index < 0 && element_->kind == Element::Kind::tristrips;
+    if ((index < 0 && !ends_strip) || index >= std::int64_t{no_vertex})
+      fail("a face names vertex " + std::to_string(index) + "; correct the index");
+    if (mesh_.corners.size() + corners_.size() >= max_file_corners) fail(beyond("corners of faces", max_file_corners));
+    corners_.push_back(ends_strip ? no_vertex : static_cast<Index>(index));
+  }
+
+  void add_face(std::span<const Index> corners) {
+    mesh_.corners.insert(mesh_.corners.end(), corners.begin(), corners.end());
+    end_face([&](const std::string& what) { fail(what); });
+  }
+
+  /// Adds the triangles of strips, which -1 parts. Triangles without area only lead from one strip to the next.
+  void add_strips() {
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+      if (corners_[i] == no_vertex) begin = i + 1;
+      if (i < begin + 2) continue;
+      const std::size_t odd = (i - begin) % 2;
+      const std::array<Index, 3> triangle{corners_[i - 2 + odd], corners_[i - 1 - odd], corners_[i]};
+      if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) continue;
+      if (mesh_.corners.size() + 3 > max_file_corners) fail(beyond("corners of faces", max_file_corners));
+      add_face(triangle);
+    }
+  }
+
+  /// Refuses what follows the last row.
+  void require_end() {
+    const std::string what = "the file goes on after the last row of the header's elements; correct the header";
+    if (text()) {
+      for (std::string_view line; lines_.next(line);)
+        if (!Words(line).next().empty()) fail_at_line(what);
+      return;
+    }
+    for (std::string_view rest = lines_.bytes(1); !rest.empty(); rest = lines_.bytes(1))
+      if (rest[0] != '\n' && rest[0] != '\r' && rest[0] != '\0') throw MeshFileError(name_ + ": " + what);
+  }
+
+  // ---- numbers ----
+
+  /// Returns the next word of a text file. A row may continue in the next line.
+  std::string_view word() {
+    std::string_view next = words_.next();
+    for (std::string_view line; next.empty(); next = words_.next()) {
+      if (!lines_.next(line)) fail_truncated();
+      words_ = Words(line);
+    }
+    return next;
+  }
+
+  [[noreturn]] void fail_truncated() const {
+    fail("the file ends before the last row of the header's elements; save the file again");
+  }
+
+  template <class Number>
+  Number binary() {
+    const std::string_view bytes = lines_.bytes(sizeof(Number));
+    if (bytes.empty()) fail_truncated();
+    std::array<char, sizeof(Number)> copy;
+    std::ranges::copy(bytes, copy.begin());
+    if (foreign_order_) std::ranges::reverse(copy);
+    return std::bit_cast<Number>(copy);
+  }
+
+  /// Returns the next number of a binary file.
+  template <class Number>
+  Number binary(Type type) {
+    switch (type) {
+      case Type::int8:
+        return static_cast<Number>(binary<std::int8_t>());
+      case Type::uint8:
+        return static_cast<Number>(binary<std::uint8_t>());
+      case Type::int16:
+        return static_cast<Number>(binary<std::int16_t>());
+      case Type::uint16:
+        return static_cast<Number>(binary<std::uint16_t>());
+      case Type::int32:
+        return static_cast<Number>(binary<std::int32_t>());
+      case Type::uint32:
+        return static_cast<Number>(binary<std::uint32_t>());
+      case Type::float32:
+        return static_cast<Number>(binary<float>());
+      case Type::float64:
+        break;
+    }
+    return static_cast<Number>(binary<double>());
+  }
+
+  void skip(Type type) {
+    if (text())
+      word();
+    else
+      binary<double>(type);
+  }
+
+  float real(Type type) {
+    if (text()) return number(word());
+    const double value = binary<double>(type);
+    if (!(std::abs(value) <= std::numeric_limits<float>::max()))
+      fail("a coordinate that is not finite as a float; coordinates must lie within 3.4e38");
+    return static_cast<float>(value);
+  }
+
+  std::int64_t integer(Type type) {
+    if (!text()) return binary<std::int64_t>(type);
+    const std::string_view digits = word();
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (end != digits.data() + digits.size() || error != std::errc())
+      fail_at_line(quoted(digits) + " is no whole number; correct the file");
+    return value;
+  }
+
+  static constexpr Index no_vertex = ~Index{0};
+
+  std::vector<Element> elements_;
+  bool foreign_order_ = false;        // the bytes of a number are reversed
+  const Element* element_ = nullptr;  // of the row
+  std::uint64_t row_ = 0;
+  Words words_{{}};                  // the rest of the line
+  std::array<float, 3> position_{};  // of the row
+  std::vector<Index> corners_;       // of the row; no_vertex ends a strip
+};
+
+}  // namespace
+
+FileMesh parse_ply(const std::string& name, LineReader& lines) {
+  PlyParser parser(name, lines);
+  parser.run();
+  return parser.take();
+}
+
+}  // namespace softbody
