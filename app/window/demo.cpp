@@ -62,7 +62,7 @@ class Demo {
     apply(preferences_.is_new() ? first_preferences(window_size()) : preferences_.stored(), session_, ui_);
     ui_.story = ui_.story_at_start && !options.scene_given;
     store_preferences();
-    ui_.import.drop(options.meshes, session_);
+    for (const std::string& mesh : options.meshes) ui_.import.drop({mesh}, session_);  // each for itself: no frames
   }
 
   void run() {

@@ -1,5 +1,5 @@
 #pragma once
-// Monitors the stability of a running world: keeps its past, reports a blow-up, compares its step with the stability
+// Monitors the stability of a simulated world: keeps its past, reports a blow-up, compares its step with the stability
 // bound, and records its energies.
 
 #include "app/base/time_series.h"

@@ -106,7 +106,7 @@ void draw_step_light(Widgets& w, Session& session) {
     session.simulation.rewind_to(session.simulation.stability().last_good_frame());
 }
 
-void draw_stability(Widgets& w, Session& session) {
+void draw_stability(Widgets& w, Session& session, UiState&) {
   draw_integrator(w, session);
   draw_ghost(w, session);
   w.checkbox("Pause when a body explodes", session.simulation.pause_on_blow_up,
