@@ -9,10 +9,6 @@
 namespace softbody {
 namespace {
 
-/// Half of the reserve of stable_step() is for gas, whose stiffness changes with the shape within a frame. The bound of
-/// pairs holds in any shape.
-constexpr double gasless_reserve = 0.8 / 0.9;
-
 /// Returns the largest value of the lanes of a batch that move, at least 0.
 template <class OfLane>
 double max_of_moving(const Batch& b, const OfLane& of_lane) {
@@ -50,11 +46,12 @@ StepBound StepBounds::measure(const Batch& b, const Integrator& integrator) cons
                              ? 0
                              : PenaltyLaw<double>::stiffness_bound(p.material[contact::stiffness]) / p.particle_mass;
   const auto rate = [&](double stiffness) { return 1 / integrator.stable_step(stiffness + contact, force.damping); };
+  const double less_reserve = (1 - 0.2) / (1 - 0.1);  // see Integrator::reserve()
   unsigned near = 0;  // bits: lanes
   for (const SolidArguments& solid : solids_.near(b)) near |= solid.near;
   const Extent motion = state_.extent(b, state_.v, state_.v);
   const double pace = 0.1 * p.radius;
-  return {gasless_reserve * rate(force.implicit_volume),
+  return {less_reserve * rate(force.implicit_volume),
           rate(force.stiffness),
           max_of_moving(b, [&](std::size_t l) { return motion.diagonal(l); }) / pace,
           max_of_moving(b, [&](std::size_t l) { return near >> l & 1u ? motion.length(l) : 0; }) / pace,

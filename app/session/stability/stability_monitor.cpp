@@ -26,6 +26,7 @@ StepMargin margin_of(const softbody::World& world) {
           .needed = last.needed,
           .substep = last.seconds / last.substeps,
           .bound = world.frame_time() / last.needed,
+          .reserve = last.integrator->reserve(),
           .kind = last.integrator->stable_at_any_step() ? StepMargin::Bound::unconditional
                   : last.integrator->by_damping         ? StepMargin::Bound::by_damping
                                                         : StepMargin::Bound::stable,
