@@ -48,7 +48,7 @@ MethodRun run_method(const collide::Method& method, const SequenceTask& task, co
 
 /// The most work of one method on all frames, if all methods run: compare::WorkEstimate::cost(). It takes about half a
 /// minute on one core.
-inline constexpr std::uint64_t max_work = 30'000'000'000;
+inline constexpr std::uint64_t max_work = 60'000'000'000;
 
 /// All methods side by side.
 struct MethodRuns {

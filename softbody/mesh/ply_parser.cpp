@@ -49,6 +49,7 @@ struct Element {
   std::uint64_t rows;
   std::vector<Property> properties;
 
+  bool has_faces() const { return kind == Kind::face || kind == Kind::tristrips; }
   bool uses(Use use) const { return std::ranges::find(properties, use, &Property::use) != properties.end(); }
 };
 
@@ -115,6 +116,8 @@ class PlyParser : public MeshParser {
                       : name == "face"      ? Kind::face
                       : name == "tristrips" ? Kind::tristrips
                                             : Kind::other;
+    if (kind == Kind::vertex && std::ranges::find(elements_, kind, &Element::kind) != elements_.end())
+      fail_at_line("a second element 'vertex'; correct the header");
     if (kind == Kind::vertex && rows > max_particles) fail_at_line(beyond("vertices", max_particles));
     elements_.push_back({std::string(name), kind, rows, {}});
   }
@@ -134,7 +137,7 @@ class PlyParser : public MeshParser {
     const std::string_view name = words.next();
     if (element.kind == Element::Kind::vertex && !list) {
       property.use = name == "x" ? Use::x : name == "y" ? Use::y : name == "z" ? Use::z : Use::none;
-    } else if (list && (name == "vertex_indices" || name == "vertex_index")) {
+    } else if (element.has_faces() && list && (name == "vertex_indices" || name == "vertex_index")) {
       property.use = Use::corners;
       if (is_real(property.type)) fail_at_line("indices of vertices that are no whole numbers; use e.g. int");
     }
@@ -152,18 +155,11 @@ class PlyParser : public MeshParser {
       fail_at_line("the element " + softbody::quoted(element.name) + " has no " + what);
     };
     if (element.properties.empty() && element.rows > 0) refuse("property; correct the header");
-    switch (element.kind) {
-      case Element::Kind::vertex:
-        if (!element.uses(Use::x) || !element.uses(Use::y) || !element.uses(Use::z))
-          refuse("properties x, y and z; correct the header");
-        break;
-      case Element::Kind::face:
-      case Element::Kind::tristrips:
-        if (element.rows > 0 && !element.uses(Use::corners)) refuse("list vertex_indices; correct the header");
-        break;
-      case Element::Kind::other:
-        break;
-    }
+    const bool is_vertex = element.kind == Element::Kind::vertex;
+    if (is_vertex && (!element.uses(Use::x) || !element.uses(Use::y) || !element.uses(Use::z)))
+      refuse("properties x, y and z; correct the header");
+    if (element.has_faces() && element.rows > 0 && !element.uses(Use::corners))
+      refuse("list vertex_indices; correct the header");
   }
 
   // ---- rows ----

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include "tests/cli/detect_rig.h"
+#include "tests/cli/ply_rig.h"
 
 namespace cli::test {
 namespace {
@@ -82,6 +84,102 @@ const BadFile bad_files[]{
 
 INSTANTIATE_TEST_SUITE_P(Files, BadObj, testing::ValuesIn(bad_files), [](const auto& i) { return i.param.name; });
 
+class BadPly : public testing::TestWithParam<BadFile> {};
+
+TEST_P(BadPly, IsRefusedWithItsPlace) {
+  const TemporaryFolder folder;
+  const std::string bad = folder.write("bad.ply", GetParam().text), out = folder.path() / "out.csv";
+  std::vector<std::string> words{bad};
+  words.insert(words.end(), GetParam().words.begin(), GetParam().words.end());
+  expect_refused({"detect", bad, "--tolerance", "0.1", "--json", "--contacts", out}, words);
+  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"bad.ply"});
+}
+
+const std::string begin_text = "ply\nformat ascii 1.0\n";
+const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+const std::string list = "property list uchar int vertex_indices\n";
+const std::string three_rows = "0 0 0\n1 0 0\n0 1 0\n";
+/// The head of a text file with three vertices and these faces; its last line is number 9.
+std::string with_faces(const std::string& rows, const std::string& count = "1") {
+  return begin_text + "element vertex 3\n" + xyz + "element face " + count + "\n" + list + "end_header\n" + three_rows +
+         rows;
+}
+std::string binary(const std::vector<std::vector<unsigned>>& faces,
+                   const std::vector<std::array<float, 3>>& vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}) {
+  return ply(vertices, faces, {.format = "binary_little_endian"});
+}
+std::string cut(std::string text, std::size_t bytes) { return text.substr(0, text.size() - bytes); }
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+const BadFile bad_ply_files[]{
+    {"empty", "", {":1: ", "'ply'"}},
+    {"obj", "v 0 0 0\n", {":1: ", "'ply'"}},
+    {"no_header", "ply\n", {":2: ", "'end_header'"}},
+    {"header_cut_off", begin_text + "element vertex 1\n" + xyz, {":7: ", "'end_header'"}},
+    {"no_format", "ply\nelement vertex 1\n" + xyz + "end_header\n0 0 0\n", {":6: ", "'format'"}},
+    {"unknown_format", "ply\nformat utf8 1.0\n", {":2: ", "'utf8'"}},
+    {"unknown_line", begin_text + "vertices 3\n", {":3: ", "'vertices'"}},
+    {"unknown_type", begin_text + "element vertex 1\nproperty half x\n", {":4: ", "'half'"}},
+    {"no_count", begin_text + "element vertex\n", {":3: ", "NAME COUNT"}},
+    {"negative_count", begin_text + "element vertex -1\n", {":3: ", "NAME COUNT"}},
+    {"count_of_text", begin_text + "element vertex 3x\n", {":3: ", "NAME COUNT"}},
+    {"huge_count", begin_text + "element vertex 4000001\n", {":3: ", "more than 4000000 vertices"}},
+    {"overflowing_count", begin_text + "element vertex 99999999999999999999\n", {":3: ", "NAME COUNT"}},
+    {"two_elements_vertex",
+     begin_text + "element vertex 1\n" + xyz + "element vertex 1\n",
+     {":7: ", "second element 'vertex'"}},
+    {"property_first", begin_text + "property float x\n", {":3: ", "before the first element"}},
+    {"list_of_real_length",
+     begin_text + "element face 1\nproperty list float int vertex_indices\n",
+     {":4: ", "length"}},
+    {"real_indices", begin_text + "element face 1\nproperty list uchar float vertex_indices\n", {":4: ", "indices"}},
+    {"no_y",
+     begin_text + "element vertex 1\nproperty float x\nproperty float z\nend_header\n0 0\n",
+     {":6: ", "x, y and z"}},
+    {"list_for_x",
+     begin_text + "element vertex 1\nproperty list uchar float x\nend_header\n0\n",
+     {":5: ", "x, y and z"}},
+    {"no_indices",
+     begin_text + "element vertex 1\n" + xyz + "element face 1\nproperty int i\nend_header\n0 0 0\n1\n",
+     {":9: ", "vertex_indices"}},
+    {"no_property", begin_text + "element other 9000000000000\nend_header\n", {":4: ", "'other'", "no property"}},
+    {"no_vertex", begin_text + "element vertex 0\n" + xyz + "end_header\n", {"no vertex"}},
+    {"no_element", begin_text + "end_header\n", {"no vertex"}},
+    {"cut_off_in_vertices", begin_text + "element vertex 2\n" + xyz + "end_header\n0 0 0\n", {":9: ", "the file ends"}},
+    {"cut_off_in_a_row", cut(with_faces("3 0 1 2\n"), 3), {":14: ", "the file ends"}},
+    {"too_many_faces_said", with_faces("3 0 1 2\n", "2"), {":14: ", "the file ends"}},
+    {"too_few_faces_said", with_faces("3 0 1 2\n3 0 1 2\n"), {":14: ", "goes on"}},
+    {"many_faces_said", with_faces("3 0 1 2\n", "4000000000000000000"), {":14: ", "the file ends"}},
+    {"more_in_a_row", with_faces("3 0 1 2 5\n"), {":13: ", "more numbers"}},
+    {"vertex_of_four", begin_text + "element vertex 1\n" + xyz + "end_header\n0 0 0 1\n", {":8: ", "more numbers"}},
+    {"nan", begin_text + "element vertex 1\n" + xyz + "end_header\n0 nan 0\n", {":8: ", "'nan'"}},
+    {"overflow", begin_text + "element vertex 1\n" + xyz + "end_header\n0 1e39 0\n", {":8: ", "'1e39'"}},
+    {"text", begin_text + "element vertex 1\n" + xyz + "end_header\n0 zero 0\n", {":8: ", "'zero'"}},
+    {"two_corners", with_faces("2 0 1\n"), {":13: ", "fewer than 3 corners"}},
+    {"no_corners", with_faces("0\n"), {":13: ", "fewer than 3 corners"}},
+    {"length_below_zero", replaced(with_faces("-3 0 1 2\n"), "uchar", "char"), {":13: ", "-3 items"}},
+    {"index_below_zero", with_faces("3 0 1 -1\n"), {":13: ", "vertex -1"}},
+    {"index_beyond", with_faces("3 0 1 3\n"), {":13: ", "vertex 3 of 3"}},
+    {"index_huge", with_faces("3 0 1 4294967295\n"), {":13: ", "4294967295"}},
+    {"index_fraction", with_faces("3 0 1 1.5\n"), {":13: ", "'1.5'"}},
+    {"binary_cut_off", cut(binary({{0, 1, 2}}), 1), {"element 'face', row 0 (counted from 0)", "the file ends"}},
+    {"binary_without_rows", cut(binary({}), 36), {"element 'vertex', row 0", "the file ends"}},
+    {"binary_goes_on", binary({{0, 1, 2}}) + "x", {"goes on"}},
+    {"binary_nan", binary({}, {{0, 0, 0}, {0, NAN, 0}}), {"element 'vertex', row 1", "not finite"}},
+    {"binary_overflow",
+     ply({{0, 0, INFINITY}}, {}, {.format = "binary_big_endian", .real = "double"}),
+     {"row 0", "not finite"}},
+    {"binary_two_corners", binary({{0, 1, 2}, {0, 1}}), {"element 'face', row 1", "fewer than 3 corners"}},
+    {"binary_index_beyond", binary({{0, 1, 2}, {0, 1, 3}}), {"face 1 (counted from 0)", "vertex 3 of 3"}},
+    {"binary_index_below_zero", binary({{0, 1, 4294967295}}), {"row 0", "vertex -1"}},
+    {"long_row", with_faces("3 0 1 2 " + std::string(2 << 20, '1') + "\n"), {":13: ", "longer than 1 MiB"}},
+    {"control_characters", begin_text + "element vertex 1\nproperty fl\x1b[31m x\n", {":4: ", "'fl?[31m'"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Files, BadPly, testing::ValuesIn(bad_ply_files), [](const auto& i) { return i.param.name; });
+
 class DetectErrors : public testing::Test {
  protected:
   void refuse(std::vector<std::string> more, const std::vector<std::string>& words) {
@@ -102,6 +200,24 @@ TEST_F(DetectErrors, NameFilesThatDoNotMatch) {
   refuse({lone, "--tolerance", "1"}, {lone, good, "number of bodies"});
   refuse({"--rest", fewer, "--tolerance", "1"}, {fewer, "body 0"});
   refuse({"--rest", lone, "--tolerance", "1"}, {lone, "number of bodies"});
+}
+
+TEST_F(DetectErrors, NameFilesOfOtherParts) {
+  const auto file = [&](const std::string& name, const std::vector<std::vector<unsigned>>& faces, float x) {
+    before.insert(name);
+    return folder.write(name, ply({{x, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {5, 0, 0}}, faces)).string();
+  };
+  const std::string parts = file("parts.ply", {{0, 1, 2}, {3, 4, 5}}, 0),
+                    sizes = file("sizes.ply", {{0, 1, 2}, {2, 3, 0}, {4, 5, 5}}, 0),
+                    mixed = file("mixed.ply", {{0, 1, 3}, {2, 4, 5}}, 0), fine = file("fine.ply", {}, 1),
+                    few = folder.write("few.ply", ply({{0, 0, 0}}, {}));
+  before.insert("few.ply");
+  good = parts;
+  EXPECT_EQ(run({"detect", parts, fine, parts, "--rest", fine, "--tolerance", "1"}).status, 0);
+  refuse({sizes, "--tolerance", "1"}, {sizes, parts, "body 0", "4", "3"});
+  refuse({mixed, "--tolerance", "1"}, {mixed, parts, "body 0 has other vertices"});
+  refuse({few, "--tolerance", "1"}, {few, parts, "number of bodies 1"});
+  EXPECT_EQ(run({"detect", parts, mixed, "--bodies", "one", "--tolerance", "1"}).status, 0);
 }
 
 TEST_F(DetectErrors, NameFilesThatCannotBeRead) {
@@ -159,6 +275,9 @@ TEST_F(DetectErrors, NameTheOption) {
     more.insert(more.begin(), {"--tolerance", "1"});
     return more;
   };
+  refuse(with({"--bodies", "two"}), {"--bodies two", "objects, components, one"});
+  refuse(with({"--bodies", "1"}), {"--bodies 1"});
+  refuse(with({"--method", "all", "--contacts", folder.path() / "c.csv"}), {"--contacts", "one method"});
   refuse(with({"--method", "magic"}), {"--method magic", "brute-force", "multi-level-sb-exact"});
   refuse(with({"--scene", "drop"}), {"--scene"});
   for (const char* value : {"-1", "16", "3.5", "x", ""}) refuse(with({"--levels", value}), {"--levels"});

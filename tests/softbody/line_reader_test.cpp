@@ -86,6 +86,22 @@ TEST(LineReader, LeavesOutPaddingAtTheEndOnly) {
   EXPECT_EQ(lines_of("a\x1a\nb"), (Lines{"a\x1a", "b"}));
 }
 
+TEST(LineReader, ReadsBytesBetweenLinesAsTheyAre) {
+  const tests::TemporaryFolder folder;
+  const std::string odd("\n\r\x1a\0\\\n", 6), many(200'000, '\n');
+  LineReader lines(folder.write("lines", "first\n" + odd + many + "last\nx"));
+  std::string_view line;
+  ASSERT_TRUE(lines.next(line));
+  EXPECT_EQ(lines.bytes(0), "");
+  EXPECT_EQ(lines.bytes(odd.size()), odd);
+  for (std::size_t i = 0; i < many.size(); i += 8) ASSERT_EQ(lines.bytes(8), "\n\n\n\n\n\n\n\n");
+  ASSERT_TRUE(lines.next(line));
+  EXPECT_EQ(line, "last");
+  EXPECT_EQ(lines.bytes(2), "") << "there is one only";
+  EXPECT_EQ(lines.bytes(1), "x");
+  EXPECT_EQ(lines.bytes(1), "");
+}
+
 TEST(LineReader, RefusesALineThatIsTooLong) {
   const tests::TemporaryFolder folder;
   LineReader lines(folder.write("lines", "first\n" + std::string(LineReader::max_line_length + 1, 'x') + "\n"));

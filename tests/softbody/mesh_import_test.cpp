@@ -1,4 +1,4 @@
-// Meshes from OBJ files: what is welded, dropped, turned, refused.
+// Meshes from files: what is welded, dropped, turned, refused.
 
 #include <gtest/gtest.h>
 
@@ -328,6 +328,45 @@ TEST(MeshImport, RefusalsNameTheFilesOwnLinesAndVertices) {
   }
   says(band + "f 1 2 4 3\nf 3 4 6 5\nf 5 6 8 7\nf 7 8 10 9\nf 9 10 1 2\n",
        "a.obj: the surface has only one side: see lines 13 and 14; ");
+}
+
+/// Returns the cube as a PLY file. more: a further face.
+std::string cube_ply(const std::string& format, const std::vector<std::uint8_t>& more = {}) {
+  std::vector<std::vector<std::uint8_t>> faces{{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                               {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  if (!more.empty()) faces.push_back(more);
+  std::string text =
+      "ply\nformat " + format + " 1.0\nelement vertex 8\nproperty uchar x\nproperty uchar y\nproperty uchar z\n";
+  text += "element face " + std::to_string(faces.size()) + "\nproperty list uchar uchar vertex_indices\nend_header\n";
+  const auto add = [&](std::size_t number) {
+    text += format == "ascii" ? std::to_string(number) + " " : std::string(1, static_cast<char>(number));
+  };
+  const auto end_row = [&] { text += format == "ascii" ? "\n" : ""; };
+  for (std::size_t v = 0; v < 8; ++v, end_row()) add((v + 1) % 4 / 2 * 2), add(v % 4 / 2 * 2), add(v / 4 * 2);
+  for (const auto& face : faces) {
+    add(face.size());
+    for (const std::size_t corner : face) add(corner);
+    end_row();
+  }
+  return text;
+}
+
+TEST(MeshImport, ReadsPlyAsItReadsObj) {
+  const Mesh obj = read(cube_vertices + cube_faces).mesh;
+  for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    const ImportedMesh ply = read(cube_ply(format));
+    EXPECT_EQ(ply.mesh.vertices, obj.vertices) << format;
+    EXPECT_EQ(ply.mesh.triangles, obj.triangles) << format;
+    EXPECT_TRUE(ply.findings.closed);
+  }
+  EXPECT_NE(error_of(cube_ply("ascii", {0, 1, 6}))
+                .find("between vertices 0 and 1 (counted from 0) has more than two faces: see lines 18, 20 and 24;"),
+            std::string::npos)
+      << error_of(cube_ply("ascii", {0, 1, 6}));
+  EXPECT_NE(error_of(cube_ply("binary_little_endian", {0, 1, 6}))
+                .find("between vertices 0 and 1 (counted from 0) has more than two faces: see faces 0, 2 and 6 "
+                      "(counted from 0);"),
+            std::string::npos);
 }
 
 TEST(MeshImport, RefusesWithTheReason) {
