@@ -88,7 +88,9 @@ void Simulation::follow_recording(int frame, std::size_t bodies) {
   const bool is_last = world_->frame() + 1 == world_->scene().recording->frame_count();
   if (is_last && !loop) clock.paused = true;
   if (world_->frame() < frame) before_last_step_.copy(world_->positions());  // nothing moved from the end to the start
-  if (world_->bodies().count() < bodies) replace(false);                     // reports name bodies that are gone
+  if (world_->bodies().count() >= bodies) return;
+  ++world_number_;  // reports name bodies that are gone
+  observer_.replaced(false);
 }
 
 bool Simulation::has_come_to_rest() const {
