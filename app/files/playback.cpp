@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/core.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/base/usage_error.h"
 #include "softbody/world/body_model_set.h"
 
 namespace app::files {
@@ -29,6 +29,10 @@ softbody::Mesh mesh_of(const BodyMeshes& meshes, std::size_t body, const VertexP
   return mesh;
 }
 
+bool same_topology(const collide::Shape& a, const collide::Shape& b) {
+  return a.shared_topology() == b.shared_topology() || a.topology() == b.topology();
+}
+
 /// Returns true if bodies of the model can have this mesh and shape, but for the positions of its vertices.
 bool suits(const softbody::BodyModel& model, const softbody::Mesh& mesh, const collide::Shape& shape) {
   return model.shape->shared_topology() == shape.shared_topology() && model.shape->rest() == shape.rest() &&
@@ -40,11 +44,26 @@ bool suits(const softbody::BodyModel& model, const softbody::Mesh& mesh, const c
 Playback::Playback(std::vector<std::filesystem::path> files, std::optional<BodiesBy> by, std::size_t kept_bytes)
     : sequence_(std::move(files), {.by = by, .may_grow = true}), free_bytes_(kept_bytes) {
   const std::shared_ptr<const softbody::RecordedFrame> first = frame(0);
-  if (first->x.empty()) throw UsageError(sequence_.file(0).string() + ": has no vertex; nothing can be played");
-  const auto [left, right] = std::ranges::minmax(first->x);
-  const auto [bottom, top] = std::ranges::minmax(first->y);
-  const auto [back, front] = std::ranges::minmax(first->z);
-  bounds_ = {glm::vec3(left, bottom, back), glm::vec3(right, top, front)};
+  if (first->x.empty())
+    throw softbody::SceneError(sequence_.file(0).string() + ": has no vertex; nothing can be played");
+  bounds_.fill(glm::vec3(first->x[0], first->y[0], first->z[0]));
+  include(*first);
+  for (const int number : {(frame_count() - 1) / 2, frame_count() - 1}) {
+    try {
+      include(*frame(number));
+    } catch (const std::exception&) {  // it is reported when it is shown
+    }
+  }
+}
+
+/// Makes bounds() large enough for a frame.
+void Playback::include(const softbody::RecordedFrame& frame) {
+  if (frame.x.empty()) return;
+  const auto [left, right] = std::ranges::minmax(frame.x);
+  const auto [bottom, top] = std::ranges::minmax(frame.y);
+  const auto [back, front] = std::ranges::minmax(frame.z);
+  bounds_[0] = glm::min(bounds_[0], glm::vec3(left, bottom, back));
+  bounds_[1] = glm::max(bounds_[1], glm::vec3(right, top, front));
 }
 
 std::shared_ptr<const softbody::RecordedFrame> Playback::frame(int number) {
@@ -54,7 +73,11 @@ std::shared_ptr<const softbody::RecordedFrame> Playback::frame(int number) {
   if (known != kept_.end()) {
     frame = known->second;
   } else {
-    frame = record(read(number));
+    try {
+      frame = record(number, read(number));
+    } catch (const std::runtime_error& error) {  // of the file
+      throw softbody::SceneError(error.what());
+    }
     const std::size_t bytes = 3 * sizeof(float) * frame->x.size();
     if (number == 0 || bytes <= free_bytes_) {
       free_bytes_ -= std::min(free_bytes_, bytes);
@@ -81,16 +104,23 @@ void Playback::read_ahead(int number) {
 }
 
 /// Makes models of bodies that no frame had before. Bodies of one mesh share a model.
-std::shared_ptr<const softbody::RecordedFrame> Playback::record(SequenceFrame frame) {
+std::shared_ptr<const softbody::RecordedFrame> Playback::record(int number, SequenceFrame frame) {
   const SequenceBodies& of = *frame.of;
   std::uint32_t count = 0;
   for (std::size_t body = 0; body < of.meshes.count(); ++body) {
-    if (of.meshes.size(body) == 0 || ++count <= models_.size()) continue;
-    softbody::Mesh mesh = mesh_of(of.meshes, body, frame.at);
+    if (of.meshes.size(body) == 0) continue;
     const auto& shape = of.bodies.shape[body];
-    models_.push_back(!models_.empty() && suits(*models_.back(), mesh, *shape)
-                          ? models_.back()
-                          : softbody::recorded_body_model(std::move(mesh), shape));
+    if (count == models_.size()) {
+      softbody::Mesh mesh = mesh_of(of.meshes, body, frame.at);
+      models_.push_back(!models_.empty() && suits(*models_.back(), mesh, *shape)
+                            ? models_.back()
+                            : softbody::recorded_body_model(std::move(mesh), shape));
+    } else if (!same_topology(*models_[count]->shape, *shape)) {
+      throw softbody::SceneError(sequence_.file(static_cast<std::size_t>(number)).string() + ": body " +
+                                 std::to_string(body) +
+                                 " is another one than in an earlier frame; give frames of the " + "same bodies");
+    }
+    ++count;
   }
   return std::make_shared<softbody::RecordedFrame>(
       softbody::RecordedFrame{count, std::move(frame.at.x), std::move(frame.at.y), std::move(frame.at.z)});
@@ -123,7 +153,7 @@ softbody::Scene recorded_scene(const std::vector<std::filesystem::path>& files, 
   scene.collision.tolerance = playback->usual_tolerance();
   const auto [low, high] = playback->bounds();
   scene.view.target = glm::dvec3(0.5f * (low + high));
-  scene.view.distance = std::max(1.2 * double{glm::distance(low, high)}, 1e-4);
+  scene.view.distance = std::max(double{glm::distance(low, high)}, 1e-4);
   scene.recording = playback;
   return scene;
 }

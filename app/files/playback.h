@@ -13,10 +13,10 @@ namespace app::files {
 /// as fit into the memory that a Playback may take, are read only once. Bodies without vertices are left out.
 class Playback : public softbody::Recording {
  public:
-  static constexpr std::size_t max_kept_bytes = std::size_t{1} << 30;  // of positions
+  static constexpr std::size_t max_kept_bytes = std::size_t{512} << 20;  // of positions
 
-  /// Reads the first frame. by: left out, the default of the first file's format. Throws as FrameSequence does, and
-  /// UsageError if the first frame has no vertex.
+  /// Reads the first frame, and for bounds() one in the middle and the last. by: left out, the default of the first
+  /// file's format. Throws as FrameSequence does, and SceneError if the first frame cannot be read or has no vertex.
   explicit Playback(std::vector<std::filesystem::path> files, std::optional<BodiesBy> by = {},
                     std::size_t kept_bytes = max_kept_bytes);
 
@@ -36,7 +36,8 @@ class Playback : public softbody::Recording {
   };
   SequenceFrame read(int number);
   void read_ahead(int number);
-  std::shared_ptr<const softbody::RecordedFrame> record(SequenceFrame frame);
+  void include(const softbody::RecordedFrame& frame);
+  std::shared_ptr<const softbody::RecordedFrame> record(int number, SequenceFrame frame);
 
   FrameSequence sequence_;  // while there is an ahead_, only its thread may use it
   std::map<int, std::shared_ptr<const softbody::RecordedFrame>> kept_;  // by number; always the first
@@ -46,7 +47,7 @@ class Playback : public softbody::Recording {
   std::optional<Ahead> ahead_;  // last member: its thread ends before the others go
 };
 
-/// Returns a scene that plays these files with usual_tolerance(); the camera sees the whole first frame. Throws as
+/// Returns a scene that plays these files with usual_tolerance(); the camera sees all of bounds(). Throws as
 /// Playback does.
 softbody::Scene recorded_scene(const std::vector<std::filesystem::path>& files, std::optional<BodiesBy> by = {});
 

@@ -87,8 +87,13 @@ SimulationClock::Step Simulation::step() {
 void Simulation::follow_recording(int frame, std::size_t bodies) {
   const bool is_last = world_->frame() + 1 == world_->scene().recording->frame_count();
   if (is_last && !loop) clock.paused = true;
-  if (world_->frame() < frame) before_last_step_.copy(world_->positions());  // nothing moved from the end to the start
-  if (world_->bodies().count() < bodies) replace(false);                     // reports name bodies that are gone
+  if (world_->frame() < frame) {  // it begins again, and nothing moved from the end to the start
+    before_last_step_.copy(world_->positions());
+    forget_later_steps();
+  }
+  if (world_->bodies().count() >= bodies) return;
+  ++world_number_;  // reports name bodies that are gone
+  observer_.replaced(false);
 }
 
 bool Simulation::has_come_to_rest() const {
@@ -264,10 +269,15 @@ void Simulation::rewind_to(int frame) {
   after_going_back();
 }
 
-void Simulation::after_going_back() {
-  stability_.went_back(*world_);
+/// Forgets what was recorded of this frame and of later ones.
+void Simulation::forget_later_steps() {
   for (TimeSeries* series : {&history.detect_ms, &history.solve_ms, &history.contacts})
     series->forget_from(world_->frame());
+}
+
+void Simulation::after_going_back() {
+  stability_.went_back(*world_);
+  forget_later_steps();
   replace(false);
 }
 

@@ -121,6 +121,7 @@ class Simulation {
   void leave_for(std::unique_ptr<softbody::World> world);
   void go(Way way);
   void after_going_back();
+  void forget_later_steps();
   void follow_recording(int frame, std::size_t bodies);
   SimulationClock::Step step();
 

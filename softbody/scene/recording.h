@@ -21,12 +21,12 @@ struct RecordedFrame {
 class Recording {
  public:
   virtual ~Recording() = default;
-  /// Returns the lower and the upper corner of a box around all bodies of the first frame.
+  /// Returns the lower and the upper corner of a box around the bodies, as far as that is known without all frames.
   virtual std::array<glm::vec3, 2> bounds() const = 0;
   /// Returns the number of frames, at least 1.
   virtual int frame_count() const = 0;
-  /// Returns a frame. Precondition: 0 <= number < frame_count(). Throws std::exception with one line for the user if it
-  /// cannot be read; other frames can be read nevertheless.
+  /// Returns a frame. Precondition: 0 <= number < frame_count(). Throws SceneError if it cannot be read;
+  /// other frames can be read nevertheless.
   virtual std::shared_ptr<const RecordedFrame> frame(int number) = 0;
   /// Returns the model of a body, which is the same in all frames. Precondition: a frame with this body was read.
   virtual const std::shared_ptr<const BodyModel>& model(std::uint32_t body) const = 0;

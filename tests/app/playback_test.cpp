@@ -10,7 +10,6 @@
 #include <sstream>
 #include <thread>
 
-#include "app/base/usage_error.h"
 #include "softbody/world/world.h"
 #include "tests/temporary_folder.h"
 
@@ -51,8 +50,8 @@ TEST_F(PlaybackTest, GivesWhatTheFilesHold) {
   }
   EXPECT_EQ(playback.model(0), playback.model(2)) << "bodies of one mesh share a model";
   EXPECT_EQ(playback.model(0)->mesh.edges.size(), 6u);
-  EXPECT_EQ(playback.bounds()[0], glm::vec3(0, 0, 0));
-  EXPECT_EQ(playback.bounds()[1], glm::vec3(4, 1, 1));
+  EXPECT_EQ(playback.bounds()[0], glm::vec3(0, 0, 0)) << "of the first frame";
+  EXPECT_EQ(playback.bounds()[1], glm::vec3(8, 1, 1)) << "of the last frame";
 }
 
 TEST_F(PlaybackTest, ReadsAgainOnlyWhatDoesNotFitIntoItsMemory) {
@@ -68,13 +67,13 @@ TEST_F(PlaybackTest, ReadsAgainOnlyWhatDoesNotFitIntoItsMemory) {
         playback.frame(0);
         playback.frame(2);
       },
-      std::runtime_error);
+      softbody::SceneError);
   EXPECT_EQ(playback.frame(1)->x[0], 0.5f) << "others can be read nevertheless";
 }
 
 TEST_F(PlaybackTest, ReadsTheNextFrameAheadOfTime) {
   const auto files = three();
-  files::Playback playback(files);
+  files::Playback playback(files, {}, 0);  // keeps none but the first
   playback.frame(0);
   std::this_thread::sleep_for(std::chrono::milliseconds(500));  // a few lines take no longer
   std::filesystem::remove(files[1]);
@@ -88,16 +87,32 @@ TEST_F(PlaybackTest, SaysWhichFileIsBrokenAndGoesOn) {
   for (int i = 0; i < 2; ++i) try {
       playback.frame(1);
       FAIL();
-    } catch (const std::exception& error) {
+    } catch (const softbody::SceneError& error) {
       EXPECT_NE(std::string(error.what()).find("1.obj:1"), std::string::npos) << error.what();
     }
   EXPECT_EQ(playback.frame(2)->x[0], 1.0f);
 }
 
+TEST_F(PlaybackTest, RefusesAnotherBodyInThePlaceOfALaterOne) {
+  const std::string two = "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const auto first = folder.write("0.obj", two),
+             grown = folder.write("1.obj", two + "o b\nv 0 0 1\nv 1 0 1\nv 0 1 1\nf 4 5 6\n"),
+             other = folder.write("2.obj", two + "o b\nv 0 0 1\nv 1 0 1\n");
+  files::Playback playback({first, grown, other, grown});
+  EXPECT_EQ(playback.frame(1)->body_count, 2u);
+  try {
+    playback.frame(2);
+    FAIL();
+  } catch (const softbody::SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("2.obj: body 1"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(playback.frame(3)->body_count, 2u);
+}
+
 TEST_F(PlaybackTest, MakesASceneWhoseToleranceSuitsTheData) {
   const softbody::Scene scene = files::recorded_scene(three());
   EXPECT_NEAR(scene.collision.tolerance, std::sqrt(2.0f) / 2, 1e-6) << "half the median edge";
-  EXPECT_EQ(scene.view.target, glm::dvec3(2, 0.5, 0.5));
+  EXPECT_EQ(scene.view.target, glm::dvec3(4, 0.5, 0.5));
   softbody::World world(scene, {});
   world.show_frame(2);
   EXPECT_EQ(world.bodies().count(), 3u);
@@ -108,7 +123,7 @@ TEST_F(PlaybackTest, MakesASceneWhoseToleranceSuitsTheData) {
 }
 
 TEST_F(PlaybackTest, RefusesFilesWithoutVertices) {
-  EXPECT_THROW(files::Playback({folder.write("none.obj", "o nothing\n")}), std::runtime_error);
+  EXPECT_THROW(files::Playback({folder.write("none.obj", "o nothing\n")}), softbody::SceneError);
 }
 
 }  // namespace

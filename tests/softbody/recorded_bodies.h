@@ -2,7 +2,6 @@
 // A recording in memory: balls that move along x, of which the last one joins late.
 
 #include <optional>
-#include <stdexcept>
 
 #include "softbody/scene/scene.h"
 #include "softbody/world/body_model_set.h"
@@ -23,7 +22,7 @@ class RecordedBalls : public Recording {
   int frame_count() const override { return frames_; }
   std::shared_ptr<const RecordedFrame> frame(int number) override {
     reads.push_back(number);
-    if (broken == number) throw std::runtime_error("frame 3 is broken");
+    if (broken == number) throw SceneError("frame 3 is broken");
     auto frame = std::make_shared<RecordedFrame>();
     frame->body_count = number < late ? few : all;
     for (std::uint32_t body = 0; body < frame->body_count; ++body)

@@ -58,9 +58,9 @@ TEST_F(RecordedWorld, ShowsAnyFrame) {
 TEST_F(RecordedWorld, StaysAtItsFrameIfTheNextCannotBeRead) {
   balls->broken = 3;
   world.show_frame(2);
-  EXPECT_THROW(world.step(), std::runtime_error);
+  EXPECT_THROW(world.step(), SceneError);
   expect_frame(2);
-  EXPECT_THROW(world.show_frame(3), std::runtime_error);
+  EXPECT_THROW(world.show_frame(3), SceneError);
   expect_frame(2);
   world.show_frame(4);
   expect_frame(4);

@@ -27,6 +27,7 @@ void draw_question(Widgets& w, Session& session, session::Import& import) {
                              w.px(80));
   ImGui::SameLine();
   const bool import_each = w.button("Import", "Each file joins the scene as a soft body.", w.px(80));
+  ImGui::SameLine();  // "Close" follows
   if (play) import.play(session);
   if (import_each) import.import_each(session);
 }
