@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <iterator>
 
 namespace collide::oracle {
@@ -84,19 +86,59 @@ Coefficients square_free(Coefficients c) {
   return quotient;
 }
 
-/// Halves the piece of a root until it is at most 2^-halvings long.
-void refine(Root& root, unsigned halvings) {
-  while (!root.polynomial.empty() && root.piece.halvings < halvings) {
-    Coefficients first = first_half(root.polynomial);
-    ++root.piece.halvings;
-    root.piece.start *= 2;
-    if (const int middle = sgn(first.back()); middle == -sgn(first.front())) {
-      root.polynomial = std::move(first);
-    } else {
-      ++root.piece.start;
-      root.polynomial = middle == 0 ? Coefficients{} : second_half(std::move(root.polynomial));
-    }
+/// Returns about where inside its piece a root is, 0 .. 1. Rounded; where all of it is lost, the answer is just useless.
+double estimate(const Coefficients& polynomial) {
+  const auto bits = [](const Integer& x) { return mpz_sizeinbase(x.get_mpz_t(), 2); };
+  std::size_t most = 0;
+  for (const Integer& x : polynomial) most = std::max(most, bits(x));
+  std::vector<double> c;
+  for (const Integer& x : polynomial) {
+    long exponent;
+    const double digits = mpz_get_d_2exp(&exponent, x.get_mpz_t());
+    c.push_back(std::ldexp(digits, static_cast<int>(exponent - static_cast<long>(most))));
   }
+  double low = 0, high = 1;
+  for (int i = 0; i < 50; ++i) {
+    const double t = (low + high) / 2, s = 1 - t;
+    double value = 0, power = 1;
+    for (const double x : c) {
+      value = value * s + x * power;
+      power *= t;
+    }
+    ((value > 0) == (c.front() > 0) ? low : high) = t;
+  }
+  return low;
+}
+
+/// Returns the sign of a polynomial at step / 2^halvings of its piece.
+int sign_at(const Coefficients& polynomial, std::uint64_t step, unsigned halvings) {
+  const std::uint64_t rest = (std::uint64_t{1} << halvings) - step;
+  Integer value = 0, power = 1;
+  for (const Integer& x : polynomial) {
+    value *= rest;
+    value += x * power;
+    power *= step;
+  }
+  return sgn(value);
+}
+
+/// Shortens the piece of a root to 2^-halvings if it is longer.
+void refine(Root& root, unsigned halvings) {
+  if (root.polynomial.empty() || root.piece.halvings >= halvings) return;
+  const unsigned more = halvings - root.piece.halvings;
+  std::uint64_t low = 0, high = std::uint64_t{1} << more;
+  const auto narrow = [&](std::uint64_t step) {
+    if (step <= low || step >= high) return;
+    const int sign = sign_at(root.polynomial, step, more);
+    if (sign != -sgn(root.polynomial.front())) low = step;
+    if (sign != sgn(root.polynomial.front())) high = step;
+  };
+  const auto near = static_cast<std::uint64_t>(std::ldexp(estimate(root.polynomial), static_cast<int>(more)));
+  narrow(near);
+  narrow(near + 1);
+  while (high - low > 1) narrow(low + (high - low) / 2);
+  root.piece = {(root.piece.start << more) + low, halvings};
+  if (low == high) root.polynomial.clear();
 }
 
 }  // namespace
