@@ -105,6 +105,10 @@ struct Scene {
 /// Throws SceneError; unknown keys, wrong types and values out of range are errors too.
 Scene load_scene(const std::filesystem::path& file, const std::filesystem::path& presets = {});
 
+/// Reads the text of a scene file, which may have no body yet. `file` names it in messages, and its folder is that of
+/// the meshes that the text names. Throws SceneError as load_scene() does.
+Scene parse_scene(std::string_view text, const std::filesystem::path& file, const std::filesystem::path& presets = {});
+
 /// Reads a file of materials, each with a name of its own. Throws SceneError as load_scene() does.
 std::vector<Material> load_presets(const std::filesystem::path& file);
 
