@@ -86,7 +86,8 @@ Coefficients square_free(Coefficients c) {
   return quotient;
 }
 
-/// Returns about where inside its piece a root is, 0 .. 1. Rounded; where all of it is lost, the answer is just useless.
+/// Returns about where inside its piece a root is, 0 .. 1. Rounded; where all of it is lost, the answer is just
+/// useless.
 double estimate(const Coefficients& polynomial) {
   const auto bits = [](const Integer& x) { return mpz_sizeinbase(x.get_mpz_t(), 2); };
   std::size_t most = 0;

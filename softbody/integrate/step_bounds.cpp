@@ -47,7 +47,7 @@ StepBound StepBounds::measure(const Batch& b, const Integrator& integrator) cons
                              : PenaltyLaw<double>::stiffness_bound(p.material[contact::stiffness]) / p.particle_mass;
   const auto rate = [&](double stiffness) { return 1 / integrator.stable_step(stiffness + contact, force.damping); };
   const double less_reserve = (1 - 0.2) / (1 - 0.1);  // see Integrator::reserve()
-  unsigned near = 0;  // bits: lanes
+  unsigned near = 0;                                  // bits: lanes
   for (const SolidArguments& solid : solids_.near(b)) near |= solid.near;
   const Extent motion = state_.extent(b, state_.v, state_.v);
   const double pace = 0.1 * p.radius;
