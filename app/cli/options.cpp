@@ -164,10 +164,14 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
   return detect;
 }
 
-CLI::App* add_report(CLI::App& cli, Options& options) {
+CLI::App* add_report(CLI::App& cli, Options& options, std::optional<double>& tolerance) {
   report::ReportOptions& r = options.report;
   CLI::App* report = cli.add_subcommand("report", "measure for minutes; write tables and plots");
   report->add_option("what", r.name, "detection, contact, solver or stability");
+  report->add_option("FILE", r.files, "detection: OBJ or PLY files, consecutive frames of your own in place of scenes");
+  report->add_option("--tolerance", tolerance, "of FILE: collision tolerance in metres")->type_name("H");
+  add_bodies_option(*report, r.by);
+  report->add_option("--rest", r.rest, "of FILE: bodies at rest, as for `detect`")->type_name("FILE");
   report->add_option("--scene", r.scene, "only this scene: a key of `list scenes` or a .toml file")->type_name("S");
   report->add_flag("--quick", r.quick, "within a minute: fewer scenes, states and repetitions");
   report
@@ -236,6 +240,27 @@ void check(const Options& options) {
   if (options.animation) check_animation(options);
 }
 
+/// Completes the options of a report. tolerance: as given. Throws UsageError.
+void complete_report(report::ReportOptions& r, std::optional<double> tolerance) {
+  if (r.name.empty()) throw UsageError("report: say which one: detection, contact, solver or stability");
+  if (r.files.empty()) {
+    for (const auto& [option, given] : {std::pair("--tolerance", tolerance.has_value()),
+                                        {"--bodies", r.by.has_value()},
+                                        {"--rest", r.rest.has_value()}})
+      if (given) throw UsageError(std::string(option) + ": goes with files; write report detection FILE...");
+    return;
+  }
+  if (r.name != "detection")
+    throw UsageError("report " + r.name + " " + r.files.front() + ": only report detection takes files");
+  if (r.scene) throw UsageError("--scene " + *r.scene + ": goes without files; leave one of them out");
+  if (!tolerance) throw UsageError("--tolerance: is missing; files need one, in metres");
+  DetectionOptions detection;
+  detection.tolerance = tolerance;
+  collide::Settings settings;
+  apply(detection, settings);
+  r.tolerance = *tolerance;
+}
+
 /// Throws UsageError unless a scene file may have this length: a saved scene must be readable again.
 void require_length(const std::string& option, float metres, double most) {
   if (!(metres >= static_cast<float>(softbody::min_length) && metres <= static_cast<float>(most)))
@@ -254,6 +279,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   Options options;
   options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   std::string size, captures;
+  std::optional<double> report_tolerance;
 
   CLI::App cli{
       "Soft spheres fall on a solid sphere while a detector finds their collisions and self-collisions.\n"
@@ -269,7 +295,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
 
   const CLI::App* simulate = add_simulate(cli, options, size, captures);
   const CLI::App* detect = add_detect(cli, options);
-  const CLI::App* report = add_report(cli, options);
+  const CLI::App* report = add_report(cli, options, report_tolerance);
   CLI::App* list = cli.add_subcommand("list", "print keys and names, a line each");
   list->add_option("what", options.list_of, "scenes, methods, integrators or contact-surfaces")
       ->check(CLI::IsMember({"scenes", "methods", "integrators", "contact-surfaces"}));
@@ -285,11 +311,10 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     const std::string command = below.empty() ? "" : below.front()->get_name() + " ";
     throw UsageError(reason(error) + "; see sbcollide " + command + "--help");
   }
-  if (*report && options.report.name.empty())
-    throw UsageError("report: say which one: detection, contact, solver or stability");
   if (*list && options.list_of.empty())
     throw UsageError("list: say of what: scenes, methods, integrators or contact-surfaces");
   refuse_missing_values(cli);
+  if (*report) complete_report(options.report, report_tolerance);
   options.command = *simulate ? Command::simulate
                     : *detect ? Command::detect
                     : *report ? Command::report

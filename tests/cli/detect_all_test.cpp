@@ -19,7 +19,7 @@ using nlohmann::json;
 class DetectBodies : public testing::Test {
  protected:
   std::string csv() const { return folder.path() / "contacts.csv"; }
-  std::vector<Row> contacts(std::vector<std::string> arguments) {
+  std::vector<ContactRow> contacts(std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--contacts", csv()});
     detect(arguments);
     return read_contacts(csv());
@@ -54,7 +54,7 @@ struct Scattered {
 
   /// Returns contacts of the state as those of the file. Its bodies are in the order of their first vertices, and those
   /// without a face are the last one.
-  std::vector<Row> rows(std::vector<Row> of_state, const State& state) const {
+  std::vector<ContactRow> rows(std::vector<ContactRow> of_state, const State& state) const {
     std::vector<unsigned> body_of, first(state.bodies.size(), ~0u);
     for (unsigned b = 0; b < state.bodies.size(); ++b)
       body_of.insert(body_of.end(), state.bodies[b].vertices.size(), b);
@@ -63,7 +63,7 @@ struct Scattered {
     const auto rank = [&](unsigned body) {
       return static_cast<unsigned>(std::ranges::count_if(first, [&](unsigned other) { return other < first[body]; }));
     };
-    for (Row& row : of_state) {
+    for (ContactRow& row : of_state) {
       row = {row.frame, place[row.vertex_a], place[row.vertex_b], rank(row.body_a), rank(row.body_b), row.distance};
       if (row.vertex_a < row.vertex_b) continue;
       std::swap(row.vertex_a, row.vertex_b);
@@ -80,7 +80,7 @@ TEST_F(DetectBodies, NamesVerticesAsTheFileDoes) {
   auto expected = first.rows(oracle(0, state, {.tolerance = 0.07f}), state);
   const auto later = first.rows(oracle(1, next, {.tolerance = 0.07f, .edges = &state}), state);
   expected.insert(expected.end(), later.begin(), later.end());
-  ASSERT_GT(std::ranges::count_if(expected, [](const Row& r) { return r.body_a != r.body_b; }), 20);
+  ASSERT_GT(std::ranges::count_if(expected, [](const ContactRow& r) { return r.body_a != r.body_b; }), 20);
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
     const auto a = folder.write("a.ply", ply(first.vertices, first.faces, {.format = format, .extras = true}));
     const auto b = folder.write("b.ply", ply(second.vertices, {}, {.format = format, .real = "double"}));
