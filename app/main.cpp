@@ -38,8 +38,8 @@ int run(const app::cli::Options& options) {
   }
 #if SBCOLLIDE_GRAPHICS
   return app::window::run_demo({.scene = app::cli::load_scene(options),
-                                .scene_name = options.scene,
-                                .scene_given = options.scene_given,
+                                .scene_name = options.play.empty() ? options.scene : options.play.front(),
+                                .scene_given = options.scene_given || !options.play.empty(),
                                 .scene_folder = app::files::scene_folder(),
                                 .meshes = options.meshes,
                                 .integrator = options.integrator,

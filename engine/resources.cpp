@@ -3,7 +3,6 @@
 #include <cstdlib>
 #include <string>
 #include <system_error>
-#include <vector>
 
 namespace engine {
 namespace fs = std::filesystem;
@@ -32,11 +31,7 @@ fs::path find_folder(std::string_view name) {
   }
   const fs::path here = executable_folder();
   std::string tried;
-  // In a checkout that was moved or copied, SBCOLLIDE_SOURCE_DIR still names the old place.
-  const fs::path checkout = here / "../../..";
-  std::vector<fs::path> bases{here, here / "../share/sbcollide", fs::path(SBCOLLIDE_SOURCE_DIR)};
-  if (fs::exists(checkout / "CMakePresets.json")) bases.insert(bases.end() - 1, checkout);
-  for (const fs::path& base : bases) {
+  for (const fs::path& base : {here, here / SBCOLLIDE_DATA_FROM_PROGRAM}) {
     fs::path folder = (base / name).lexically_normal();
     if (is_folder(folder)) return folder;
     tried += (tried.empty() ? "" : ", ") + folder.string();

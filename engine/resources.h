@@ -14,8 +14,9 @@ class ResourceError : public std::runtime_error {
 };
 
 /// Finds the folder `name` ("shaders", "assets"), from any working directory. If $SBCOLLIDE_DATA is set, the folder
-/// must be there. Otherwise the search goes through: the folder of the executable, ../share/sbcollide beside it, the
-/// checkout whose build/PRESET/bin holds the executable, and the source folder of the build. Throws ResourceError.
+/// must be there. Otherwise it must be in the folder of the executable, as in a build folder, which has links
+/// to those of the checkout, or in ../share/sbcollide beside that, as where the program is installed. Throws
+/// ResourceError.
 std::filesystem::path find_folder(std::string_view name);
 
 }  // namespace engine

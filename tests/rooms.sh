@@ -4,14 +4,17 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# model/body_model.cpp still makes the data of the forces.
+# model/body_model.cpp still makes the data of the forces. The public headers include no other header of the project.
 allowed="
-collide/core:
-collide/methods: collide/core
+collide/api/sbcollide:
+collide/core: collide/api/sbcollide
+collide/trees: collide/core
+collide/methods: collide/core collide/trees
 collide/exact: collide/core
 collide/surface: collide/core
 collide/oracle: collide/core collide/surface
 collide: collide/core collide/methods collide/exact
+collide/api: collide/api/sbcollide collide/core collide
 softbody/mesh:
 softbody/model: collide/core collide/surface softbody/mesh softbody/contact softbody/forces
 softbody/state: softbody/mesh softbody/model
@@ -22,6 +25,8 @@ softbody/integrate/implicit: softbody/mesh softbody/state softbody/model softbod
 softbody/integrate: collide/core collide/surface softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate/implicit
 softbody/integrate/methods: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
 softbody/world: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
+softbody/api/sbcollide:
+softbody/api: collide/api collide/api/sbcollide collide/core softbody/api/sbcollide softbody/mesh softbody/model softbody/forces softbody/scene softbody/world
 engine:
 engine/render: engine
 app/base: collide softbody engine
@@ -52,7 +57,7 @@ model/key model/material model/body_model model/scene_error
 contact/contacts contact/keys contact/law contact/solid contact/solid_surface
 forces/body_measures forces/bound forces/coordinates forces/gas forces/grab forces/material_keys
 forces/shape_matching forces/springs
-scene/limits scene/scene scene/scene_write scene/solids scene/toml_table scene/toml_text
+scene/limits scene/recording scene/scene scene/scene_write scene/solids scene/toml_table scene/toml_text
 integrate/integrators integrate/work integrate/plan
 world/energy_watch world/measures world/body_model_set world/snapshot world/world
 "

@@ -13,8 +13,10 @@ class TimeSeries {
  public:
   static constexpr std::size_t capacity = 180;  // three seconds of frames
 
-  /// frame: the world's frame in which the value was measured.
+  /// frame: the world's frame in which the value was measured. Values of later frames are forgotten: the world went
+  /// back.
   void push(int frame, float value) {
+    forget_from(frame + 1);
     values_[next_] = value;
     frames_[next_] = frame;
     next_ = (next_ + 1) % capacity;

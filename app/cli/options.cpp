@@ -9,6 +9,7 @@
 
 #include "app/base/parse_numbers.h"
 #include "app/cli/integer_option.h"
+#include "app/files/playback.h"
 #include "app/files/scene_folder.h"
 #include "softbody/scene/limits.h"
 #include "softbody/world/world.h"
@@ -261,6 +262,19 @@ void complete_report(report::ReportOptions& r, std::optional<double> tolerance) 
   r.tolerance = *tolerance;
 }
 
+/// Throws UsageError for what does not go with recorded frames.
+void check_play(const CLI::App& cli, const Options& options) {
+  if (options.play.empty()) {
+    if (options.bodies_by) throw UsageError("--bodies: goes with --play FILE... or `detect FILE...`");
+    return;
+  }
+  if (options.command != Command::demo) throw UsageError("--play: only the window takes it; `detect` reads files, too");
+  for (const char* other : {"--scene", "--mesh"})
+    if (cli.count(other) > 0) throw UsageError(std::string(other) + ": leave it out, or --play: there is one of them");
+  for (const char* other : {"--integrator", "--substeps", "--contact-surface"})
+    if (cli.count(other) > 0) throw UsageError(std::string(other) + ": leave it out: --play simulates nothing");
+}
+
 /// Throws UsageError unless a scene file may have this length: a saved scene must be readable again.
 void require_length(const std::string& option, float metres, double most) {
   if (!(metres >= static_cast<float>(softbody::min_length) && metres <= static_cast<float>(most)))
@@ -293,6 +307,11 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
 
+  cli.add_option("--play", options.play,
+                 "OBJ or PLY files: recorded frames that the window plays; nothing is simulated")
+      ->type_name("FILE");
+  add_bodies_option(cli, options.bodies_by);
+
   const CLI::App* simulate = add_simulate(cli, options, size, captures);
   const CLI::App* detect = add_detect(cli, options);
   const CLI::App* report = add_report(cli, options, report_tolerance);
@@ -322,6 +341,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
                               : Command::demo;
   if (!options.meshes.empty() && options.command != Command::demo)
     throw UsageError("--mesh: only the window takes it; a scene file names meshes for `simulate`");
+  check_play(cli, options);
   if (!size.empty()) parse_size(size, options);
   options.size_given = !size.empty();
   options.scene_given = cli.count("--scene") > 0;
@@ -334,13 +354,16 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
 softbody::Scene load_scene(const Options& options) {
   if (options.scene.ends_with(".obj"))
     throw UsageError("--scene " + options.scene + ": a mesh, not a scene; `sbcollide --mesh` opens it in the window");
-  softbody::Scene scene = softbody::find_scene(options.scene, files::scene_folder());
+  softbody::Scene scene = options.play.empty()
+                              ? softbody::find_scene(options.scene, files::scene_folder())
+                              : files::recorded_scene({options.play.begin(), options.play.end()}, options.bodies_by);
+  const bool may_be_saved = options.play.empty();
   scene.method = chosen_method(options.detection, scene.method).key;
-  if (const auto tolerance = options.detection.tolerance)
+  if (const auto tolerance = options.detection.tolerance; tolerance && may_be_saved)
     require_length(fmt::format("--tolerance {:.9g}", *tolerance), static_cast<float>(*tolerance),
                    softbody::max_tolerance);
   apply(options.detection, scene.collision);
-  if (!automatic_cell_size(options.detection, true))
+  if (!automatic_cell_size(options.detection, true) && may_be_saved)
     for (int axis = 0; axis < 3; ++axis)
       require_length("--cell-size " + *options.detection.cell_size, scene.collision.cell_size[axis],
                      softbody::max_length);

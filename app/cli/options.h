@@ -40,10 +40,12 @@ struct Options {
   report::ReportOptions report;
   softbody::IntegratorChoice integrator;
   int threads = 1;
-  double frame_time = 1.0 / 60.0;   // s
-  int width = 1280, height = 720;   // pixels
-  bool size_given = false;          // the window opens in this size, not in that of the last run
-  std::vector<std::string> meshes;  // mesh files to open in the window
+  double frame_time = 1.0 / 60.0;            // s
+  int width = 1280, height = 720;            // pixels
+  bool size_given = false;                   // the window opens in this size, not in that of the last run
+  std::vector<std::string> meshes;           // mesh files to open in the window
+  std::vector<std::string> play;             // mesh files that the window plays as frames, in place of a scene
+  std::optional<files::BodiesBy> bodies_by;  // what a body of them is; otherwise the format's default
   int frames = 800;
   std::vector<int> captures;                       // frames to take pictures of, ascending
   std::optional<std::filesystem::path> animation;  // the animated image to write
@@ -62,7 +64,8 @@ int frames_per_picture(double frame_time);
 /// Returns the options; nothing if help or the version was asked for and has been printed. Throws UsageError.
 std::optional<Options> parse_options(int argc, const char* const* argv);
 
-/// Returns the scene that the options name, with their settings. Throws UsageError or SceneError.
+/// Returns the scene that the options name, or one that plays their files, with their settings. Throws UsageError,
+/// SceneError or MeshFileError.
 softbody::Scene load_scene(const Options& options);
 
 }  // namespace app::cli

@@ -21,6 +21,8 @@ std::vector<Value> axis(bool used, const Values& values, Value otherwise) {
 }  // namespace
 
 glm::vec3 automatic_cell_size(const softbody::World& world, int levels) {
+  if (const auto& recording = world.scene().recording)
+    return softbody::default_cell_size(*recording, levels, world.collision().tolerance);
   collide::Bodies bodies;
   std::vector<float> x, y, z;
   std::set<const softbody::BodyModel*> seen;

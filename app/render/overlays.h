@@ -29,6 +29,7 @@ struct OverlayRow {
   char shortcut;             // on the keyboard
   std::string_view tooltip;  // what it shows, with its section of the paper
   bool Overlays::*shown;
+  bool needs_solver = false;  // there is none where the motion is recorded
 };
 
 inline constexpr std::array<OverlayRow, 9> overlay_table{{
@@ -42,8 +43,8 @@ inline constexpr std::array<OverlayRow, 9> overlay_table{{
     {"contacts", "Contacts", '4',
      "Pairs of vertices closer than the tolerance, and vertices that touch a solid (§2.3).", &Overlays::contacts},
     {"springs", "Springs", '5',
-     "All springs, coloured by their strain. From far away only the springs along edges are drawn.",
-     &Overlays::springs},
+     "All springs, coloured by their strain. From far away only the springs along edges are drawn.", &Overlays::springs,
+     true},
     {"missed", "Missed contacts", '6',
      "True contacts that the paper's method misses, or the method that you choose in the comparison (V). A ring shows "
      "where, and how many.",
@@ -53,7 +54,7 @@ inline constexpr std::array<OverlayRow, 9> overlay_table{{
     {"touches", "Surface contacts", '8',
      "The two closest points and the normal of each surface contact. There are none with vertex-vertex contact, and "
      "none between bodies that sleep.",
-     &Overlays::surface_contacts},
+     &Overlays::surface_contacts, true},
     {"true-surfaces", "True surfaces", '9',
      "Checks the surfaces exactly: how many vertices are inside other bodies, and which of these overlaps have no "
      "contact. The latter are drawn.",

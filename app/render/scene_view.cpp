@@ -56,17 +56,22 @@ std::vector<engine::MeshDraw> SceneView::gather_bodies(const softbody::World& wo
   normals_.resize(positions_.size());
   const collide::Bodies& bodies = world.bodies();
   std::vector<engine::MeshDraw> draws;
-  const UploadedMesh* mesh = nullptr;
+  std::vector<const UploadedMesh*> meshes;
   const softbody::BodyModel* last = nullptr;
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     const softbody::BodyModel& model = world.model(b);
-    if (&model != last) mesh = &upload(model.mesh);
+    meshes.push_back(&model == last ? meshes.back() : &upload(model.mesh));
     last = &model;
-    const std::uint32_t begin = first + bodies.first[b], count = bodies.size(b);
-    engine::smooth_normals(mesh->indices, std::span(positions_).subspan(begin, count),
-                           std::span(normals_).subspan(begin, count));
-    draws.push_back({mesh->handle, begin, count, {}});
+    draws.push_back({meshes.back()->handle, first + bodies.first[b], bodies.size(b), {}});
   }
+  workers_.run([&](int thread) {
+    const collide::Part part = collide::part_of(draws.size(), thread, workers_.threads());
+    for (std::size_t b = part.begin; b < part.end; ++b) {
+      const std::uint32_t begin = draws[b].first_vertex, count = draws[b].vertex_count;
+      engine::smooth_normals(meshes[b]->indices, std::span(positions_).subspan(begin, count),
+                             std::span(normals_).subspan(begin, count));
+    }
+  });
   return draws;
 }
 
@@ -179,6 +184,10 @@ double SceneView::radius(const softbody::MeshSource& source) {
 
 /// Returns a sphere around the scene as it is set up: the solids, and the places where bodies start.
 SceneView::Bounds SceneView::bounds(const softbody::Scene& scene) {
+  if (scene.recording) {
+    const auto [low, high] = scene.recording->bounds();
+    return {0.5f * (low + high), 0.5f * glm::distance(low, high)};
+  }
   glm::dvec3 lo = scene.view.target, hi = scene.view.target;
   const auto include = [&](const glm::dvec3& centre, double reach) {
     lo = glm::min(lo, centre - reach);

@@ -10,6 +10,7 @@
 #include "app/compare/table_contents.h"
 #include "app/render/highlight.h"
 #include "app/render/overlays.h"
+#include "collide/core/workers.h"
 #include "engine/render/renderer.h"
 #include "softbody/world/world.h"
 
@@ -36,8 +37,8 @@ class SceneView {
   static constexpr std::size_t max_boxes = 20'000;  // of each kind; the others are not drawn
   static constexpr float max_shown_strain = 0.2f;   // change of length / rest length at the ends of the colour scale
 
-  /// Requires a current context. Throws engine::ShaderError.
-  explicit SceneView(const std::filesystem::path& shaders) : renderer_(shaders) {}
+  /// threads: prepare a picture. Requires a current context. Throws engine::ShaderError.
+  explicit SceneView(const std::filesystem::path& shaders, int threads = 1) : renderer_(shaders), workers_(threads) {}
 
   void draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
             const engine::Viewport& viewport, float pixel_scale, const compare::DrawnPositions& positions);
@@ -82,6 +83,7 @@ class SceneView {
   double radius(const softbody::MeshSource& source);
 
   engine::render::Renderer renderer_;
+  collide::Workers workers_;
   // By content: worlds come and go, but their meshes are few and mostly the same.
   std::map<std::vector<softbody::Triangle>, UploadedMesh> meshes_;
   std::vector<std::pair<softbody::MeshSource, double>> radii_;  // m, of the meshes so far

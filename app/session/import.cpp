@@ -4,12 +4,14 @@
 #include <cassert>
 #include <cctype>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 
 #include <fmt/core.h>
 #include <glm/vec3.hpp>
 
 #include "app/base/text.h"
+#include "app/files/playback.h"
 #include "softbody/contact/keys.h"
 #include "softbody/forces/springs.h"
 #include "softbody/mesh/file_mesh.h"
@@ -59,6 +61,20 @@ std::vector<std::string> lines_about(const FileReader::Mesh& read, const softbod
   return lines;
 }
 
+FileReader::World world_of(const std::filesystem::path& path, softbody::Scene scene, int threads) {
+  auto world = make_window_world(scene, {}, threads);
+  return {path, std::move(scene), std::move(world)};
+}
+
+/// Returns the ending of a file's name in small letters.
+std::string ending_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+bool is_mesh(const std::filesystem::path& file) { return ending_of(file) == ".obj" || ending_of(file) == ".ply"; }
+
 }  // namespace
 
 FileReader::Answer FileReader::answer(const Question& question, const std::stop_token&) const {
@@ -68,11 +84,13 @@ FileReader::Answer FileReader::answer(const Question& question, const std::stop_
       read.model = softbody::shared_body_model(read.mesh, imported_material(read.mesh.imported->findings.extent));
       return read;
     }
+    if (const auto* frames = std::get_if<FramesToRead>(&question)) {
+      softbody::Scene scene = files::recorded_scene(frames->files);
+      for (const int number : {1, scene.recording->frame_count() - 1}) scene.recording->frame(number);
+      return world_of(frames->files.front(), std::move(scene), frames->threads);
+    }
     const auto& [path, threads, presets] = std::get<SceneToRead>(question);
-    softbody::Scene scene = softbody::load_scene(path, presets);
-    auto world = std::make_unique<softbody::World>(
-        scene, softbody::World::Options{.threads = threads, .budget = softbody::window_budget});
-    return World{path, std::move(scene), std::move(world)};
+    return world_of(path, softbody::load_scene(path, presets), threads);
   } catch (const std::exception& error) {
     return std::string(error.what());
   }
@@ -136,9 +154,7 @@ void Import::open(Session& session) {
   const std::filesystem::path file(path);
   if (file.extension() == ".toml")
     return read(FileReader::SceneToRead{file, session.simulation.threads(), session.scenes.presets_file()});
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending != ".obj" && ending != ".ply") return refuse(path + ": neither a mesh (.obj, .ply) nor a scene (.toml)");
+  if (!is_mesh(file)) return refuse(path + ": neither a mesh (.obj, .ply) nor a scene (.toml)");
   softbody::MeshFile mesh{.path = std::filesystem::absolute(file), .size = double{size}, .weld = weld};
   if (z_is_up) mesh.up = {0, 0, 1};
   read(std::move(mesh));
@@ -151,6 +167,36 @@ void Import::read(FileReader::Question question) {
 }
 
 void Import::drop(const std::vector<std::string>& files, Session& session) {
+  if (!files.empty()) frames_.reset();
+  if (files.size() > 1 && !busy() && std::ranges::all_of(files, is_mesh)) {
+    together_ = files;
+    // A file manager gives them in any order. Numbers count as numbers: 9 comes before 10.
+    std::vector<std::string> frames = files;
+    std::ranges::sort(frames, [](const auto& a, const auto& b) { return strverscmp(a.c_str(), b.c_str()) < 0; });
+    path = frames.front();
+    is_dropped_ = true;
+    read(FileReader::FramesToRead{{frames.begin(), frames.end()}, session.simulation.threads()});
+  } else {
+    dropped_.insert(dropped_.end(), files.begin(), files.end());
+  }
+  update(session);
+}
+
+std::string Import::question() const {
+  if (!frames_) return {};
+  return fmt::format(
+      "{} files with the same vertices. Play them as the frames of a recording, or import each as a body?",
+      grouped(frames_->files.size()));
+}
+
+void Import::play(Session& session) {
+  assert(frames_);
+  enter(session, std::move(std::exchange(frames_, std::nullopt)->world));
+}
+
+void Import::import_each(Session& session) {
+  assert(frames_);
+  const std::vector<std::string> files = std::exchange(frames_, std::nullopt)->files;
   dropped_.insert(dropped_.end(), files.begin(), files.end());
   update(session);
 }
@@ -169,6 +215,15 @@ void Import::update(Session& session) {
 }
 
 void Import::take(Session& session, FileReader::Answer answer) {
+  if (std::vector<std::string> files = std::exchange(together_, {}); !files.empty()) {
+    if (auto* world = std::get_if<FileReader::World>(&answer)) {
+      frames_.emplace(Frames{std::move(files), std::move(*world)});
+      if (!session.why_no_solver().empty()) play(session);  // no body could join
+    } else {                                                // they are no frames
+      dropped_ = std::move(files);
+    }
+    return;
+  }
   if (const auto* why = std::get_if<std::string>(&answer)) return refuse(*why);
   if (auto* mesh = std::get_if<FileReader::Mesh>(&answer)) return join(session, std::move(*mesh));
   enter(session, std::move(std::get<FileReader::World>(answer)));
@@ -176,8 +231,9 @@ void Import::take(Session& session, FileReader::Answer answer) {
 
 void Import::enter(Session& session, FileReader::World answer) {
   try {
+    const std::string what = answer.scene.recording ? answer.scene.look_at : "scene " + answer.path.filename().string();
     session.scenes.enter(std::move(answer.world), std::move(answer.scene), answer.path.string());
-    add({.lines = {"scene " + answer.path.filename().string()}});
+    add({.lines = {what}});
   } catch (const std::exception& error) {
     refuse(error.what());
   }

@@ -1,10 +1,12 @@
 #pragma once
-// Imports the user's own meshes and scenes: named or dropped on the window, read beside the demo, and reported on.
+// Imports the user's own meshes, scenes and recorded frames: named or dropped on the window, read beside the demo, and
+// reported on.
 
 #include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -20,16 +22,20 @@ struct FileReader {
     int threads;  // of its world
     std::filesystem::path presets;
   };
+  struct FramesToRead {
+    std::vector<std::filesystem::path> files;
+    int threads;
+  };
   struct Mesh {
     softbody::MeshSource mesh;
     std::shared_ptr<const softbody::BodyModel> model;  // of imported_material(); kept alive so that a world finds it
   };
   struct World {
-    std::filesystem::path path;
+    std::filesystem::path path;  // of the scene, or of the first frame
     softbody::Scene scene;
     std::unique_ptr<softbody::World> world;
   };
-  using Question = std::variant<softbody::MeshFile, SceneToRead>;
+  using Question = std::variant<softbody::MeshFile, SceneToRead, FramesToRead>;
   using Answer = std::variant<Mesh, World, std::string>;  // string: what failed
   Answer answer(const Question& question, const std::stop_token& stop) const;
 };
@@ -61,10 +67,17 @@ class Import {
   /// Begins to read the file of `path`. A scene then replaces the present one; a mesh is added to it. problem() says
   /// why a file is refused.
   void load(Session& session);
-  /// Does the same with files that were dropped on the window, one after another. report() says why one is refused.
+  /// Does the same with files that were dropped on the window, one after another. report() says why one is refused. If
+  /// they are meshes with the same vertices, question() asks first whether to play them.
   void drop(const std::vector<std::string>& files, Session& session);
   /// Takes what has been read. Call it once a frame.
   void update(Session& session);
+
+  /// Returns the question whether to play the files that were dropped, or to import each; empty if there is none.
+  std::string question() const;
+  // The answers to question().
+  void play(Session& session);
+  void import_each(Session& session);
 
   bool busy() const { return reading_ || !dropped_.empty(); }
   /// Returns what is being read, and for how long; empty unless busy().
@@ -73,10 +86,18 @@ class Import {
   std::string problem() const { return problem_.about(path); }
   /// Returns the reports since the last load(), in order: all refusals, and the last few of the others.
   const std::vector<FileReport>& report() const { return report_; }
-  void dismiss_report() { report_.clear(); }
+  /// Forgets the report and the question.
+  void dismiss_report() {
+    report_.clear();
+    frames_.reset();
+  }
 
  private:
   static constexpr std::size_t max_file_reports = 5;
+  struct Frames {
+    std::vector<std::string> files;
+    FileReader::World world;
+  };
 
   void open(Session& session);
   void add(FileReport file_report);
@@ -89,7 +110,9 @@ class Import {
   FieldNotice problem_;
   bool is_dropped_ = false;  // the file that is read; else load() was called
   std::vector<FileReport> report_;
-  std::vector<std::string> dropped_;  // not yet loaded
+  std::vector<std::string> dropped_;   // not yet loaded
+  std::vector<std::string> together_;  // what is read now, if it may be frames
+  std::optional<Frames> frames_;       // what question() is about
   bool reading_ = false;
   std::chrono::steady_clock::time_point began_;
   BackgroundWorker<FileReader> reader_;

@@ -33,6 +33,8 @@ class Session : private SimulationObserver {
   SurfaceMonitor surfaces;
 
   const softbody::World& world() const { return simulation.world(); }
+  /// Returns why nothing is simulated; empty if the bodies are.
+  std::string why_no_solver() const { return world().plan().why_not(softbody::Stage::integrate); }
 
   /// Takes the steps that are due, now that `elapsed` seconds of real time have passed, and follows with all else.
   /// `waited`: the picture waited on purpose, so `elapsed` is no measure of the machine.

@@ -62,14 +62,18 @@ void Simulation::advance_one(double elapsed, bool allowed) {
 SimulationClock::Step Simulation::step() {
   before_last_step_.copy(world_->positions());
   const bool was_at_rest = world_->all_at_rest();
+  const int frame = world_->frame();
+  const std::size_t bodies = world_->bodies().count();
   if (!clock.paused) stability_.dismiss_blow_up();
   const bool had_blown_up = stability_.blow_up().has_value();
   stability_.before_step(*world_);
   const bool stepped = attempt([&] { world_->step(); });
+  if (!stepped) clock.paused = true;
   if (world_->grabbed()) observer_.intervened();  // another hand would do otherwise
   stability_.after_step(*world_, pause_on_blow_up);
   if (stability_.blow_up() && !had_blown_up) clock.paused = true;
   if (!stepped || !was_at_rest || !world_->all_at_rest()) ++revision_;
+  if (world_->scene().recording) follow_recording(frame, bodies);
   rest_steps_ = std::exchange(last_revision_, revision_) == revision_ ? rest_steps_ + 1 : 0;
   const softbody::StepReport& report = world_->last_step();
   step_ms_ = report.total_ms + observer_.stepped();
@@ -77,6 +81,19 @@ SimulationClock::Step Simulation::step() {
   history.solve_ms.push(world_->frame(), static_cast<float>(report.solve_ms));
   history.contacts.push(world_->frame(), static_cast<float>(world_->detection().contacts.size()));
   return {report.seconds, step_ms_};
+}
+
+/// Takes notice of a step of a recording that was at this frame and had so many bodies.
+void Simulation::follow_recording(int frame, std::size_t bodies) {
+  const bool is_last = world_->frame() + 1 == world_->scene().recording->frame_count();
+  if (is_last && !loop) clock.paused = true;
+  if (world_->frame() < frame) {  // it begins again, and nothing moved from the end to the start
+    before_last_step_.copy(world_->positions());
+    forget_later_steps();
+  }
+  if (world_->bodies().count() >= bodies) return;
+  ++world_number_;  // reports name bodies that are gone
+  observer_.replaced(false);
 }
 
 bool Simulation::has_come_to_rest() const {
@@ -185,6 +202,7 @@ KeptWorld Simulation::present(Change change) const {
 
 void Simulation::leave_for(std::unique_ptr<World> world) {
   world_ = std::move(world);
+  clock.speed = 1;
   step_ms_ = world_->last_step().total_ms;
   before_last_step_ = {};  // may hold the memory of many bodies
   as_scripted_ = true;
@@ -238,17 +256,28 @@ void Simulation::go(Way way) {
 void Simulation::rewind_to(int frame) {
   stability_.keep_present(*world_);
   const auto& past = stability_.past();
-  if (past.snapshots().empty()) return;
+  const bool recorded = world_->scene().recording != nullptr;
+  if (!recorded && past.snapshots().empty()) return;
   notice.clear();
-  attempt([&] { restore(*world_, past.snapshots()[past.at(frame)], false); });
+  attempt([&] {
+    if (recorded)
+      world_->show_frame(frame);
+    else
+      restore(*world_, past.snapshots()[past.at(frame)], false);
+  });
   clock.paused = true;
   after_going_back();
 }
 
-void Simulation::after_going_back() {
-  stability_.went_back(*world_);
+/// Forgets what was recorded of this frame and of later ones.
+void Simulation::forget_later_steps() {
   for (TimeSeries* series : {&history.detect_ms, &history.solve_ms, &history.contacts})
     series->forget_from(world_->frame());
+}
+
+void Simulation::after_going_back() {
+  stability_.went_back(*world_);
+  forget_later_steps();
   replace(false);
 }
 

@@ -46,6 +46,7 @@ class Simulation {
   LoadedScene loaded;
   StepHistory history;
   bool pause_on_blow_up = true;
+  bool loop = true;  // a recording begins again after its last frame, and else pauses there
 
   /// scene_name: what the scene is found by; empty: its key. `observer`, if any, must outlive this. Throws SceneError.
   Simulation(softbody::Scene scene, int threads, std::string scene_name = "", SimulationObserver* observer = nullptr);
@@ -109,7 +110,8 @@ class Simulation {
   void undo() { go(Way::back); }
   void redo() { go(Way::forward); }
   const StabilityMonitor& stability() const { return stability_; }
-  /// Goes back to the last snapshot of stability().past() that is not after `frame`, and pauses. Settings stay.
+  /// Goes to the last snapshot of stability().past() that is not after `frame`, or to this frame of the recording, and
+  /// pauses. Settings stay.
   void rewind_to(int frame);
 
  private:
@@ -119,6 +121,8 @@ class Simulation {
   void leave_for(std::unique_ptr<softbody::World> world);
   void go(Way way);
   void after_going_back();
+  void forget_later_steps();
+  void follow_recording(int frame, std::size_t bodies);
   SimulationClock::Step step();
 
   SimulationObserver none_;

@@ -17,8 +17,7 @@ void SimulationClock::advance(double elapsed, double frame_time, const Stepper& 
   assert(frame_time > 0);
   if (take_single_step(step) || paused) return;
   const bool ahead = running_ahead;
-  const double factor = ahead ? ahead_factor : slow_motion ? slow_factor : 1.0;
-  const double requested = std::clamp(elapsed, 0.0, max_elapsed) * factor;
+  const double requested = std::clamp(elapsed, 0.0, max_elapsed) * factor();
   const double budget_ms = std::max(step_budget_ms, step_budget_share * 1e3 * elapsed);
   owed_ += requested;
   double spent_ms = 0, done = 0;
@@ -52,14 +51,13 @@ void SimulationClock::restart() {
 void SimulationClock::measure_pace(double requested, double done, double frame_time) {
   requested_ += requested;
   done_ += done;
-  const double window = slow_motion ? 0.5 * slow_factor : 0.5;
-  if (requested_ < std::max(window, 4 * frame_time)) return;
+  if (requested_ < std::max(0.5 * factor(), 4 * frame_time)) return;
   pace_ = std::min(1.0, done_ / requested_);
   requested_ = done_ = 0;
 }
 
 double SimulationClock::fraction(double frame_time) const {
-  return slow_motion && !paused ? std::clamp(owed_ / frame_time, 0.0, 1.0) : 1.0;
+  return (slow_motion || speed < 1) && !paused ? std::clamp(owed_ / frame_time, 0.0, 1.0) : 1.0;
 }
 
 }  // namespace app::session

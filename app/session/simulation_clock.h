@@ -24,6 +24,7 @@ class SimulationClock {
   bool paused = false;  // `step` may set it
   bool slow_motion = false;
   double slow_factor = 0.1;    // min_slow_factor .. max_slow_factor, of real time, in slow motion
+  double speed = 1;            // of real time, without slow motion; what is not simulated may run as fast as wanted
   bool running_ahead = false;  // by ahead_factor, also in slow motion; `step` may reset it
 
   /// Calls `step` for each frame of `frame_time` seconds that is due, now that `elapsed` seconds of real time have
@@ -41,11 +42,12 @@ class SimulationClock {
   /// Simulated over requested time of the last half second. Below 1 the machine does not keep up, or frames are cut
   /// short.
   double pace() const { return pace_; }
-  /// How far time is on the way to the next frame of `frame_time` seconds, 0 .. 1. Always 1 but in slow motion.
+  /// How far time is on the way to the next frame of `frame_time` seconds, 0 .. 1. Always 1 but where time is slowed.
   double fraction(double frame_time) const;
 
  private:
   bool take_single_step(const Stepper& step);
+  double factor() const { return running_ahead ? ahead_factor : slow_motion ? slow_factor * speed : speed; }
   void measure_pace(double requested, double done, double frame_time);
 
   double owed_ = 0;  // s of simulated time, less than one frame after advance()

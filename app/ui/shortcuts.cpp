@@ -48,13 +48,16 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_Y, 0, "Ctrl+Y", redo_text, [](Session& s, UiState&) { s.simulation.redo(); }, false,
              GLFW_MOD_CONTROL},
     Shortcut{GLFW_KEY_D, 0, "Shift+D", "Drop twenty bodies",
-             [](Session& s, UiState&) { s.bodies.drop(session::BodyControls::many_drops); }, false, GLFW_MOD_SHIFT},
-    Shortcut{GLFW_KEY_D, 0, "D", "Drop a body", [](Session& s, UiState&) { s.bodies.drop(); }},
-    Shortcut{GLFW_KEY_B, 0, "B", "Throw a body at the mouse", [](Session&, UiState& ui) { ui.throw_body = true; }},
+             [](Session& s, UiState&) { s.bodies.drop(session::BodyControls::many_drops); }, false, GLFW_MOD_SHIFT,
+             true},
+    Shortcut{GLFW_KEY_D, 0, "D", "Drop a body", [](Session& s, UiState&) { s.bodies.drop(); }, false, 0, true},
+    Shortcut{GLFW_KEY_B, 0, "B", "Throw a body at the mouse", [](Session&, UiState& ui) { ui.throw_body = true; },
+             false, 0, true},
     Shortcut{GLFW_KEY_DELETE, GLFW_KEY_BACKSPACE, "Del", "Delete the selected body",
-             [](Session& s, UiState&) { s.bodies.remove_selected(); }},
+             [](Session& s, UiState&) { s.bodies.remove_selected(); }, false, 0, true},
     Shortcut{GLFW_KEY_M, 0, "M", "Next method", [](Session& s, UiState&) { next_method(s); }},
-    Shortcut{GLFW_KEY_F, 0, "F", "Next contact surface", [](Session& s, UiState&) { next_contact_surface(s); }},
+    Shortcut{GLFW_KEY_F, 0, "F", "Next contact surface", [](Session& s, UiState&) { next_contact_surface(s); }, false,
+             0, true},
     Shortcut{GLFW_KEY_LEFT_BRACKET, 0, "[", "Fewer boxes per body", [](Session& s, UiState&) { change_levels(s, -1); },
              true},
     Shortcut{GLFW_KEY_RIGHT_BRACKET, 0, "]", "More boxes per body", [](Session& s, UiState&) { change_levels(s, 1); },
@@ -99,7 +102,8 @@ constexpr std::array mouse_table{
     MouseAction{"Background", "Drag: orbit"},
     MouseAction{"Right drag", "Pan"},
     MouseAction{"Wheel", "Zoom"},
-    MouseAction{"Drop a file", "OBJ: adds a body. TOML: opens a scene"},
+    MouseAction{"Drop files", "Mesh: adds a body. TOML: opens a scene"},
+    MouseAction{"", "Meshes with the same vertices: plays them"},
 };
 
 }  // namespace
@@ -107,19 +111,31 @@ constexpr std::array mouse_table{
 std::span<const Shortcut> shortcuts() { return shortcut_table; }
 std::span<const MouseAction> mouse_actions() { return mouse_table; }
 
+namespace {
+
+/// Says so and returns true if something is left out because it needs a solver and there is none.
+bool is_left_out(Session& session, bool needs_solver, std::string_view what) {
+  const std::string why = session.why_no_solver();
+  if (!needs_solver || why.empty()) return false;
+  session.simulation.notice.tell(std::string(what) + ": left out, " + why);
+  return true;
+}
+
+}  // namespace
+
 bool handle_key(int key, bool repeat, Session& session, UiState& ui, int mods) {
   // Shift is ignored where no shortcut asks for it. With one of these a key means something else in every program.
   constexpr int other_mods = GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER;
   for (const render::OverlayRow& row : render::overlay_table) {
     if (key != row.shortcut || repeat || mods & other_mods) continue;
-    ui.overlays.*row.shown = !(ui.overlays.*row.shown);
+    if (!is_left_out(session, row.needs_solver, row.label)) ui.overlays.*row.shown = !(ui.overlays.*row.shown);
     return true;
   }
   for (const Shortcut& shortcut : shortcut_table) {
     if (key != shortcut.key && (shortcut.other_key == 0 || key != shortcut.other_key)) continue;
     if ((mods & shortcut.mods) != shortcut.mods || (mods & ~shortcut.mods) & other_mods) continue;
     if (repeat && !shortcut.repeats) return false;
-    shortcut.act(session, ui);
+    if (!is_left_out(session, shortcut.needs_solver, shortcut.text)) shortcut.act(session, ui);
     return true;
   }
   return false;

@@ -13,8 +13,9 @@ struct Shortcut {
   std::string_view keys_text;  // the keys, in the help; empty: another row mentions them
   std::string_view text;       // what they do, in the help
   void (*act)(Session& session, UiState& ui);
-  bool repeats = false;  // also acts repeatedly while the key is held
-  int mods = 0;          // GLFW_MOD_* that must be down
+  bool repeats = false;       // also acts repeatedly while the key is held
+  int mods = 0;               // GLFW_MOD_* that must be down
+  bool needs_solver = false;  // left out where the motion is recorded
 };
 
 /// All shortcuts except the overlays' digits, which are in overlay_table.

@@ -7,7 +7,7 @@
 namespace app::ui {
 namespace {
 
-constexpr float padding = 4, button_width = 64, state_width = 190;  // design pixels
+constexpr float padding = 4, button_width = 64, state_width = 190, speed_width = 110;  // design pixels
 
 bool is_slowed(const session::SimulationClock& clock) { return !clock.paused && clock.pace() < 0.95; }
 
@@ -19,7 +19,30 @@ std::string state_text(const Session& session) {
   const std::size_t count = world.bodies().count(), more = bodies_to_come(world);
   std::string text = fmt::format("{} {}", grouped(count), count == 1 ? "body" : "bodies");
   if (more > 0) return text + fmt::format(", {} to come", grouped(more));
-  return text + (world.all_at_rest() ? ", all at rest" : "");
+  return text + (world.all_at_rest() && !world.scene().recording ? ", all at rest" : "");
+}
+
+/// Draws the slider through all frames of the recording, whether they were shown or not.
+void draw_recording(Widgets& w, Session& session, const softbody::Recording& recording) {
+  int frame = session.world().frame();
+  const int last = recording.frame_count() - 1;
+  ImGui::BeginDisabled(last == 0);
+  if (w.slider("Time line", frame, 0, last, fmt::format("frame %d of {}", grouped(std::uint64_t(last))).c_str(),
+               "Drag it to any frame of the recording; frames count from 0. It pauses there."))
+    session.simulation.rewind_to(frame);
+  ImGui::EndDisabled();
+}
+
+/// Draws how fast the frames of the recording follow each other, and whether they begin again.
+void draw_speed(Widgets& w, Session& session) {
+  const double frame_time = session.world().frame_time();
+  auto rate = static_cast<float>(session.simulation.clock.speed / frame_time);
+  w.checkbox("Loop", session.simulation.loop, "Begins again after the last frame, and else pauses there.");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(w.px(speed_width));
+  if (w.slider("Speed", rate, 1, 240, "%.0f frames/s", "How many frames of the recording are shown each second.", true))
+    session.simulation.clock.speed = static_cast<double>(rate) * frame_time;
+  ImGui::SameLine();
 }
 
 /// Draws the slider from the first snapshot to the newest.
@@ -71,12 +94,20 @@ void draw_time_line(Widgets& w, Session& session, const ScreenRect& area) {
                w.px(button_width)))
     clock.paused = !clock.paused;
   ImGui::SameLine();
-  if (w.button("Step", "Simulates one frame of 1/60 s, then pauses (N).", w.px(button_width))) clock.single_step();
+  const auto& recording = session.world().scene().recording;
+  if (w.button("Step",
+               recording ? "Shows the next frame, then pauses (N)." : "Simulates one frame of 1/60 s, then pauses (N).",
+               w.px(button_width)))
+    clock.single_step();
   ImGui::SameLine();
+  if (recording) draw_speed(w, session);
   const float room = ImGui::GetContentRegionAvail().x;
   const bool has_state = room >= w.px(2 * state_width);
   ImGui::SetNextItemWidth(has_state ? room - w.px(state_width) : room);
-  draw_past(w, session);
+  if (recording)
+    draw_recording(w, session, *recording);
+  else
+    draw_past(w, session);
   if (has_state) draw_state_text(w, session);
   end_dock();
 }

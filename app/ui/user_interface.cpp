@@ -20,6 +20,8 @@ void UserInterface::draw(Session& session, UiState& ui, float scale, double seco
   ui.import.update(session);
   sweep_view_.update();
   ui.tour.update(session, &ui.view);
+  for (const render::OverlayRow& row : render::overlay_table)
+    if (row.needs_solver && !session.why_no_solver().empty()) ui.overlays.*row.shown = false;
   session.comparison.choice.on = ui.lower == LowerView::comparison;
   session.comparison.choice.with_paper = ui.marks_story();
   session.comparison.choice.with_misses = ui.overlays.missed;
@@ -34,7 +36,7 @@ void UserInterface::draw(Session& session, UiState& ui, float scale, double seco
   if (layout_.tour)
     draw_tour(widgets, session, ui.tour, ui.overlays, *layout_.tour);
   else if (layout_.panel_covers_scene)
-    draw_import_report(widgets, ui.import, layout_.scene);
+    draw_import_report(widgets, session, ui.import, layout_.scene);
   else if (ui.clean)
     draw_notices(widgets, session, {}, layout_.scene);
   else
@@ -66,7 +68,7 @@ void UserInterface::draw_over_scene(Widgets& widgets, Session& session, UiState&
   }
   free.min.y = draw_notices(widgets, session, layout_.no_room_message, free);
   if (!layout_.sidebar) draw_floating_legend(widgets, session, ui.overlays, free);
-  draw_import_report(widgets, ui.import, free);
+  draw_import_report(widgets, session, ui.import, free);
 }
 
 float UserInterface::draw_story(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area) {

@@ -53,15 +53,16 @@ class Demo {
  public:
   explicit Demo(const DemoOptions& options)
       : preferences_(preferences_path()),
-        graphics_(std::make_unique<Graphics>(options.size_given ? glm::ivec2(options.width, options.height)
-                                                                : preferences_.stored().size)),
+        graphics_(std::make_unique<Graphics>(
+            options.size_given ? glm::ivec2(options.width, options.height) : preferences_.stored().size,
+            options.threads)),
         session_owner_(open_session(options, *graphics_)),
         session_(*session_owner_) {
     session_.settings.set_integrator(options.integrator);
     apply(preferences_.is_new() ? first_preferences(window_size()) : preferences_.stored(), session_, ui_);
     ui_.story = ui_.story_at_start && !options.scene_given;
     store_preferences();
-    ui_.import.drop(options.meshes, session_);
+    for (const std::string& mesh : options.meshes) ui_.import.drop({mesh}, session_);  // each for itself: no frames
   }
 
   void run() {
@@ -114,7 +115,7 @@ class Demo {
     const glm::ivec2 size = window_size();
     graphics_->window.wait_for_context_reset();
     graphics_.reset();  // one window at a time
-    graphics_ = std::make_unique<Graphics>(size);
+    graphics_ = std::make_unique<Graphics>(size, session_.simulation.threads());
     drawn_ = {};
     recreated_at_ = now();
     session_.simulation.notice.set("the graphics driver was reset: the window was made anew, nothing else was lost");

@@ -12,14 +12,17 @@ namespace app::window {
 
 /// Everything that lives in an OpenGL context and is made anew when the context is lost.
 struct Graphics {
-  explicit Graphics(glm::ivec2 size) : window({.title = "Multi-Level SB Collide", .size = size, .samples = 0}) {}
+  /// threads: prepare a picture.
+  Graphics(glm::ivec2 size, int threads)
+      : window({.title = "Multi-Level SB Collide", .size = size, .samples = 0}),
+        view(engine::find_folder("shaders"), threads) {}
 
   /// Clears the whole window to dock_colour().
   void clear() const;
 
   engine::Window window;  // first: the others need its context
   engine::Gui gui{window};
-  render::SceneView view{engine::find_folder("shaders")};
+  render::SceneView view;
   render::Canvas canvas{engine::uses_software_renderer()};
 };
 

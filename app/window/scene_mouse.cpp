@@ -109,7 +109,7 @@ void SceneMouse::press(const MouseInput& in, Session& session, engine::Camera& c
   session.bodies.select(under->body);
   if (in.double_click) {
     focus_on(under->body, session, camera, size);
-  } else if (!session.simulation.clock.paused) {
+  } else if (!session.simulation.clock.paused && session.why_no_solver().empty()) {
     session.bodies.grab({.body = under->body,
                          .corners = under->corners,
                          .weights = glm::dvec3(under->weights),

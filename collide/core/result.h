@@ -1,20 +1,17 @@
 #pragma once
 // What a detection returns: contacts, counters, and the work that it left out.
 
-#include <compare>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "collide/api/sbcollide/contact.h"
 #include "collide/core/frame.h"
 
 namespace collide {
 
-/// A pair of vertices a < b, numbered over the whole frame.
-struct Contact {
-  Index a, b;
-  auto operator<=>(const Contact&) const = default;
-};
+/// A pair of vertices a < b, numbered over the whole frame. The type of the public headers, so that they copy nothing.
+using sbcollide::Contact;
 
 /// The most contacts of one frame: 1 GiB of them.
 inline constexpr std::size_t contact_limit = std::size_t{1} << 27;

@@ -1,239 +1,350 @@
 #include "collide/oracle/moving_features.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
-#include <type_traits>
+#include <cstdint>
+#include <limits>
 
-#include "collide/oracle/exact_arithmetic.h"
+#include "collide/oracle/feature_motion.h"
+#include "collide/oracle/real_roots.h"
 
 namespace collide::oracle {
 
 namespace {
 
-/// The relative motion of four points: three difference vectors.
-template <class T>
-using FeatureMotion = std::array<Vector<T, 1>, 3>;
+using Points = std::array<MovingPoint, 4>;
 
-template <class T>
-Vector<T, 1> difference(const MovingPoint& a, const MovingPoint& b) {
-  const auto component = [&](glm::length_t axis) {
-    return Polynomial<T, 1>{{T(T(a.from[axis]) - T(b.from[axis])), T(T(a.to[axis]) - T(b.to[axis]))}};
-  };
-  return {component(0), component(1), component(2)};
-}
-
-template <class T>
-using Weight = Polynomial<T, 4>;
-
-/// A vertex p and a face abc, as the vectors a - p, b - p and c - p.
-struct VertexFace {
-  /// Returns the vectors from each vertex of the first feature to each vertex of the second.
-  template <class T>
-  static const FeatureMotion<T>& between(const FeatureMotion<T>& v) {
-    return v;
-  }
-  /// Returns a polynomial with the sign of the side of p.
-  template <class T>
-  static Polynomial<T, 3> side(const FeatureMotion<T>& v) {
-    return dot(v[0], cross(v[2], v[1]));
-  }
-  /// Returns the barycentric coordinates of the projection of p, times the squared length of the normal. None is
-  /// negative while the projection lies on the face.
-  template <class T>
-  static std::array<Weight<T>, 3> weights(const FeatureMotion<T>& v) {
-    const Vector<T, 2> a = cross(v[1], v[2]), b = cross(v[2], v[0]), c = cross(v[0], v[1]);
-    const Vector<T, 2> normal = a + b + c;
-    return {dot(normal, a), dot(normal, b), dot(normal, c)};
-  }
-};
-
-/// Two edges pq and uv, as the vectors q - p, v - u and u - p.
-struct EdgeEdge {
-  template <class T>
-  static std::array<Vector<T, 1>, 4> between(const FeatureMotion<T>& v) {
-    return {v[2], v[2] - v[0], v[2] + v[1], v[2] + v[1] - v[0]};
-  }
-  template <class T>
-  static Polynomial<T, 3> side(const FeatureMotion<T>& v) {
-    return dot(v[2], cross(v[0], v[1]));
-  }
-  /// Returns s, 1 - s, r and 1 - r, where s and r are the parameters of the closest points of the two lines, times the
-  /// squared length of the normal. None is negative while these points lie on the edges.
-  template <class T>
-  static std::array<Weight<T>, 4> weights(const FeatureMotion<T>& v) {
-    const Vector<T, 2> normal = cross(v[0], v[1]);
-    const Weight<T> length2 = dot(normal, normal);
-    const Weight<T> along_p = dot(normal, cross(v[2], v[1])), along_u = dot(normal, cross(v[2], v[0]));
-    return {along_p, length2 - along_p, along_u, length2 - along_u};
-  }
-};
-
-/// Plain doubles decide most signs. The rounding error of a coefficient, in everything that is computed here, is less
-/// than this number times d^N, where d is the largest coordinate difference and N the degree of the polynomial. Proof:
-/// no coefficient is a sum of more than 432 products of at most four factors. Each product has at most 160 roundings,
-/// 128 of them from halvings. 432 * 160 * 2^-53 is less than 2^-36.
-constexpr double max_relative_error = 0x1p-35;
-
-template <std::size_t N>
-using Signs = std::array<std::optional<int>, N + 1>;
-/// Returns the signs of the coefficients; nothing where a sign is not known. largest: the largest coordinate difference
-/// of the motion (m); only used for doubles.
-template <class T, std::size_t N>
-Signs<N> signs_of(const Polynomial<T, N>& polynomial, double largest) {
-  Signs<N> signs;
-  for (std::size_t k = 0; k <= N; ++k) {
-    if constexpr (std::is_same_v<T, double>) {
-      double bound = max_relative_error;
-      for (std::size_t degree = 0; degree < N; ++degree) bound *= largest;
-      if (std::abs(polynomial.c[k]) > bound) signs[k] = polynomial.c[k] > 0 ? 1 : -1;
-    } else {
-      signs[k] = sign_of(polynomial.c[k]);
-    }
-  }
-  return signs;
-}
-// What holds for all coefficients holds for the polynomial on the whole interval.
-template <class S>
-bool all_negative(const S& signs) {
-  return std::all_of(signs.begin(), signs.end(), [](const auto& sign) { return sign && *sign < 0; });
-}
-template <class S>
-bool none_negative(const S& signs) {
-  return std::all_of(signs.begin(), signs.end(), [](const auto& sign) { return sign && *sign >= 0; });
-}
-template <class S>
-bool all_known(const S& signs) {
-  return std::all_of(signs.begin(), signs.end(), [](const auto& sign) { return sign.has_value(); });
-}
-template <class S>
-int sign_changes(const S& signs) {
-  int count = 0;
-  for (std::size_t k = 1; k < signs.size(); ++k) count += (*signs[k] < 0) != (*signs[k - 1] < 0);
-  return count;
-}
-
-double as_double(double x) { return x; }
-double as_double(const Bounded& x) { return x.value; }
-double as_double(const Rational& x) { return x.get_d(); }
-
-/// Returns the root of a cubic with a single sign change. Rounded; it is only reported and decides nothing.
-template <class T>
-double root_of(const Polynomial<T, 3>& cubic) {
-  std::array<double, 4> c;
-  for (std::size_t k = 0; k < 4; ++k) c[k] = as_double(cubic.c[k]);
-  const bool falling = c[0] >= 0;
-  double lo = 0, hi = 1;
-  for (int i = 0; i < 40; ++i) {
-    const double t = (lo + hi) / 2, s = 1 - t;
-    const double value = ((c[3] * t + c[2] * s) * t + c[1] * s * s) * t + c[0] * s * s * s;
-    ((value >= 0) == falling ? lo : hi) = t;
-  }
-  return (lo + hi) / 2;
-}
-
-/// Returns true if the boxes around the two features are separate along an axis throughout the motion.
-template <class Kind, class T>
-bool boxes_are_separate(const FeatureMotion<T>& motion, double largest) {
-  const auto& between = Kind::between(motion);
-  const auto on_one_side = [&](auto component) {
-    const std::optional<int> side = signs_of(between[0].*component, largest)[0];
-    return side && *side != 0 && std::all_of(between.begin(), between.end(), [&](const Vector<T, 1>& v) {
-             return signs_of(v.*component, largest) == Signs<1>{side, side};
-           });
-  };
-  return on_one_side(&Vector<T, 1>::x) || on_one_side(&Vector<T, 1>::y) || on_one_side(&Vector<T, 1>::z);
-}
-
-enum class Answer { none, passage, unknown };
-struct SearchResult {
-  Answer answer;
-  Passage passage{};
-};
-
-/// Returns the first or the second half of a motion.
-template <class T>
-FeatureMotion<T> half_of(FeatureMotion<T> motion, bool second) {
-  for (Vector<T, 1>& v : motion) {
-    for (Polynomial<T, 1>* component : {&v.x, &v.y, &v.z}) {
-      component->c[second ? 0 : 1] = T((component->c[0] + component->c[1]) * T(0.5));
-    }
+/// number(x) converts a coordinate to the type T.
+template <class Kind, class T, class ToNumber>
+FeatureMotion<T> motion_of(const Points& points, const ToNumber& number) {
+  FeatureMotion<T> motion;
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    const MovingPoint &to = points[Kind::vectors[k][0]], &from = points[Kind::vectors[k][1]];
+    const auto component = [&](glm::length_t axis) {
+      return Polynomial<T, 1>{
+          {T(number(to.from[axis]) - number(from.from[axis])), T(number(to.to[axis]) - number(from.to[axis]))}};
+    };
+    motion[k] = {component(0), component(1), component(2)};
   }
   return motion;
 }
 
-/// Finds the first passage between the times begin and begin + length.
-template <class Kind, class T>
-SearchResult search(const FeatureMotion<T>& motion, double largest, double begin, double length, int halvings) {
-  if (boxes_are_separate<Kind>(motion, largest)) return {Answer::none};
-  const Polynomial<T, 3> cubic = Kind::side(motion);
-  const auto side = signs_of(cubic, largest);
-  if (none_negative(side) || all_negative(side)) return {Answer::none};
-  bool within = true;  // no weight is ever negative
-  bool known = all_known(side);
-  for (const Weight<T>& weight : Kind::weights(motion)) {
-    const auto signs = signs_of(weight, largest);
-    if (all_negative(signs)) return {Answer::none};
-    within = within && none_negative(signs);
-    known = known && all_known(signs);
+/// Returns f(component) of all components of all vectors of a motion.
+template <class T, class Function>
+FeatureMotion<T> with_each(FeatureMotion<T> motion, const Function& f) {
+  for (Vector<T, 1>& v : motion) {
+    for (Polynomial<T, 1>* component : {&v.x, &v.y, &v.z}) *component = f(*component);
   }
-  if (!all_known(side)) return {Answer::unknown};
-  if (sign_changes(side) == 1 && within) {
-    return {Answer::passage, {begin + length * root_of(cubic), *side[0] >= 0}};
-  }
-  if (halvings == max_halvings) {
-    if (!known) return {Answer::unknown};
-    return {Answer::passage, {begin + length / 2, *side[0] >= 0}};
-  }
-  const SearchResult first = search<Kind>(half_of(motion, false), largest, begin, length / 2, halvings + 1);
-  if (first.answer != Answer::none) return first;
-  return search<Kind>(half_of(motion, true), largest, begin + length / 2, length / 2, halvings + 1);
+  return motion;
 }
 
-/// Returns the largest coordinate difference.
-double largest_of(const FeatureMotion<double>& motion) {
+// The filter: plain doubles decide most queries.
+
+/// Returns true if an axis separates the boxes of the two features, in the same order at both ends of the motion and
+/// therefore at all times.
+template <class Kind>
+bool boxes_are_separate(const Points& points) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  for (glm::length_t axis = 0; axis < 3; ++axis) {
+    double min[2][2] = {{inf, inf}, {inf, inf}}, max[2][2] = {{-inf, -inf}, {-inf, -inf}};  // of a feature, at a time
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const std::size_t feature = k < Kind::first_size ? 0 : 1;
+      for (const std::size_t time : {0u, 1u}) {
+        const double x = (time == 0 ? points[k].from : points[k].to)[axis];
+        min[feature][time] = std::min(min[feature][time], x);
+        max[feature][time] = std::max(max[feature][time], x);
+      }
+    }
+    if (max[0][0] < min[1][0] && max[0][1] < min[1][1]) return true;
+    if (max[1][0] < min[0][0] && max[1][1] < min[0][1]) return true;
+  }
+  return false;
+}
+
+/// The filter halves the time at most this often.
+constexpr int max_halvings = 8;
+
+/// Returns a bound of the rounding error of each coefficient of a polynomial of degree N, beside d^N, where d is the
+/// largest coordinate difference. Proof: a coordinate difference is off by at most 9 * 2^-53 d after eight halvings. A
+/// coefficient of a component between vertices is a sum of 3 of them, one of the side a sum of at most 18 products of
+/// 3, one of a weight a sum of at most 216 products of 4. A product and its sums round at most 2, 10 and 19 times more.
+/// 3 * (9 + 2) < 2^6, 18 * (27 + 10) < 2^10, 216 * (36 + 19) < 2^14; one binary place more covers products of errors,
+/// and that d^N is rounded.
+template <std::size_t N>
+constexpr double relative_error = N == 1   ? 0x1p-46
+                                  : N == 3 ? 0x1p-42
+                                           : 0x1p-38;
+
+/// Signs of the coefficients; 0 where rounding leaves it open.
+template <std::size_t N>
+using Signs = std::array<int, N + 1>;
+
+template <std::size_t N>
+Signs<N> signs_of(const Polynomial<double, N>& polynomial, double largest) {
+  double bound = relative_error<N>;
+  for (std::size_t degree = 0; degree < N; ++degree) bound *= largest;
+  Signs<N> signs;
+  for (std::size_t k = 0; k <= N; ++k) signs[k] = (polynomial.c[k] > bound) - (polynomial.c[k] < -bound);
+  return signs;
+}
+// What holds for all coefficients holds for the polynomial on the whole interval.
+template <std::size_t N>
+bool all_are(const std::array<int, N>& signs, int sign) {
+  return std::all_of(signs.begin(), signs.end(), [&](int s) { return s == sign; });
+}
+
+template <class Kind>
+bool boxes_are_separate(const FeatureMotion<double>& motion, double largest) {
+  const auto& between = Kind::between(motion);
+  return std::ranges::any_of(std::array{&Vector<double, 1>::x, &Vector<double, 1>::y, &Vector<double, 1>::z},
+                             [&](auto component) {
+                               const int side = signs_of(between[0].*component, largest)[0];
+                               return side != 0 && std::ranges::all_of(between, [&](const Vector<double, 1>& v) {
+                                        return all_are(signs_of(v.*component, largest), side);
+                                      });
+                             });
+}
+
+enum class Answer {
+  apart,    // the features do not meet
+  passing,  // in the piece they meet for the first time, once; the side changes there, and only there
+  unknown
+};
+struct Filtered {
+  Answer answer;
+  TimePiece piece{};
+  bool inward{};
+};
+
+FeatureMotion<double> half_of(const FeatureMotion<double>& motion, bool second) {
+  return with_each(motion, [&](Polynomial<double, 1> x) {
+    x.c[second ? 0 : 1] = (x.c[0] + x.c[1]) * 0.5;
+    return x;
+  });
+}
+
+template <class Kind>
+Filtered filter(const FeatureMotion<double>& motion, double largest, unsigned start, unsigned halvings) {
+  if (boxes_are_separate<Kind>(motion, largest)) return {Answer::apart};
+  const Signs<3> side = signs_of(Kind::side(motion), largest);
+  if (all_are(side, 1) || all_are(side, -1)) return {Answer::apart};
+  bool within = true;
+  for (const Weight<double>& weight : Kind::weights(motion)) {
+    const Signs<4> signs = signs_of(weight, largest);
+    if (all_are(signs, -1)) return {Answer::apart};
+    within = within && all_are(signs, 1);
+  }
+  if (std::ranges::count(side, 0) > 0) return {Answer::unknown};
+  if (within && side[0] != side[3]) return {Answer::passing, {start, halvings}, side[0] > 0};
+  if (halvings == max_halvings) return {Answer::unknown};
+  const Filtered first = filter<Kind>(half_of(motion, false), largest, 2 * start, halvings + 1);
+  if (first.answer != Answer::apart) return first;
+  return filter<Kind>(half_of(motion, true), largest, 2 * start + 1, halvings + 1);
+}
+
+template <class Kind>
+Filtered filter(const Points& points) {
+  if (boxes_are_separate<Kind>(points)) return {Answer::apart};
+  const FeatureMotion<double> motion = motion_of<Kind, double>(points, [](double x) { return x; });
   double largest = 0;
   for (const Vector<double, 1>& v : motion) {
     for (const Polynomial<double, 1>* component : {&v.x, &v.y, &v.z}) {
       for (const double c : component->c) largest = std::max(largest, std::abs(c));
     }
   }
-  return largest;
+  // Between these, no power up to the fourth overflows, and what underflows is less than the bounds of the errors.
+  if (!(0x1p-200 < largest && largest < 0x1p200)) return {Answer::unknown};
+  return filter<Kind>(motion, largest, 0, 0);
+}
+
+// The decision in integers.
+
+/// A finite double as a product of an odd integer, or 0, and a power of two.
+struct Scaled {
+  std::int64_t digits = 0;
+  int exponent = 0;
+
+  explicit Scaled(double x) {
+    if (x == 0) return;
+    digits = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
+    const int zeros = std::countr_zero(static_cast<std::uint64_t>(digits));
+    digits >>= zeros;
+    exponent += zeros - 53;
+  }
+};
+
+/// Returns the motion times the power of two that makes all coordinates integers.
+template <class Kind>
+FeatureMotion<Integer> integer_motion(const Points& points) {
+  int exponent = std::numeric_limits<int>::max();
+  for (const MovingPoint& p : points) {
+    for (const glm::dvec3& v : {p.from, p.to}) {
+      for (glm::length_t axis = 0; axis < 3; ++axis) {
+        if (v[axis] != 0) exponent = std::min(exponent, Scaled(v[axis]).exponent);
+      }
+    }
+  }
+  return motion_of<Kind, Integer>(points, [&](double x) {
+    const Scaled scaled(x);
+    Integer integer = static_cast<long>(scaled.digits);
+    if (x != 0) integer <<= static_cast<unsigned>(scaled.exponent - exponent);
+    return integer;
+  });
+}
+
+FeatureMotion<Integer> restricted(const FeatureMotion<Integer>& motion, const TimePiece& piece) {
+  const Integer whole = Integer(1) << piece.halvings, end = piece.start + 1;
+  return with_each(motion, [&](const Polynomial<Integer, 1>& x) {
+    const auto at = [&](const Integer& time) { return Integer(x.c[0] * (whole - time) + x.c[1] * time); };
+    return Polynomial<Integer, 1>{{at(piece.start), at(end)}};
+  });
+}
+
+template <std::size_t N>
+Coefficients coefficients(const Polynomial<Integer, N>& polynomial) {
+  return {polynomial.c.begin(), polynomial.c.end()};
+}
+template <std::size_t N>
+bool is_zero(const Polynomial<Integer, N>& polynomial) {
+  return std::ranges::all_of(polynomial.c, [](const Integer& x) { return x == 0; });
+}
+template <std::size_t N>
+int sign_at(const Root& root, const Polynomial<Integer, N>& polynomial) {
+  return sign_at(root, coefficients(polynomial));
+}
+
+bool point_is_on_segment(const Root& root, const PointSegment<Integer>& ends) {
+  const Vector<Integer, 2> normal = cross(ends[0], ends[1]);
+  return sign_at(root, normal.x) == 0 && sign_at(root, normal.y) == 0 && sign_at(root, normal.z) == 0 &&
+         sign_at(root, dot(ends[0], ends[1])) <= 0;
+}
+
+/// Returns true if the features meet at the root of a polynomial. motion: on the piece of the root. Precondition: all
+/// points lie in one plane at that time.
+template <class Kind>
+bool meet_at(const Root& root, const FeatureMotion<Integer>& motion) {
+  bool spans_plane = false;
+  for (const Weight<Integer>& weight : Kind::weights(motion)) {
+    const int sign = sign_at(root, weight);
+    if (sign < 0) return false;
+    spans_plane = spans_plane || sign > 0;
+  }
+  // A face without area is the union of its sides. Parallel edges can only meet where an end is on the other edge.
+  return spans_plane || std::ranges::any_of(Kind::ends(motion), [&](const PointSegment<Integer>& ends) {
+           return point_is_on_segment(root, ends);
+         });
+}
+
+Meeting meeting_at(const Root& root) {
+  const auto [low, high] = enclosure_of(root);
+  return {low, high};
+}
+
+/// Returns the first meeting of features whose points always lie in one common plane. If they do not meet at once, they
+/// meet for the first time at the border: a vertex on a side of the face, or an end on an edge. For where a vertex is
+/// inside a face, or two edges cross inside both, they do so shortly before, too.
+template <class Kind>
+std::optional<Meeting> first_meeting_in_plane(const FeatureMotion<Integer>& motion) {
+  if (meet_at<Kind>({}, motion)) return Meeting{0, 0};
+  std::optional<Meeting> first;
+  for (const PointSegment<Integer>& ends : Kind::ends(motion)) {
+    const Vector<Integer, 2> normal = cross(ends[0], ends[1]);
+    const auto& in_line = !is_zero(normal.x) ? normal.x : !is_zero(normal.y) ? normal.y : normal.z;
+    for (const Root& root : roots_of(coefficients(is_zero(in_line) ? dot(ends[0], ends[1]) : in_line))) {
+      const auto on_piece = [&](const Vector<Integer, 1>& v) { return restricted({v}, root.piece)[0]; };
+      if (!point_is_on_segment(root, {on_piece(ends[0]), on_piece(ends[1])})) continue;
+      const Meeting meeting = meeting_at(root);
+      first = first ? Meeting{std::min(first->low, meeting.low), std::min(first->high, meeting.high)} : meeting;
+      break;
+    }
+  }
+  return first;
+}
+
+template <class Kind>
+std::optional<Meeting> first_meeting(const Points& points) {
+  const Filtered filtered = filter<Kind>(points);
+  if (filtered.answer == Answer::apart) return std::nullopt;
+  const FeatureMotion<Integer> motion = integer_motion<Kind>(points);
+  if (filtered.answer == Answer::passing) {
+    return meeting_at({filtered.piece, coefficients(Kind::side(restricted(motion, filtered.piece)))});
+  }
+  const Polynomial<Integer, 3> side = Kind::side(motion);
+  if (is_zero(side)) return first_meeting_in_plane<Kind>(motion);
+  for (const Root& root : roots_of(coefficients(side))) {
+    if (meet_at<Kind>(root, restricted(motion, root.piece))) return meeting_at(root);
+  }
+  return std::nullopt;
+}
+
+/// The signs of the side shortly before and after a root; 1 where there is no such time.
+struct Sides {
+  int before, after;
+};
+Sides sides_around(const Root& root, const Polynomial<Integer, 3>& side) {
+  const auto not_zero = [](const Integer& x) { return x != 0; };
+  const auto first = std::ranges::find_if(side.c, not_zero);
+  if (!root.polynomial.empty()) return {sgn(*first), sgn(*std::find_if(side.c.rbegin(), side.c.rend(), not_zero))};
+  const bool is_odd = (first - side.c.begin()) % 2 != 0;
+  const bool begins = root.piece.start == 0, ends = root.piece.start == Integer(1) << root.piece.halvings;
+  return {begins ? 1 : sgn(*first) * (is_odd ? -1 : 1), ends ? 1 : sgn(*first)};
+}
+
+template <class Kind>
+std::optional<Passage> first_passage(const Points& points) {
+  const auto middle = [](const Meeting& meeting) { return (meeting.low + meeting.high) / 2; };
+  const Filtered filtered = filter<Kind>(points);
+  if (filtered.answer == Answer::apart) return std::nullopt;
+  const FeatureMotion<Integer> motion = integer_motion<Kind>(points);
+  if (filtered.answer == Answer::passing) {
+    const Root root{filtered.piece, coefficients(Kind::side(restricted(motion, filtered.piece)))};
+    return Passage{middle(meeting_at(root)), filtered.inward};
+  }
+  const Polynomial<Integer, 3> side = Kind::side(motion);
+  if (is_zero(side)) return std::nullopt;
+  for (const Root& root : roots_of(coefficients(side))) {
+    const FeatureMotion<Integer> piece = restricted(motion, root.piece);
+    const Sides sides = sides_around(root, Kind::side(piece));
+    if ((sides.before < 0 || sides.after < 0) && meet_at<Kind>(root, piece)) {
+      return Passage{middle(meeting_at(root)), sides.before > 0};
+    }
+  }
+  return std::nullopt;
 }
 
 [[maybe_unused]] bool is_finite(const MovingPoint& p) {
-  const auto finite = [](const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+  const auto finite = [](const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
   return finite(p.from) && finite(p.to);
-}
-
-/// Tries doubles first, then doubles with error bounds, then rationals. motion(T{}) returns the motion in the type T.
-template <class Kind, class MotionOf>
-std::optional<Passage> first_passage(const MotionOf& motion) {
-  const FeatureMotion<double> plain = motion(double{});
-  const double largest = largest_of(plain);
-  SearchResult found = search<Kind>(plain, largest, 0, 1, 0);
-  if (found.answer == Answer::unknown) found = search<Kind>(motion(Bounded{}), largest, 0, 1, 0);
-  if (found.answer == Answer::unknown) found = search<Kind>(motion(Rational{}), largest, 0, 1, 0);
-  if (found.answer == Answer::none) return std::nullopt;
-  return found.passage;
 }
 
 }  // namespace
 
+std::optional<Meeting> vertex_meets_face(const MovingPoint& p, const MovingPoint& a, const MovingPoint& b,
+                                         const MovingPoint& c) {
+  assert(is_finite(p) && is_finite(a) && is_finite(b) && is_finite(c));
+  return first_meeting<VertexFace>({p, a, b, c});
+}
+
+std::optional<Meeting> edge_meets_edge(const MovingPoint& p, const MovingPoint& q, const MovingPoint& u,
+                                       const MovingPoint& v) {
+  assert(is_finite(p) && is_finite(q) && is_finite(u) && is_finite(v));
+  return first_meeting<EdgeEdge>({p, q, u, v});
+}
+
 std::optional<Passage> vertex_through_face(const MovingPoint& p, const MovingPoint& a, const MovingPoint& b,
                                            const MovingPoint& c) {
   assert(is_finite(p) && is_finite(a) && is_finite(b) && is_finite(c));
-  return first_passage<VertexFace>([&]<class T>(const T&) {
-    return FeatureMotion<T>{difference<T>(a, p), difference<T>(b, p), difference<T>(c, p)};
-  });
+  return first_passage<VertexFace>({p, a, b, c});
 }
 
 std::optional<Passage> edge_through_edge(const MovingPoint& p, const MovingPoint& q, const MovingPoint& u,
                                          const MovingPoint& v) {
   assert(is_finite(p) && is_finite(q) && is_finite(u) && is_finite(v));
-  return first_passage<EdgeEdge>([&]<class T>(const T&) {
-    return FeatureMotion<T>{difference<T>(q, p), difference<T>(v, u), difference<T>(u, p)};
-  });
+  return first_passage<EdgeEdge>({p, q, u, v});
 }
 
 }  // namespace collide::oracle

@@ -19,8 +19,8 @@ struct MovingReference {
 
   /// Extends the box by the path of a vertex. Only its end is rounded, by less than the margin.
   void add(surface::Box& box, const MovingPoint& point) const {
-    const glm::dvec3 end = glm::dvec3(point.to) - drift, margin = glm::abs(end) * 0x1p-52;
-    box.add(glm::dvec3(point.from));
+    const glm::dvec3 end = point.to - drift, margin = glm::abs(end) * 0x1p-52;
+    box.add(point.from);
     box.add(end - margin);
     box.add(end + margin);
   }
@@ -69,14 +69,16 @@ class CrossingSearch {
     surface::BoxTree faces, edges;
   };
 
-  MovingPoint point(Index vertex) const { return {position(before_, vertex), position(after_, vertex)}; }
+  MovingPoint point(Index vertex) const {
+    return {glm::dvec3(position(before_, vertex)), glm::dvec3(position(after_, vertex))};
+  }
 
   glm::dvec3 mean_displacement(Index body) const {
     glm::dvec3 sum(0);
     const Bodies& bodies = *before_.bodies;
     for (Index v = bodies.first[body]; v < bodies.first[body + 1]; ++v) {
       const MovingPoint p = point(v);
-      sum += glm::dvec3(p.to) - glm::dvec3(p.from);
+      sum += p.to - p.from;
     }
     return sum / static_cast<double>(bodies.size(body));
   }

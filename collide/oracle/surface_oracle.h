@@ -68,12 +68,11 @@ struct Crossing {
   bool inward;                   // vertex_face: from the outer side of the face to its inner side
 };
 
-/// Finds all crossings between two frames. Never misses a passage. A vertex in the plane of a face counts as outside,
-/// so that a passage over several frames is counted once: in the frame in which the vertex leaves the plane inwards, or
-/// reaches it from the inside. Motion within a plane is no passage. In doubt, a crossing is reported: for a passage
-/// exactly through the border of a face, for a miss by less than the distance moved in 2^-32 of the step, and if the
-/// face or one of the edges shrinks to nothing at the time of the passage. Throws std::invalid_argument if the frames
-/// do not have the same bodies.
+/// Finds all crossings between two frames, exactly: no passage is missed, and none is reported without a point that
+/// both features share when the side changes (moving_features.h). A vertex in the plane of a face counts as outside, so
+/// that a passage over several frames is counted once: in the frame in which the vertex leaves the plane inwards, or
+/// reaches it from the inside. Motion within a plane is no passage. A passage exactly through the border of several
+/// faces is one through each of them. Throws std::invalid_argument if the frames do not have the same bodies.
 std::vector<Crossing> find_crossings(const Frame& before, const Frame& after, const surface::Surfaces& surfaces,
                                      Workers& workers);
 

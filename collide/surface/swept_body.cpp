@@ -139,8 +139,9 @@ void SweptBody::build_deformation_boxes(BoxList& vertices) const {
 
 /// Tests that every face turns its outer side away from the centre: det(a, b, c) > 0 for its corners as seen from the
 /// centre. Then a ray from the centre meets the surface the same number of times in every direction, and that number
-/// must be 1; the ray along +y is counted. Apart from the rigid motion, a corner moves by at most m. That reduces the
-/// determinant by at most
+/// must be 1. The ray through the middle of the first face is counted: it meets that face inside, so that rounding
+/// cannot lose it, and no other face may even touch it. Apart from the rigid motion, a corner moves by at most m. That
+/// reduces the determinant by at most
 ///   m (|a x b| + |b x c| + |c x a|) + m^2 (|a| + |b| + |c|) + m^3.
 /// This is at most max_loss, which takes the farthest vertex for every corner and is the same for all faces.
 bool SweptBody::stays_star_shaped() const {
@@ -150,6 +151,8 @@ bool SweptBody::stays_star_shaped() const {
   float r2 = 0;
   for (Index v = 0; v < count_; ++v) r2 = std::max(r2, glm::dot(at(v) - centre_, at(v) - centre_));
   const float max_loss = m * (3 * r2 + m * (3 * std::sqrt(r2) + m));
+  const auto& [first, second, third] = surface().triangles().front();
+  const glm::vec3 ray = (at(first) + at(second) + at(third)) / 3.0f - centre_;
   int hits = 0;
   for (const auto& [i, j, k] : surface().triangles()) {
     const glm::vec3 a = at(i) - centre_, b = at(j) - centre_, c = at(k) - centre_, bc = glm::cross(b, c);
@@ -159,7 +162,7 @@ bool SweptBody::stays_star_shaped() const {
     };
     const float det = glm::dot(a, bc);
     if (!(det > max_loss) && !(det > loss())) return false;
-    hits += bc.y > 0 && glm::cross(a, b).y > 0 && glm::cross(c, a).y > 0;
+    hits += glm::dot(bc, ray) >= 0 && glm::dot(glm::cross(a, b), ray) >= 0 && glm::dot(glm::cross(c, a), ray) >= 0;
   }
   return hits == 1;
 }

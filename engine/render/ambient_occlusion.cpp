@@ -65,22 +65,44 @@ void AmbientOcclusion::update(const FrameData& frame) {
   }
 }
 
-// Sweeps along x: only spheres that are close in x are compared.
+/// Sorts the spheres into columns along x that are as wide as any two of them can act, and sweeps along x through each
+/// column together with itself and its neighbours: only spheres that are near each other are compared.
 void AmbientOcclusion::find_pairs() {
   pairs_.clear();
-  order_.resize(spheres_.size());
-  std::iota(order_.begin(), order_.end(), 0u);
-  std::ranges::sort(order_, {}, [&](std::uint32_t i) { return spheres_[i].x; });
+  places_.clear();
   float largest = 0.0f;
   for (const glm::vec4& sphere : spheres_) largest = std::max(largest, sphere.w);
-  for (std::size_t i = 0; i < order_.size(); ++i) {
-    const std::uint32_t a = order_[i];
-    const float far = spheres_[a].x + (2.5f + occluder_range) * std::max(largest, spheres_[a].w);
-    for (std::size_t j = i + 1; j < order_.size() && spheres_[order_[j]].x < far; ++j) {
-      const std::uint32_t b = order_[j];
-      if (occludes(spheres_[a], spheres_[b])) pairs_.push_back({b, a});
-      if (occludes(spheres_[b], spheres_[a])) pairs_.push_back({a, b});
+  if (largest <= 0.0f) return;
+  const float range = (2.5f + occluder_range) * largest;
+  for (std::uint32_t i = 0; i < spheres_.size(); ++i) {
+    const glm::vec4& sphere = spheres_[i];
+    places_.push_back({{std::floor(sphere.y / range), std::floor(sphere.z / range)}, sphere.x, i});
+  }
+  std::ranges::sort(places_);
+  for (auto begin = places_.begin(); begin != places_.end();) {
+    const Column column = begin->column;
+    const auto end = std::ranges::upper_bound(begin, places_.end(), column, {}, &Place::column);
+    for (auto a = begin; a != end; ++a) compare(*a, a + 1, end, range);
+    for (const auto& [y, z] : {Column{0, 1}, Column{1, -1}, Column{1, 0}, Column{1, 1}}) {
+      auto [other, other_end] =
+          std::ranges::equal_range(end, places_.end(), Column{column[0] + y, column[1] + z}, {}, &Place::column);
+      for (auto a = begin; a != end; ++a) {
+        while (other != other_end && other->x < a->x - range) ++other;
+        compare(*a, other, other_end, range);
+      }
     }
+    begin = end;
+  }
+}
+
+/// Compares a place with those from `other` on; these ascend along x.
+void AmbientOcclusion::compare(const Place& place, Places::const_iterator other, Places::const_iterator end,
+                               float range) {
+  const std::uint32_t a = place.sphere;
+  for (; other != end && other->x <= place.x + range; ++other) {
+    const std::uint32_t b = other->sphere;
+    if (occludes(spheres_[a], spheres_[b])) pairs_.push_back({b, a});
+    if (occludes(spheres_[b], spheres_[a])) pairs_.push_back({a, b});
   }
 }
 

@@ -2,6 +2,8 @@
 // Ambient occlusion between bodies and solids. Each is treated as a sphere and gets a list of the spheres that hide
 // part of the sky from it. No OpenGL.
 
+#include <array>
+#include <compare>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -34,14 +36,23 @@ class AmbientOcclusion {
   std::span<const glm::vec4> occluders() const { return occluders_; }
 
  private:
-  void find_pairs();
-
+  using Column = std::array<float, 2>;  // y and z, in units of its width
+  struct Place {
+    Column column;
+    float x;
+    std::uint32_t sphere;
+    auto operator<=>(const Place&) const = default;
+  };
+  using Places = std::vector<Place>;
   struct Pair {
     std::uint32_t receiver, occluder;
   };
+  void find_pairs();
+  void compare(const Place& place, Places::const_iterator other, Places::const_iterator end, float range);
+
   std::vector<glm::vec4> spheres_, occluders_;
   std::vector<OccluderRange> ranges_;
-  std::vector<std::uint32_t> order_;  // indices of spheres, by x
+  Places places_;  // of all spheres, by column, then by x
   std::vector<Pair> pairs_;
 };
 

@@ -21,6 +21,12 @@ struct ForceBatch {
   double h;            // s
   glm::dvec3 gravity;  // m/s^2
   Field<float> f;      // N, on the batch's particles
+
+  KickArguments kick_arguments() const {
+    const glm::vec3 g = float(h) * glm::vec3(gravity);
+    return {batch.particles(), float(h), float(h) / float(batch.model->particle_mass), g.x, g.y, g.z,
+            batch.moves.data()};
+  }
 };
 
 }  // namespace softbody

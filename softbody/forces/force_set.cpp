@@ -1,6 +1,7 @@
 #include "softbody/forces/force_set.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace softbody {
@@ -8,12 +9,6 @@ namespace {
 
 LaneBodies<float> lanes_of(const ForceBatch& b) {
   return {*b.batch.model, b.batch.used, field(std::as_const(b.state).x, b.batch.base), b.f};
-}
-
-KickArguments arguments_of(const ForceBatch& b) {
-  const auto h = static_cast<float>(b.h);
-  const glm::vec3 g = h * glm::vec3(b.gravity);
-  return {b.batch.particles(), h, h / float(b.batch.model->particle_mass), g.x, g.y, g.z, b.batch.moves.data()};
 }
 
 }  // namespace
@@ -43,13 +38,13 @@ void ForceSet::add_unprojected(const ForceBatch& b) const {
 
 void ForceSet::advance(const ForceBatch& b, const Advance& how, LaneVolumes& volumes) const {
   add_if(b, []<class F>(Name<F>) { return !is_of_length<F>() && !is_of_volume<F>() && !Kicks<F>; });
-  force_kernels(b.batch.width).advance(lanes_of(b), arguments_of(b), how, field(b.state.v, b.batch.base), volumes);
+  force_kernels(b.batch.width).advance(lanes_of(b), b.kick_arguments(), how, field(b.state.v, b.batch.base), volumes);
   kick(b);
 }
 
 void ForceSet::press_again(const ForceBatch& b, LaneVolumes& volumes) const {
   if (b.batch.model->forces->pressure <= 0) return;
-  force_kernels(b.batch.width).press_again(lanes_of(b), arguments_of(b), field(b.state.v, b.batch.base), volumes);
+  force_kernels(b.batch.width).press_again(lanes_of(b), b.kick_arguments(), field(b.state.v, b.batch.base), volumes);
 }
 
 void ForceSet::project(const ForceBatch& b, Field<const float> x0, Field<float> d) const {
@@ -84,6 +79,7 @@ ForceBound bound_of(const Batch& b, Field<const float> x) {
     if (b.moves[l] <= 0) continue;
     bound.stiffness = std::max(bound.stiffness, stiffness_per_mass(p, shapes[l]));
     bound.implicit_volume = std::max(bound.implicit_volume, stiffness_per_mass(p, shapes[l], Volumes::implicit_));
+    bound.volume_change = std::max(bound.volume_change, std::abs(shapes[l].volume / p.start_volume - 1));
   }
   return bound;
 }

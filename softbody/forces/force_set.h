@@ -9,6 +9,7 @@ namespace softbody {
 struct ForceBound {
   double stiffness = 0, implicit_volume = 0;  // 1/s^2; the latter for Volumes::implicit_
   double damping = 0;                         // 1/s
+  double volume_change = 0;                   // share by which a volume differs from that of the start
 };
 
 class ForceSet {

@@ -101,9 +101,7 @@ void Motion::project(const Batch& b, Quantity x0, Quantity d, float h) {
 void Motion::pull(const Batch& b, float h) { forces_.kick(step_of(b, h)); }
 
 void Motion::kick(const Batch& b, float h) {
-  const glm::vec3 g = h * glm::vec3(gravity_);
-  state_kernels(b.width).kick(
-      used(b), {b.particles(), h, h / float(b.model->particle_mass), g.x, g.y, g.z, b.moves.data()}, f(b), v(b));
+  state_kernels(b.width).kick(used(b), step_of(b, h).kick_arguments(), f(b), v(b));
 }
 
 void Motion::accelerations(const Batch& b) {

@@ -199,13 +199,15 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
 /// Before substeps of h, the first of the frame or later ones: sets which energy they conserve, and books what the
 /// change to that gives. Fixed ones that are too long to be stable conserve none; then the plain one is not to grow.
 void Solver::set_staggering(double h, bool first) {
-  constexpr double reserve = 0.8, close = 0.2;  // of stable steps; of h
+  constexpr double close = 0.2;  // of h
   const Integrator& integrator = *steps_.plan().integrator;
   double& now = state_.ledger.staggering;
   const double before = now;
   now = integrator.staggered ? h : 0;
   if (now > 0 && steps_.fixed())
-    now = !first ? before : reserve * h * stable_rate(bounds_.measure(integrator), integrator) > 1 ? 0 : h;
+    now = !first                                                                                      ? before
+          : (1 - integrator.reserve()) * h * stable_rate(bounds_.measure(integrator), integrator) > 1 ? 0
+                                                                                                      : h;
   if (std::abs(now - before) <= close * std::max(now, before)) {
     now = before;
     return;

@@ -33,9 +33,9 @@ StepBound StepBounds::measure(const Integrator& integrator) const {
   crew_.for_each(moving.size(), [&](std::size_t i) { bounds[i] = measure(*moving[i], integrator); });
   StepBound most;
   for (const StepBound& b : bounds)
-    for (const auto rate :
-         {&StepBound::stable, &StepBound::breathing, &StepBound::deformation, &StepBound::passing, &StepBound::fastest})
-      most.*rate = std::max(most.*rate, b.*rate);
+    for (const auto member : {&StepBound::stable, &StepBound::breathing, &StepBound::deformation, &StepBound::passing,
+                              &StepBound::fastest, &StepBound::volume_change})
+      most.*member = std::max(most.*member, b.*member);
   return most;
 }
 
@@ -46,14 +46,17 @@ StepBound StepBounds::measure(const Batch& b, const Integrator& integrator) cons
                              ? 0
                              : PenaltyLaw<double>::stiffness_bound(p.material[contact::stiffness]) / p.particle_mass;
   const auto rate = [&](double stiffness) { return 1 / integrator.stable_step(stiffness + contact, force.damping); };
-  unsigned near = 0;  // bits: lanes
+  const double less_reserve = (1 - 0.2) / (1 - 0.1);  // see Integrator::reserve()
+  unsigned near = 0;                                  // bits: lanes
   for (const SolidArguments& solid : solids_.near(b)) near |= solid.near;
   const Extent motion = state_.extent(b, state_.v, state_.v);
   const double pace = 0.1 * p.radius;
-  return {rate(force.implicit_volume), rate(force.stiffness),
+  return {less_reserve * rate(force.implicit_volume),
+          rate(force.stiffness),
           max_of_moving(b, [&](std::size_t l) { return motion.diagonal(l); }) / pace,
           max_of_moving(b, [&](std::size_t l) { return near >> l & 1u ? motion.length(l) : 0; }) / pace,
-          StepBounds::pace(b, motion)};
+          StepBounds::pace(b, motion),
+          force.volume_change};
 }
 
 double StepBounds::pace(const Batch& b, const Extent& motion) {

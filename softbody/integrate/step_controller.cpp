@@ -12,6 +12,8 @@ constexpr double longest_step =
 /// less than a hundredth of its radius after half a second, see `report solver`. Bodies that are stable in longer steps
 /// take these.
 constexpr double accurate_rate = 480;
+/// Share by which volumes may change. Beyond it, breathing feeds other motion, so that it must not be damped away.
+constexpr double quiet_breathing = 0.02;
 constexpr double max_count = 5e8;    // substeps of a frame: an int holds them, and no budget pays for them
 constexpr double nearly = 1 - 1e-9;  // rounding of what is left of a frame must not add a substep
 
@@ -36,7 +38,8 @@ void StepController::begin_frame(const FrameConditions& c, const StepBound& boun
   spent_ = 0;
   most_ = budget_.of(c.particles);
   work_of_substep_ = work::substep + double(c.moving) + work::penalty_pair * double(c.penalty_pairs);
-  for (SubstepHysteresis& h : hysteresis_) h.advance(c.seconds);
+  for (RecentMaximum* m : {&hysteresis_.implicit_volume_rate, &hysteresis_.explicit_rate, &hysteresis_.volume_change})
+    m->advance(c.seconds);
   plan_.substeps = plan_.needed = 0;
   if (automatic() && c.moving > 0) choose(bound, c);
 }
@@ -48,9 +51,10 @@ double StepController::explicit_rate(const StepBound& b) {
   const double asked = std::max({stable_rate(b, *plan_.integrator), b.deformation, accurate ? accurate_rate : 0});
   const double rate = std::max({1 / longest_step, b.passing, asked});
   if (fixed()) return rate;
-  SubstepHysteresis& kept = hysteresis_[plan_.integrator->implicit_volume ? 0 : 1];
+  RecentMaximum& kept =
+      plan_.integrator->implicit_volume ? hysteresis_.implicit_volume_rate : hysteresis_.explicit_rate;
   kept.raise(std::min(asked, 0.5 * most_ / work_of_substep_ / seconds_));
-  return std::max(rate, kept.rate());
+  return std::max(rate, kept.value());
 }
 
 /// A body does not stay round if a step bends it by more than its radius, ten times as much as `deformation` allows.
@@ -65,8 +69,10 @@ void StepController::choose(const StepBound& b, const FrameConditions& c) {
   const double of_implicit = c.penalty_pairs > 0 ? work::implicit_in_contact
                              : c.near_solids     ? work::implicit_on_solids
                                                  : work::implicit_in_flight;
+  hysteresis_.volume_change.raise(b.volume_change);
   // Contact of surfaces wants short steps. It acts after the gas, and would be solved again for each new pressure.
-  const bool gas_decides = !c.surfaces_touch && std::max({accurate_rate, 1 / seconds_, b.stable}) < 0.9 * b.breathing;
+  const bool gas_decides = !c.surfaces_touch && hysteresis_.volume_change.value() <= quiet_breathing &&
+                           std::max({accurate_rate, 1 / seconds_, b.stable}) < 0.8 * b.breathing;
   plan_.integrator = find_integrator(gas_decides ? "imex-euler" : "semi-implicit-euler");
   const double most = fixed() ? fixed_steps_ : of_implicit * std::max(1.0, seconds_ * implicit_rate(b));
   const bool cheaper = seconds_ * explicit_rate(b) <= most;

@@ -4,7 +4,6 @@
 // (Integrator::substeps_per_step).
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <string_view>
 
@@ -15,11 +14,12 @@ namespace softbody {
 
 /// What bodies ask of their steps as they are now: the lowest rates (1/s) at which steps ...
 struct StepBound {
-  double stable = 0;       // ... are stable, but for breathing, of explicit integrators; 0 if all are
-  double breathing = 0;    // ... are stable, if gas resists changes of the volume explicitly
-  double deformation = 0;  // ... keep up with the body that changes its shape fastest
-  double passing = 0;      // ... keep up with the fastest body near a solid, and with surfaces that pass each other
-  double fastest = 0;      // and how many times its radius the fastest body goes in a second
+  double stable = 0;         // ... are stable, but for breathing, of explicit integrators; 0 if all are
+  double breathing = 0;      // ... are stable, if gas resists changes of the volume explicitly
+  double deformation = 0;    // ... keep up with the body that changes its shape fastest
+  double passing = 0;        // ... keep up with the fastest body near a solid, and with surfaces that pass each other
+  double fastest = 0;        // and how many times its radius the fastest body goes in a second
+  double volume_change = 0;  // and the largest share by which the volume of a body differs from the start's
 };
 
 /// Returns the lowest rate (1/s) at which the integrator's steps are stable.
@@ -47,11 +47,8 @@ struct StepPlan {
   int needed = 0;        // that the bound alone asks of a whole frame
 };
 
-/// Lower bound of the substep rate that falls with a delay: the largest rate (1/s) of the last half second to one
-/// second. Steps of equal length keep the energy of an oscillation bounded. Steps that get longer and shorter with the
-/// oscillation feed it, however short they are (Skeel and Gear 1992, "Does variable step size ruin a symplectic
-/// integrator?").
-class SubstepHysteresis {
+/// The largest value, at least 0, of the last half second to one second.
+class RecentMaximum {
  public:
   void advance(double seconds) {
     age_ += seconds;
@@ -59,18 +56,24 @@ class SubstepHysteresis {
     before_ = now_;
     now_ = age_ = 0;
   }
-  void raise(double rate) { now_ = std::max(now_, rate); }
-  double rate() const { return std::max(now_, before_); }  // 1/s
+  void raise(double value) { now_ = std::max(now_, value); }
+  double value() const { return std::max(now_, before_); }
 
  private:
   static constexpr double half_second = 0.5;
-  double now_ = 0, before_ = 0;  // 1/s, the most in the half second that runs, and in the one before
+  double now_ = 0, before_ = 0;  // the largest in the half second that runs, and in the one before
   double age_ = 0;               // s, of the one that runs
 };
 
 class StepController {
  public:
-  using Hysteresis = std::array<SubstepHysteresis, 2>;  // of integrators that are implicit in the volume, and of others
+  /// What the next frames depend on. The rates (1/s) are lower bounds of the substep rate of explicit integrators: of
+  /// those that are implicit in the volume, and of others. Steps of equal length keep the energy of an oscillation
+  /// bounded. Steps that get longer and shorter with the oscillation feed it, however short they are (Skeel and Gear
+  /// 1992, "Does variable step size ruin a symplectic integrator?").
+  struct Hysteresis {
+    RecentMaximum implicit_volume_rate, explicit_rate, volume_change;
+  };
 
   /// Takes the integrator, or `auto`, and the number of its steps in a frame if that is fixed.
   void set_choice(const IntegratorChoice& choice);

@@ -1,6 +1,7 @@
 #include "softbody/model/body_model.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -37,9 +38,9 @@ void list_faces(BodyModel& p) {
   }
 }
 
-std::shared_ptr<BodyModel> make_body_mesh(const MeshSource& source) {
+std::shared_ptr<BodyModel> make_body_mesh(Mesh mesh) {
   auto p = std::make_shared<BodyModel>();
-  p->mesh = source.make();
+  p->mesh = std::move(mesh);
   p->radius = bounding_radius(p->mesh);
   list_faces(*p);
   for (Index i = 0; i < p->mesh.vertices.size(); ++i)

@@ -58,6 +58,6 @@ struct BodyModel {
 void list_faces(BodyModel& model);
 
 /// Returns a body model that has its mesh, in the shape in which it starts, and no material yet.
-std::shared_ptr<BodyModel> make_body_mesh(const MeshSource& mesh);
+std::shared_ptr<BodyModel> make_body_mesh(Mesh mesh);
 
 }  // namespace softbody

@@ -16,6 +16,7 @@
 #include "softbody/mesh/mesh_source.h"
 #include "softbody/model/material.h"
 #include "softbody/model/scene_error.h"
+#include "softbody/scene/recording.h"
 
 namespace softbody {
 
@@ -86,6 +87,8 @@ struct Scene {
   bool default_cell_size = true;
   std::vector<Material> materials;
   std::vector<BodySource> bodies;
+  /// If there is one, these are all bodies, and nothing is simulated. A scene file has none.
+  std::shared_ptr<Recording> recording;
   std::vector<SolidSphere> spheres;
   std::vector<SolidPlane> planes;
   std::vector<SolidBox> boxes;
@@ -101,6 +104,10 @@ struct Scene {
 /// Reads a scene file. `presets`: a file of materials that the scene may name; it is read only if the scene does.
 /// Throws SceneError; unknown keys, wrong types and values out of range are errors too.
 Scene load_scene(const std::filesystem::path& file, const std::filesystem::path& presets = {});
+
+/// Reads the text of a scene file, which may have no body yet. `file` names it in messages, and its folder is that of
+/// the meshes that the text names. Throws SceneError as load_scene() does.
+Scene parse_scene(std::string_view text, const std::filesystem::path& file, const std::filesystem::path& presets = {});
 
 /// Reads a file of materials, each with a name of its own. Throws SceneError as load_scene() does.
 std::vector<Material> load_presets(const std::filesystem::path& file);

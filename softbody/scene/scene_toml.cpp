@@ -313,8 +313,6 @@ Scene read_scene(Table root, const std::filesystem::path& file, const std::files
   sleep.close();
   read_view(root, scene);
   root.close();
-  if (scene.bodies.empty() && !scene.dropper)
-    throw SceneError(file.string() + ": has no body; add a [[body]] or a [dropper]");
   return scene;
 }
 
@@ -322,6 +320,14 @@ Scene read_scene(Table root, const std::filesystem::path& file, const std::files
 
 Scene load_scene(const std::filesystem::path& file, const std::filesystem::path& presets) {
   const toml::table table = read_toml(file);
+  Scene scene = read_scene(Table(table, file.string(), ""), file, presets);
+  if (scene.bodies.empty() && !scene.dropper)
+    throw SceneError(file.string() + ": has no body; add a [[body]] or a [dropper]");
+  return scene;
+}
+
+Scene parse_scene(std::string_view text, const std::filesystem::path& file, const std::filesystem::path& presets) {
+  const toml::table table = parse_toml(text, file.string());
   return read_scene(Table(table, file.string(), ""), file, presets);
 }
 

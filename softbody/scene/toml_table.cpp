@@ -21,6 +21,15 @@ std::string range(double lo, double hi) {
   return s.str();
 }
 
+/// Calls parse(). Throws SceneError, which names the file and the line, if it finds no TOML.
+toml::table parsed(const std::string& file, const auto& parse) {
+  try {
+    return parse();
+  } catch (const toml::parse_error& e) {
+    throw SceneError(file + ":" + std::to_string(e.source().begin.line) + ": " + std::string(e.description()));
+  }
+}
+
 }  // namespace
 
 toml::table read_toml(const std::filesystem::path& file) {
@@ -30,11 +39,11 @@ toml::table read_toml(const std::filesystem::path& file) {
   if (size > max_toml_file_size)
     throw SceneError(file.string() + ": is larger than " + std::to_string(max_toml_file_size >> 20) +
                      " MiB; no such file is that long");
-  try {
-    return toml::parse_file(file.string());
-  } catch (const toml::parse_error& e) {
-    throw SceneError(file.string() + ":" + std::to_string(e.source().begin.line) + ": " + std::string(e.description()));
-  }
+  return parsed(file.string(), [&] { return toml::parse_file(file.string()); });
+}
+
+toml::table parse_toml(std::string_view text, const std::string& name) {
+  return parsed(name, [&] { return toml::parse(text, name); });
 }
 
 double Table::number(const std::string& key, double fallback, double lo, double hi) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #define TOML_EXCEPTIONS 1
@@ -18,6 +19,8 @@ namespace softbody {
 
 /// Reads a whole file. Throws SceneError if it cannot be read, is larger than max_toml_file_size, or is no TOML.
 toml::table read_toml(const std::filesystem::path& file);
+/// Reads the text of a file, which messages call `name`. Throws SceneError if it is no TOML.
+toml::table parse_toml(std::string_view text, const std::string& name);
 
 inline constexpr std::uintmax_t max_toml_file_size = 16 << 20;  // bytes
 

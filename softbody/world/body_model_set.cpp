@@ -1,6 +1,7 @@
 #include "softbody/world/body_model_set.h"
 
 #include <mutex>
+#include <utility>
 
 #include "softbody/forces/equilibrium.h"
 #include "softbody/forces/model_forces.h"
@@ -43,6 +44,13 @@ std::shared_ptr<const BodyModel> shared_body_model(const MeshSource& mesh, const
   const std::scoped_lock lock(in_use_mutex);
   in_use.push_back({mesh, material, made});
   return made;
+}
+
+std::shared_ptr<const BodyModel> recorded_body_model(Mesh mesh, std::shared_ptr<const collide::Shape> shape) {
+  auto p = make_body_mesh(std::move(mesh));
+  p->shape = std::move(shape);
+  p->forces = std::make_shared<const ModelForces>();
+  return p;
 }
 
 BodyModelSet::BodyModelSet(const Scene& scene) {

@@ -11,6 +11,10 @@ namespace softbody {
 /// make_body_model() does. May be called on any thread.
 std::shared_ptr<const BodyModel> shared_body_model(const MeshSource& mesh, const Material& material);
 
+/// Returns the body model of a body whose motion is recorded: no force acts on it. `mesh` has the shape of its first
+/// frame; `shape` decides which pairs of its vertices can be contacts.
+std::shared_ptr<const BodyModel> recorded_body_model(Mesh mesh, std::shared_ptr<const collide::Shape> shape);
+
 /// Holds one body model for each pair of mesh and material among a scene's bodies, its dropper and added bodies.
 class BodyModelSet {
  public:

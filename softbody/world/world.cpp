@@ -17,7 +17,7 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// Returns the default cell size, which depends on the bodies at rest and not on their later shapes.
+/// Returns the default cell size for the bodies at rest.
 glm::vec3 rest_cell_size(const BodyModelSet& models, const collide::Settings& settings) {
   collide::Bodies bodies;
   Coordinates rest;
@@ -53,10 +53,14 @@ World::Parts::Parts(Scene s, const Options& o)
   solver.set_plan(plan);
   check_sizes(models);
   set_integrator();
-  if (scene.default_cell_size) settings.cell_size = rest_cell_size(models, settings);
-  arrive();
-  update_positions();
-  detect();
+  if (scene.default_cell_size) settings.cell_size = default_cell_size();
+  if (scene.recording) {
+    show(0);
+  } else {
+    arrive();
+    update_positions();
+    detect();
+  }
 }
 
 /// Hands the integrator on to the solver, without a check.
@@ -102,6 +106,41 @@ void World::Parts::arrive() {
   }
 }
 
+/// Shows a frame of the scene's recording. Changes nothing if the frame cannot be read.
+void World::Parts::show(int number) {
+  const std::shared_ptr<const RecordedFrame> recorded = scene.recording->frame(number);
+  State& state = solver.state();
+  const BodyId before = state.body_count();
+  for (BodyId b = before; b-- > recorded->body_count;) solver.remove(b);
+  for (BodyId b = before; b < recorded->body_count; ++b)
+    state.add(scene.recording->model(b), glm::dvec3(0.0), glm::dvec3(0.0));
+  if (recorded->body_count != before) count_vertices();
+  if (recorded->body_count < before) detector->forget();
+  for (BodyId b = 0; b < recorded->body_count; ++b) {
+    const Index first = bodies.first[b];
+    state.place(b, {&recorded->x[first], &recorded->y[first], &recorded->z[first]});
+  }
+  frame = number;
+  update_positions();
+  detect();
+}
+
+/// Shows the next frame, and after the last one the first one.
+void World::Parts::play() {
+  const auto start = Clock::now();
+  show((frame + 1) % scene.recording->frame_count());
+  report.time += frame_time;
+  report.seconds = frame_time;
+  report.total_ms = ms_since(start);
+  report.solve_ms = report.total_ms - report.detect_ms;
+}
+
+/// Returns the default cell size, which does not depend on the present shapes of the bodies.
+glm::vec3 World::Parts::default_cell_size() {
+  if (scene.recording) return softbody::default_cell_size(*scene.recording, settings.levels, settings.tolerance);
+  return rest_cell_size(models, settings);
+}
+
 void World::Parts::update_positions() { solver.write_positions(positions.resized(bodies.vertex_count())); }
 
 void World::Parts::detect() {
@@ -123,6 +162,7 @@ void World::DeleteParts::operator()(Parts* parts) const { delete parts; }
 
 void World::step(const std::function<void()>& after_substep) {
   Parts& s = *parts_;
+  if (s.scene.recording) return s.play();
   const auto start = Clock::now();
   if (s.plan.has(Stage::arrive)) s.arrive();
   if (const auto& grab = grabbed()) s.solver.state().set_asleep(grab->body, false);  // a grabbed body stays awake
@@ -164,6 +204,8 @@ void World::step(const std::function<void()>& after_substep) {
                    s.solver.surface_contact().candidates().interactions());
   s.report.total_ms = ms_since(start) - looking_ms;
 }
+
+void World::show_frame(int number) { parts_->show(number); }
 
 void World::set_particles(BodyId body, std::span<const Particle> particles) {
   Parts& s = *parts_;
@@ -214,7 +256,7 @@ void World::set_collision(const collide::Settings& settings, bool default_cell_s
   s.settings = s.scene.collision = settings;
   s.scene.default_cell_size = default_cell_size;
   s.update_plan();  // self-collision decides whether a lone body needs detection
-  if (default_cell_size) s.settings.cell_size = rest_cell_size(s.models, settings);
+  if (default_cell_size) s.settings.cell_size = s.default_cell_size();
   s.wake_all();
   s.detect();
 }
@@ -251,6 +293,7 @@ std::vector<SurfaceContactPoint> World::surface_contacts() const {
 
 bool World::all_at_rest() const {
   const Parts& s = *parts_;
+  if (s.scene.recording) return s.scene.recording->frame_count() == 1;
   if (std::find(s.arrived.begin(), s.arrived.end(), char(false)) != s.arrived.end()) return false;
   for (BodyId b = 0; b < s.bodies.count(); ++b)
     if (!s.solver.state().body(b).asleep) return false;

@@ -2,6 +2,9 @@
 // A world simulates a scene. One step() is one frame: bodies arrive, respond to the contacts found last, and move; then
 // contacts are detected at the new positions, and bodies at rest fall asleep. Everything that can be read afterwards
 // (positions, contacts, boxes) belongs to the same instant.
+//
+// If the scene has a recording, a step shows its next frame and detects, and nothing else: the plan leaves out all
+// other stages. Who needs a solver asks the plan for Stage::integrate.
 
 #include <functional>
 #include <memory>
@@ -63,13 +66,17 @@ class World {
   /// Simulates one frame. Calls `after_substep` after each substep; it may read positions(), which are up to date, but
   /// nothing else, and must not change the world.
   void step(const std::function<void()>& after_substep = {});
+  /// Shows a frame of the scene's recording, which it must have, and detects. Throws as Recording::frame() does, and
+  /// then, like step(), changes nothing.
+  void show_frame(int number);
   /// Returns everything that determines how the world continues.
   Snapshot snapshot() const;
   /// Puts the world into the state of the snapshot, settings included, and detects. It then continues, to the bit, as
   /// the world of the snapshot did, which may be another world. Its threads and frame time do not change.
   void restore(const Snapshot& snapshot);
 
-  // Changes between frames. Each of them detects again if contacts may have changed.
+  // Changes between frames. Each of them detects again if contacts may have changed. With a recording, bodies cannot be
+  // changed: those that throw SceneError refuse it, the others must not be called.
   /// Places the body's particles, wakes all bodies and detects. `particles`: finite, one for each vertex.
   void set_particles(BodyId body, std::span<const Particle> particles);
   /// Adds `count` bodies at the scene's dropper, or above its first body if it has none. Each appears above everything
@@ -109,7 +116,7 @@ class World {
   const collide::Method& method() const;
   const IntegratorChoice& integrator_choice() const;
   const Plan& plan() const;
-  int frame() const;  // steps done
+  int frame() const;  // steps done; of a recording: its frame, from 0
   double frame_time() const;
 
   // The current state.
@@ -121,7 +128,7 @@ class World {
   const BodyModel& model(BodyId body) const;
   const collide::Result& detection() const;   // at positions()
   const collide::Detector& detector() const;  // for its debug()
-  bool all_at_rest() const;                   // all bodies are asleep, and none is still to come
+  bool all_at_rest() const;                   // no step moves a body: all are asleep, and none is still to come
   const State& state() const;                 // of all particles
   std::uint64_t state_hash() const;           // over the bits of positions and velocities, in the order of bodies
 

@@ -57,13 +57,17 @@ struct World::Parts : WorldValues {
   double energy() const;  // J, of all bodies
   BodyId add(const BodySource& source, const glm::dvec3& position);
   void arrive();
+  void show(int number);
+  void play();
   void count_vertices();
   void update_positions();
   void detect();
   void wake_all();
+  glm::vec3 default_cell_size();
   void set_integrator();
   void wake_near(BodyId body);
   void update_plan();
+  void require_solver() const;
   void check_capacity(const BodyModel& p, std::size_t number) const;
   void check_sizes(const BodyModelSet& all) const;
   void bodies_added(std::size_t number);  // by hand

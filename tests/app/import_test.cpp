@@ -200,7 +200,8 @@ TEST_F(ImportTest, MakesTheBodyBesideTheWindow) {
 TEST_F(ImportTest, ReadsDroppedFilesOneAfterAnother) {
   const std::string ball = folder.write("ball.obj", obj_of({})).string(),
                     bowl = folder.write("BOWL.OBJ", obj_of({.open = true})).string();
-  import.drop({ball, bowl}, session);
+  import.drop({ball}, session);
+  import.drop({bowl}, session);
   for (const auto end = std::chrono::steady_clock::now() + 60s;
        session.world().bodies().count() < 4 && std::chrono::steady_clock::now() < end;)
     import.update(session);
@@ -215,7 +216,7 @@ TEST_F(ImportTest, ReportsOnEachFileOfABatch) {
   EXPECT_EQ(session.world().bodies().count(), 4u);
   ASSERT_EQ(import.report().size(), 4u) << report();
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(import.report()[i].refused, i % 2 == 0) << report();
-  drop({ball, ball, ball});
+  for (int i = 0; i < 3; ++i) drop({ball});
   ASSERT_EQ(import.report().size(), 5u) << "the oldest that were accepted are gone: " << report();
   EXPECT_NE(report().find("none.obj"), std::string::npos) << report();
   EXPECT_NE(report().find("model.stl"), std::string::npos) << report();
@@ -225,6 +226,53 @@ TEST_F(ImportTest, ReportsOnEachFileOfABatch) {
   EXPECT_FALSE(refused()) << "nor is the newest report";
   load(ball);
   EXPECT_EQ(import.report().size(), 1u) << report();
+}
+
+/// Two triangles, of which the second is `gap` away.
+std::string two_triangles(double gap) {
+  std::ostringstream text;
+  text << "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no b\n";
+  for (const char* corner : {"0 0 ", "1 0 ", "0 1 "}) text << "v " << corner << gap << '\n';
+  text << "f 4 5 6\n";
+  return text.str();
+}
+
+TEST_F(ImportTest, AsksWhetherMeshesWithTheSameVerticesAreFramesToPlay) {
+  std::vector<std::string> files;
+  for (const int number : {10, 9, 1})
+    files.push_back(folder.write("frame_" + std::to_string(number) + ".obj", two_triangles(number)).string());
+  drop(files);
+  EXPECT_NE(import.question().find("3 files with the same vertices"), std::string::npos) << import.question();
+  EXPECT_EQ(session.world().bodies().count(), 2u) << "nothing happens before the answer";
+  import.play(session);
+  EXPECT_EQ(import.question(), "");
+  EXPECT_NE(session.why_no_solver(), "");
+  for (const float gap : {1.0f, 9.0f, 10.0f, 1.0f}) {
+    EXPECT_EQ(session.world().positions().z[3], gap) << "in the order of their numbers";
+    session.advance(tick);
+  }
+  drop(files);
+  EXPECT_EQ(import.question(), "") << "no body could join a recording";
+  EXPECT_EQ(session.world().positions().z[3], 1.0f);
+  session.simulation.undo();
+  session.simulation.undo();
+  EXPECT_EQ(session.why_no_solver(), "");
+  drop({files[0], files[1]});
+  import.import_each(session);
+  wait();
+  EXPECT_EQ(import.question(), "");
+  ASSERT_EQ(import.report().size(), 4u) << report();
+  drop({files[0], files[1]});
+  import.dismiss_report();
+  EXPECT_EQ(import.question(), "");
+}
+
+TEST_F(ImportTest, ImportsMeshesWithOtherVerticesWithoutAQuestion) {
+  const std::string one = folder.write("one.obj", obj_of({})).string(),
+                    other = folder.write("other.obj", obj_of({.rows = 12})).string();
+  drop({one, other});
+  EXPECT_EQ(import.question(), "");
+  EXPECT_EQ(session.world().bodies().count(), 4u) << report();
 }
 
 TEST_F(ImportTest, ReportsWhyAFileIsRefused) {

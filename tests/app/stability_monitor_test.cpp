@@ -90,12 +90,13 @@ TEST(StabilityMonitor, KeepsALargeWorldInTheFramesInWhichItWasMeasured) {
 
 TEST(StepLight, IsGreenAmberAndRed) {
   EXPECT_STREQ(ui::status_light(session::StepMargin{}).name, "Green");
-  EXPECT_STREQ(ui::status_light(session::StepMargin{10, 10, 0.1, 0.1}).name, "Green");
-  EXPECT_STREQ(ui::status_light(session::StepMargin{9, 10, 0.1, 0.1}).name, "Amber");
-  EXPECT_STREQ(ui::status_light(session::StepMargin{8, 10, 0.1, 0.1}).name, "Amber");
-  EXPECT_STREQ(ui::status_light(session::StepMargin{7, 10, 0.1, 0.1}).name, "Red");
+  EXPECT_STREQ(ui::status_light(session::StepMargin{10, 10, 0.1, 0.1, 0.2}).name, "Green");
+  EXPECT_STREQ(ui::status_light(session::StepMargin{9, 10, 0.1, 0.1, 0.2}).name, "Amber");
+  EXPECT_STREQ(ui::status_light(session::StepMargin{8, 10, 0.1, 0.1, 0.2}).name, "Amber");
+  EXPECT_STREQ(ui::status_light(session::StepMargin{8, 10, 0.1, 0.1, 0.1}).name, "Red");
+  EXPECT_STREQ(ui::status_light(session::StepMargin{7, 10, 0.1, 0.1, 0.2}).name, "Red");
   EXPECT_STREQ(
-      ui::status_light(session::StepMargin{4000, 9000, 1e-6, 1e-6, session::StepMargin::Bound::stable, 0.4}).name,
+      ui::status_light(session::StepMargin{4000, 9000, 1e-6, 1e-6, 0.2, session::StepMargin::Bound::stable, 0.4}).name,
       "Amber");
 }
 
@@ -121,10 +122,10 @@ TEST(StepMargin, HasTheSimulatedShareOfAFrame) {
 
 TEST(StepLight, DependsOnTheKindOfBound) {
   using Bound = session::StepMargin::Bound;
-  EXPECT_STREQ(ui::status_light(session::StepMargin{1, 10, 0.1, 0.01, Bound::unconditional}).name, "Amber");
-  EXPECT_STREQ(ui::status_light(session::StepMargin{10, 10, 0.1, 0.1, Bound::unconditional}).name, "Green");
-  EXPECT_STREQ(ui::status_light(session::StepMargin{10, 10, 0.1, 0.1, Bound::by_damping}).name, "Amber");
-  EXPECT_STREQ(ui::status_light(session::StepMargin{7, 10, 0.1, 0.1, Bound::by_damping}).name, "Red");
+  EXPECT_STREQ(ui::status_light(session::StepMargin{1, 10, 0.1, 0.01, 0.2, Bound::unconditional}).name, "Amber");
+  EXPECT_STREQ(ui::status_light(session::StepMargin{10, 10, 0.1, 0.1, 0.2, Bound::unconditional}).name, "Green");
+  EXPECT_STREQ(ui::status_light(session::StepMargin{10, 10, 0.1, 0.1, 0.2, Bound::by_damping}).name, "Amber");
+  EXPECT_STREQ(ui::status_light(session::StepMargin{7, 10, 0.1, 0.1, 0.2, Bound::by_damping}).name, "Red");
   for (const softbody::Integrator& integrator : softbody::integrators()) {
     softbody::World world(touching_pair(), {.integrator = {std::string(integrator.key), 1}});
     session::StabilityMonitor monitor;

@@ -13,9 +13,15 @@ namespace collide::test {
 using namespace collide::oracle;
 namespace {
 
-MovingPoint still(const glm::vec3& p) { return {p, p}; }
-MovingPoint moving(const glm::vec3& p, const glm::vec3& by) { return {p, p + by}; }
-glm::dvec3 at(const MovingPoint& p, double t) { return glm::dvec3(p.from) * (1 - t) + glm::dvec3(p.to) * t; }
+MovingPoint still(const glm::dvec3& p) { return {p, p}; }
+MovingPoint moving(const glm::dvec3& p, const glm::dvec3& by) { return {p, p + by}; }
+glm::dvec3 at(const MovingPoint& p, double t) { return p.from * (1 - t) + p.to * t; }
+
+/// Returns a point whose coordinates are at most `largest`.
+glm::dvec3 random_point(std::mt19937& random, double largest) {
+  std::uniform_real_distribution<double> coordinate(-largest, largest);
+  return {coordinate(random), coordinate(random), coordinate(random)};
+}
 
 struct Four {
   std::array<MovingPoint, 4> v;
@@ -38,30 +44,30 @@ TEST(VertexThroughFace, PassesAtTheExpectedTime) {
 }
 
 TEST(VertexThroughFace, SidesAndCornersBelongToTheFace) {
-  for (const glm::vec3& p : {glm::vec3(0, 1, 0), glm::vec3(2, 1, 2), glm::vec3(0, 1, 1.3f), glm::vec3(4, 1, 0)}) {
+  for (const glm::dvec3& p : {glm::dvec3(0, 1, 0), glm::dvec3(2, 1, 2), glm::dvec3(0, 1, 1.3), glm::dvec3(4, 1, 0)}) {
     EXPECT_TRUE(over_floor(moving(p, {0, -2, 0})).vertex_face()) << p.x << ' ' << p.z;
   }
 }
 
 TEST(VertexThroughFace, InThePlaneCountsAsOutside) {
-  const glm::vec3 above(1, 1, 1), on(1, 0, 1), below(1, -1, 1);
-  const auto passes = [](const glm::vec3& from, const glm::vec3& to) {
+  const glm::dvec3 above(1, 1, 1), on(1, 0, 1), below(1, -1, 1);
+  const auto passes = [](const glm::dvec3& from, const glm::dvec3& to) {
     return over_floor({from, to}).vertex_face().has_value();
   };
   EXPECT_FALSE(passes(above, on));
   EXPECT_TRUE(passes(on, below));
   EXPECT_TRUE(passes(below, on));
   EXPECT_FALSE(passes(on, above));
-  EXPECT_FALSE(passes(on, on + glm::vec3(0.5f, 0, 0)));
+  EXPECT_FALSE(passes(on, on + glm::dvec3(0.5, 0, 0)));
 }
 
 TEST(VertexThroughFace, FindsTheFirstOfTwoPassagesInOneStep) {
   // The face rotates up about one side, and the vertex approaches that side. The height of the face at the vertex is
   // t (1 - t).
-  for (const float height : {0.1875f, 0.2501f}) {
+  for (const double height : {0.1875, 0.2501}) {
     const Four swing{{moving({1, height, 1}, {-1, 0, 0}), floor_face[0], floor_face[1], moving({4, 0, 0}, {0, 4, 0})}};
     const auto first = swing.vertex_face();
-    ASSERT_EQ(first.has_value(), height < 0.25f);
+    ASSERT_EQ(first.has_value(), height < 0.25);
     if (!first) continue;
     EXPECT_NEAR(first->time, 0.25, 1e-9);
     EXPECT_TRUE(first->inward);
@@ -86,11 +92,11 @@ TEST(EdgeThroughEdge, ParallelEdgesInOnePlaneDoNotPass) {
 }
 
 /// Returns a point near x and z, exactly in the plane y = x + z: its coordinates have 20 binary places.
-glm::vec3 in_plane(std::mt19937& random, float x, float z) {
-  const auto rounded = [&](float middle) {
-    return std::round((middle + 0.1f * random_points(random, 1, -1, 1)[0].x) * 0x1p20f) * 0x1p-20f;
+glm::dvec3 in_plane(std::mt19937& random, double x, double z) {
+  const auto rounded = [&](double middle) {
+    return std::round((middle + 0.1 * random_point(random, 1).x) * 0x1p20) * 0x1p-20;
   };
-  const float exact_x = rounded(x), exact_z = rounded(z);
+  const double exact_x = rounded(x), exact_z = rounded(z);
   return {exact_x, exact_x + exact_z, exact_z};
 }
 
@@ -98,29 +104,28 @@ glm::vec3 in_plane(std::mt19937& random, float x, float z) {
 TEST(VertexThroughFace, InThePlaneCountsAsOutsideEvenIfProductsAreRounded) {
   std::mt19937 random(25);
   for (int i = 0; i < 300; ++i) {
-    const glm::vec3 a = in_plane(random, 0.2f, 0.2f), b = in_plane(random, 0.5f, 1.2f),
-                    c = in_plane(random, 1.2f, 0.2f);
-    const glm::vec3 p = in_plane(random, 0.6f, 0.5f);
-    const auto passes = [&](const glm::vec3& by) {
+    const glm::dvec3 a = in_plane(random, 0.2, 0.2), b = in_plane(random, 0.5, 1.2), c = in_plane(random, 1.2, 0.2);
+    const glm::dvec3 p = in_plane(random, 0.6, 0.5);
+    const auto passes = [&](const glm::dvec3& by) {
       return Four{{moving(p, by), still(a), still(b), still(c)}}.vertex_face().has_value();
     };
-    EXPECT_FALSE(passes({0, 0.5f, 0})) << i;
-    EXPECT_TRUE(passes({0, -0.5f, 0})) << i;
-    EXPECT_FALSE(passes({0.0625f, 0.0625f, 0})) << i;
+    EXPECT_FALSE(passes({0, 0.5, 0})) << i;
+    EXPECT_TRUE(passes({0, -0.5, 0})) << i;
+    EXPECT_FALSE(passes({0.0625, 0.0625, 0})) << i;
   }
 }
 
 TEST(EdgeThroughEdge, InOnePlaneCountsAsPositiveEvenIfProductsAreRounded) {
   std::mt19937 random(26);
   for (int i = 0; i < 300; ++i) {
-    const glm::vec3 p = in_plane(random, 0.2f, 0.2f), q = in_plane(random, 0.8f, 0.8f);
-    const glm::vec3 u = in_plane(random, 0.2f, 0.8f), v = in_plane(random, 0.8f, 0.2f);
-    const auto passes = [&](const glm::vec3& by) {
+    const glm::dvec3 p = in_plane(random, 0.2, 0.2), q = in_plane(random, 0.8, 0.8);
+    const glm::dvec3 u = in_plane(random, 0.2, 0.8), v = in_plane(random, 0.8, 0.2);
+    const auto passes = [&](const glm::dvec3& by) {
       return Four{{moving(p, by), moving(q, by), still(u), still(v)}}.edge_edge().has_value();
     };
-    EXPECT_FALSE(passes({0, -0.5f, 0})) << i;
-    EXPECT_TRUE(passes({0, 0.5f, 0})) << i;
-    EXPECT_FALSE(passes({0.0625f, 0.0625f, 0})) << i;
+    EXPECT_FALSE(passes({0, -0.5, 0})) << i;
+    EXPECT_TRUE(passes({0, 0.5, 0})) << i;
+    EXPECT_FALSE(passes({0.0625, 0.0625, 0})) << i;
   }
 }
 
@@ -162,11 +167,11 @@ int count_clear_passages(const Four& four, const Margin& margin) {
   return changes;
 }
 
-Four random_four(std::mt19937& random, float speed, const glm::vec3& origin) {
+Four random_four(std::mt19937& random, double speed, const glm::dvec3& origin) {
   Four four;
   for (MovingPoint& p : four.v) {
-    p.from = origin + random_points(random, 1, -1, 1)[0];
-    p.to = p.from + random_points(random, 1, -speed, speed)[0];
+    p.from = origin + random_point(random, 1);
+    p.to = p.from + random_point(random, speed);
   }
   return four;
 }
@@ -176,8 +181,8 @@ template <class Find, class Margin>
 void compare_with_samples(const Find& find, const Margin& margin) {
   std::mt19937 random(23);
   int reported = 0, sampled = 0;
-  for (const float speed : {0.3f, 2.0f, 30.0f}) {
-    for (const glm::vec3& origin : {glm::vec3(0), glm::vec3(1e5f, -1e5f, 1e5f)}) {
+  for (const double speed : {0.3, 2.0, 30.0}) {
+    for (const glm::dvec3& origin : {glm::dvec3(0), glm::dvec3(1e5, -1e5, 1e5)}) {
       for (int i = 0; i < 1500; ++i) {
         const Four four = random_four(random, speed, origin);
         const std::optional<Passage> passage = find(four);
@@ -206,7 +211,7 @@ TEST(EdgeThroughEdge, AgreesWithSamplesInTime) {
 
 TEST(VertexThroughFace, FindsPassagesOfPointsOnALattice) {
   std::mt19937 random(24);
-  const auto whole = [&] { return static_cast<float>(random() % 4); };
+  const auto whole = [&] { return static_cast<double>(random() % 4); };
   int sampled = 0;
   for (int i = 0; i < 20000; ++i) {
     Four four;

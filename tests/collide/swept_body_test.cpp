@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/trigonometric.hpp>
+
 #include "moving_surfaces.h"
 
 namespace collide::test {
@@ -45,6 +47,9 @@ TEST(SweptBody, DetectsBodiesThatAreNotStarShaped) {
     return SearchRun(m, true).search.body(0).stays_star_shaped();
   };
   EXPECT_TRUE(star_shaped(ball(1)));
+  for (const glm::vec3& axis : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1), glm::vec3(1, 2, 3)})
+    for (int i = 0; i < 24; ++i)
+      EXPECT_TRUE(star_shaped(turned(ball(1), axis, glm::radians(15.0f * float(i))))) << "corners lie along axes";
   EXPECT_FALSE(star_shaped(ball(1), 0.5f)) << "vertices may deviate so far that faces turn over";
   EXPECT_FALSE(star_shaped(valley()));
   SurfaceMesh inverted = ball(1);

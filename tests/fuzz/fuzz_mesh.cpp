@@ -1,5 +1,5 @@
-// Arbitrary bytes as an OBJ or a PLY file, which begins with the line `ply`: for `detect` and as the mesh of a soft body
-// they are read or refused in one line.
+// Arbitrary bytes as an OBJ or a PLY file, which begins with the line `ply`: for `detect` and as the mesh of a soft
+// body they are read or refused in one line.
 
 #include "app/files/body_file.h"
 #include "require.h"

@@ -182,6 +182,36 @@ TEST(StepController, DoesWhatIsFixedWhateverItCosts) {
   }
 }
 
+TEST(StepController, TakesGasImplicitlyWhereItAloneAsksForShortSteps) {
+  constexpr StepBound gas{.stable = 300, .breathing = 2000};
+  const auto chosen = [](const StepBound& bound, bool surfaces_touch = false) {
+    StepController steps = with("auto");
+    FrameConditions conditions = ball;
+    conditions.surfaces_touch = surfaces_touch;
+    steps.begin_frame(conditions, bound);
+    return steps.plan().integrator->key;
+  };
+  EXPECT_EQ(chosen(gas), "imex-euler");
+  EXPECT_EQ(chosen({.stable = 1900, .breathing = 2000}), "semi-implicit-euler") << "springs are as stiff";
+  EXPECT_EQ(chosen({.stable = 100, .breathing = 500}), "semi-implicit-euler") << "accuracy asks for as many steps";
+  EXPECT_EQ(chosen(gas, true), "semi-implicit-euler");
+}
+
+TEST(StepController, TakesGasExplicitlyForHalfASecondAfterAVolumeChanged) {
+  constexpr StepBound still{.stable = 300, .breathing = 2000};
+  StepBound swollen = still;
+  swollen.volume_change = 0.1;
+  StepController steps = with("auto");
+  const auto chosen = [&](const StepBound& bound) {
+    steps.begin_frame(ball, bound);
+    return steps.plan().integrator->key;
+  };
+  EXPECT_EQ(chosen(swollen), "semi-implicit-euler");
+  for (int i = 0; i < 28; ++i) EXPECT_EQ(chosen(still), "semi-implicit-euler") << "frame " << i;
+  for (int i = 0; i < 32; ++i) chosen(still);
+  EXPECT_EQ(chosen(still), "imex-euler");
+}
+
 TEST(StepController, PlansSomeStepsEvenForBoundsOutOfReach) {
   constexpr double infinite = std::numeric_limits<double>::infinity(), none = std::nan("");
   for (const Integrator& i : integrators())

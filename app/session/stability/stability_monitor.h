@@ -1,5 +1,5 @@
 #pragma once
-// Monitors the stability of a running world: keeps its past, reports a blow-up, compares its step with the stability
+// Monitors the stability of a simulated world: keeps its past, reports a blow-up, compares its step with the stability
 // bound, and records its energies.
 
 #include "app/base/time_series.h"
@@ -19,14 +19,13 @@ struct StabilityHistory {
 struct StepMargin {
   /// What the bound means for the integrator in use.
   enum class Bound {
-    stable,         // shorter steps are stable; the bound has a reserve of a fifth
+    stable,         // shorter steps are stable
     by_damping,     // shorter steps are stable if only springs swing: gas and contacts may still gain energy
     unconditional,  // all steps are stable; the bound only limits fast bodies near solids, and long frames
   };
-  static constexpr double reserve = 0.2;
-
   int taken = 0, needed = 0;
   double substep = 0, bound = 0;  // s; bound: less the reserve
+  double reserve = 0;             // share of the longest stable step
   Bound kind = Bound::stable;
   double share = 1;  // simulated share of the frame; below 1 if the whole frame would exceed the budget of work
 };

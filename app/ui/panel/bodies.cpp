@@ -12,6 +12,7 @@ namespace app::ui {
 namespace {
 
 void draw_drop_and_throw(Widgets& w, Session& session, UiState& ui) {
+  if (!session.why_no_solver().empty()) return;
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
   ImGui::BeginDisabled(!session.bodies.can_drop());
@@ -33,6 +34,7 @@ void draw_drop_and_throw(Widgets& w, Session& session, UiState& ui) {
 }
 
 const char* state_text(const softbody::World& world, softbody::BodyId id) {
+  if (world.scene().recording) return "recorded";
   if (const auto& grab = world.grabbed(); grab && grab->body == id) return "in your hand";
   if (world.body(id).pinned) return "held in place";
   return world.body(id).asleep ? "asleep" : "awake";
@@ -46,33 +48,36 @@ void draw_selected(Widgets& w, const softbody::World& world, softbody::BodyId id
   ImGui::SameLine();
   w.right_text(state_text(world, id));
   w.register_item("Selected body", "The body that was clicked last. Bodies and vertices count from 0.");
-  const double speed = glm::length(m.momentum) / world.model(id).material[softbody::Material::mass];
   const std::string volume = m.closed ? fmt::format("{:.1f} %", 100 * m.volume_ratio) : "open";
+  if (world.scene().recording) return w.figure("Volume", volume, "Of the volume in the first frame with this body.");
+  const double speed = glm::length(m.momentum) / world.model(id).material[softbody::Material::mass];
   w.figure("Speed, volume", fmt::format("{:.2f} m/s   {}", speed, volume),
            "Of its centre of mass; of the volume that it started with.");
 }
 
-void draw_no_selection(Widgets& w) {
+void draw_no_selection(Widgets& w, bool can_pull) {
   ImGui::TextDisabled("No body selected: click one in the scene.");
-  w.register_item("Selected body", "Drag a body to pull it; double-click it to look at it.");
-  ImGui::TextDisabled("Drag one to pull it.");
+  w.register_item("Selected body", can_pull ? "Drag a body to pull it; double-click it to look at it."
+                                            : "Double-click a body to look at it.");
+  ImGui::TextDisabled(can_pull ? "Drag one to pull it." : "Double-click one to look at it.");
 }
 
 }  // namespace
 
 void draw_bodies(Widgets& w, Session& session, UiState& ui) {
   draw_drop_and_throw(w, session, ui);
+  const bool has_solver = session.why_no_solver().empty();
   const auto& body = session.bodies.selected();
   if (body)
     draw_selected(w, session.world(), *body);
   else
-    draw_no_selection(w);
+    draw_no_selection(w, has_solver);
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
   ImGui::BeginDisabled(!body);
   if (w.button("Look at it", "The camera goes to the selected body, as a double-click on it does.", width))
     ui.focus_body = true;
-  ImGui::SameLine();
-  if (w.button("Delete", "Takes the selected body out of the world (Del); Ctrl+Z brings it back.", width))
+  if (has_solver) ImGui::SameLine();
+  if (has_solver && w.button("Delete", "Takes the selected body out of the world (Del); Ctrl+Z brings it back.", width))
     session.bodies.remove_selected();
   ImGui::EndDisabled();
 }

@@ -136,7 +136,8 @@ bool draw_primes(Widgets& w, collide::Settings& settings, bool used) {
   return changed;
 }
 
-bool draw_cell_size(Widgets& w, collide::Settings& settings, bool& automatic, bool used) {
+/// usual: the scene's tolerance (m), which tells how large its bodies are.
+bool draw_cell_size(Widgets& w, collide::Settings& settings, bool& automatic, bool used, float usual) {
   ImGui::BeginDisabled(!used);
   w.row_label("Cell size", w.px(label_column));
   bool changed =
@@ -148,7 +149,8 @@ bool draw_cell_size(Widgets& w, collide::Settings& settings, bool& automatic, bo
   ImGui::BeginDisabled(automatic);
   float side = std::max({settings.cell_size.x, settings.cell_size.y, settings.cell_size.z});
   if (w.slider(
-          "Cell size", side, min_cell, max_cell, "%.3f m",
+          "Cell size", side, std::min(min_cell, usual / 5), std::max(max_cell, usual * 50),
+          usual < min_tolerance ? "%.3g m" : "%.3f m",
           "The side of a grid cell (§2.2). If it is smaller than a subdivided box, the paper's method skips cells.",
           true)) {
     settings.cell_size = glm::vec3(side);
@@ -161,24 +163,28 @@ bool draw_cell_size(Widgets& w, collide::Settings& settings, bool& automatic, bo
 
 }  // namespace
 
-void draw_detection(Widgets& w, Session& session, bool structure_shown) {
+void draw_detection(Widgets& w, Session& session, UiState& ui) {
   draw_method(w, session);
   const collide::Method& method = session.world().method();
   collide::Settings settings = session.world().collision();
   bool automatic = session.world().scene().default_cell_size;
   // A setting is enabled if the driving method, the structure shown (§2) or the comparison uses it.
+  const bool structure_shown = ui.hash_table || ui.tour.open() || ui.overlays.boxes || ui.overlays.cells;
   const bool needed = structure_shown || session.inspector.selected_bucket() || session.comparison.choice.on ||
                       session.comparison.choice.with_paper || session.comparison.choice.with_misses;
   const bool hash = method.uses_hash || needed;
+  const float usual = session.simulation.loaded.scene.collision.tolerance;  // the scene's
   bool changed = draw_levels(w, settings, method.uses_levels || needed);
   changed |= draw_buckets(w, settings, hash);
   changed |= draw_primes(w, settings, hash);
-  changed |= draw_cell_size(w, settings, automatic, hash);
-  draw_contact_surface(w, session);
+  changed |= draw_cell_size(w, settings, automatic, hash, usual);
+  if (session.why_no_solver().empty()) draw_contact_surface(w, session);
   w.row_label("Tolerance", w.px(label_column));
   changed |= w.slider(
-      "Tolerance", settings.tolerance, min_tolerance, max_tolerance, "%.3f m",
-      uses_surface_contact(session)
+      "Tolerance", settings.tolerance, std::min(min_tolerance, usual / 20), std::max(max_tolerance, usual * 5),
+      usual < min_tolerance ? "%.3g m" : "%.3f m",
+      !session.why_no_solver().empty() ? "Vertices closer than this are in contact (§2.3)."
+      : uses_surface_contact(session)
           ? "Vertices closer than this are in contact (§2.3). With surface contact they do not push each other."
           : "Vertices closer than this are in contact and push each other apart (§2.3).",
       true);

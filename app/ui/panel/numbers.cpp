@@ -47,8 +47,9 @@ void draw_curves(Widgets& w, const Session& session, const UiState& ui) {
   const float ms = axis_end(std::max(history.detect_ms.max(), history.solve_ms.max()), 1.0f);
   w.curve("Detect", fmt::format("{:.2f} ms", report.detect_ms), history.detect_ms, {0, ms}, detect_colour,
           {"Time to find the contacts of a frame.", "ms"});
-  w.curve("Solve", fmt::format("{:.2f} ms", report.solve_ms), history.solve_ms, {0, ms}, solve_colour,
-          {"Time to move the bodies by a frame.", "ms"});
+  if (session.why_no_solver().empty())
+    w.curve("Solve", fmt::format("{:.2f} ms", report.solve_ms), history.solve_ms, {0, ms}, solve_colour,
+            {"Time to move the bodies by a frame.", "ms"});
   draw_picture_rate(w, session, ui);
   w.figure("  resolution", fmt::format("{:.0f} %", 100 * double(ui.render_scale)),
            "Share of the pixels along each side of the scene's picture. It is below 100 % only while the scene moves "
@@ -69,8 +70,9 @@ void draw_contacts(Widgets& w, const Session& session) {
   w.figure("  between bodies", grouped(found.contacts.size() - found.self_contacts),
            "Contacts between vertices of two bodies (§2.3).");
   w.figure("  inside one body", grouped(found.self_contacts), "Contacts between vertices of one body (§2.4).");
-  w.figure("Contacts with solids", grouped(softbody::solid_contacts(session.world()).size()),
-           "Vertices that touch a solid or the ground. The method does not search for these.");
+  if (session.why_no_solver().empty())
+    w.figure("Contacts with solids", grouped(softbody::solid_contacts(session.world()).size()),
+             "Vertices that touch a solid or the ground. The method does not search for these.");
 }
 
 void draw_surface_contacts(Widgets& w, const Session& session) {
@@ -141,7 +143,7 @@ void draw_table(Widgets& w, const Session& session) {
 
 }  // namespace
 
-void draw_numbers(Widgets& w, const Session& session, const UiState& ui) {
+void draw_numbers(Widgets& w, Session& session, UiState& ui) {
   draw_curves(w, session, ui);
   draw_contacts(w, session);
   draw_surface_contacts(w, session);

@@ -1,6 +1,7 @@
 #include "app/ui/panel/panel.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -70,12 +71,14 @@ void draw_time_controls(Widgets& w, Session& session) {
   ImGui::EndDisabled();
 }
 
-void draw_overlays(Widgets& w, UiState& ui) {
+void draw_overlays(Widgets& w, Session& session, UiState& ui) {
+  const bool has_solver = session.why_no_solver().empty();
   const auto next_cell = [&](std::size_t i) {
     if (i % 2) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.54f);
   };
   std::size_t i = 0;
   for (const render::OverlayRow& row : render::overlay_table) {
+    if (row.needs_solver && !has_solver) continue;
     next_cell(i++);
     const std::string tooltip = std::string(row.tooltip) + " (" + row.shortcut + ")";
     w.checkbox(std::string(row.label).c_str(), ui.overlays.*row.shown, tooltip.c_str());
@@ -99,7 +102,8 @@ void draw_overlays(Widgets& w, UiState& ui) {
   w.checkbox("Status lights", ui.lights, "What to expect of the method and of the time step (L).");
 }
 
-void draw_plan(Widgets& w, const softbody::World& world) {
+void draw_plan(Widgets& w, Session& session, UiState&) {
+  const softbody::World& world = session.world();
   const std::vector<softbody::Stage> as_forces = world.plan().unprojected(world.integrator_choice().integrator());
   for (const softbody::Stage stage : world.plan().stages) {
     const std::string key(softbody::stage_key(stage));
@@ -114,6 +118,39 @@ void draw_plan(Widgets& w, const softbody::World& world) {
   }
 }
 
+struct Section {
+  const char* label;
+  bool open_at_first, needs_solver;
+  void (*draw)(Widgets& w, Session& session, UiState& ui);
+};
+constexpr std::array<Section, 8> sections{{
+    {"Detection", true, false, draw_detection},
+    {"Show", true, false, draw_overlays},
+    {"World", false, true, draw_world},
+    {"Numbers", true, false, draw_numbers},
+    {"Stability", false, true, draw_stability},
+    {"Files", false, true, draw_files},
+    {"Export", false, false, draw_take_away},
+    {"Stages of a step", false, false, draw_plan},
+}};
+
+/// Draws the sections of the panel. Without a solver it leaves out those that need one, and says so.
+void draw_sections(Widgets& w, Session& session, UiState& ui) {
+  const std::string why = session.why_no_solver();
+  std::string left_out;
+  for (const Section& section : sections) {
+    if (section.needs_solver && !why.empty())
+      left_out.append(left_out.empty() ? "" : ", ").append(section.label);
+    else if (w.section(section.label, section.open_at_first))
+      section.draw(w, session, ui);
+  }
+  if (left_out.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("without %s: %s", left_out.c_str(), why.c_str());
+  ImGui::PopStyleColor();
+  w.register_item("Left out", "What needs a solver is left out, and so are the keys for it. Open a scene to have it.");
+}
+
 }  // namespace
 
 void draw_panel(Widgets& w, Session& session, UiState& ui, const ScreenRect& area, bool opaque) {
@@ -125,15 +162,7 @@ void draw_panel(Widgets& w, Session& session, UiState& ui, const ScreenRect& are
   draw_time_controls(w, session);
   draw_bodies(w, session, ui);
   ImGui::Spacing();
-  if (w.section("Detection", true))
-    draw_detection(w, session, ui.hash_table || ui.tour.open() || ui.overlays.boxes || ui.overlays.cells);
-  if (w.section("Show", true)) draw_overlays(w, ui);
-  if (w.section("World", false)) draw_world(w, session, ui);
-  if (w.section("Numbers", true)) draw_numbers(w, session, ui);
-  if (w.section("Stability", false)) draw_stability(w, session);
-  if (w.section("Files", false)) draw_files(w, session, ui);
-  if (w.section("Export", false)) draw_take_away(w, session, ui);
-  if (w.section("Stages of a step", false)) draw_plan(w, session.world());
+  draw_sections(w, session, ui);
   end_dock();
 }
 

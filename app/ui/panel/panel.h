@@ -10,7 +10,7 @@ namespace app::ui {
 
 inline constexpr float panel_width = 330;  // design pixels
 
-// Ends of the sliders; typed values are clamped to them too.
+// Ends of the sliders, unless the scene is far smaller or larger; typed values are clamped to them too.
 inline constexpr float min_tolerance = 0.005f, max_tolerance = 0.5f;  // m
 inline constexpr float min_cell = 0.02f, max_cell = 5.0f;             // m
 
@@ -19,12 +19,11 @@ inline constexpr float min_cell = 0.02f, max_cell = 5.0f;             // m
 void draw_panel(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area, bool opaque);
 
 // The parts of the panel. Each draws into the current window.
-/// `structure_shown`: boxes, cells or the hash table of the paper's method are shown, so its settings are enabled.
-void draw_detection(Widgets& widgets, Session& session, bool structure_shown);
+void draw_detection(Widgets& widgets, Session& session, UiState& ui);
 void draw_bodies(Widgets& widgets, Session& session, UiState& ui);
 void draw_world(Widgets& widgets, Session& session, UiState& ui);
-void draw_numbers(Widgets& widgets, const Session& session, const UiState& ui);
-void draw_stability(Widgets& widgets, Session& session);
+void draw_numbers(Widgets& widgets, Session& session, UiState& ui);
+void draw_stability(Widgets& widgets, Session& session, UiState& ui);
 void draw_files(Widgets& widgets, Session& session, UiState& ui);      // import, save, command line
 void draw_take_away(Widgets& widgets, Session& session, UiState& ui);  // pictures, recordings, curves
 

@@ -19,8 +19,7 @@ std::string step_text(const session::StepMargin& margin, const softbody::World& 
   if (margin.share < 1) return fmt::format("{:.2g} % of each frame in {} substeps", 100 * margin.share, margin.taken);
   if (margin.kind == session::StepMargin::Bound::unconditional)
     return fmt::format("{:.2f} ms, stable at any length", margin.substep * 1e3);
-  return fmt::format("{:.2f} ms, limit {:.2f} ms", margin.substep * 1e3,
-                     margin.bound * 1e3 / (1 - session::StepMargin::reserve));
+  return fmt::format("{:.2f} ms, limit {:.2f} ms", margin.substep * 1e3, margin.bound * 1e3 / (1 - margin.reserve));
 }
 
 /// Draws the choice of integrator and substeps, and the integrator in use if it is chosen automatically.
@@ -80,8 +79,8 @@ StatusLight status_light(const session::StepMargin& margin) {
     return {render::status_amber, "Amber", "Step stable by damping",
             "Dampers keep the springs stable. Gas and contacts may still gain energy."};
   if (within) return {render::status_green, "Green", "Step stable", "The step is within the stability bound."};
-  if (margin.taken >= (1 - session::StepMargin::reserve) * margin.needed)
-    return {render::status_amber, "Amber", "Step near the limit", "The step uses up the reserve of a fifth."};
+  if (margin.taken >= (1 - margin.reserve) * margin.needed)
+    return {render::status_amber, "Amber", "Step near the limit", "The step uses up the reserve."};
   return {render::status_red, "Red", "Step unstable", "The step exceeds the stability bound. Bodies may explode."};
 }
 
@@ -106,7 +105,7 @@ void draw_step_light(Widgets& w, Session& session) {
     session.simulation.rewind_to(session.simulation.stability().last_good_frame());
 }
 
-void draw_stability(Widgets& w, Session& session) {
+void draw_stability(Widgets& w, Session& session, UiState&) {
   draw_integrator(w, session);
   draw_ghost(w, session);
   w.checkbox("Pause when a body explodes", session.simulation.pause_on_blow_up,

@@ -56,7 +56,8 @@ SurfaceRemark surface_remark(const Session& session) {
   }
   const double safe = safe_vertex_tolerance(session.world());
   const bool by_vertices = session.world().scene().contact_surface == softbody::ContactSurface::vertices;
-  if (!by_vertices || double{session.world().collision().tolerance} >= safe) return {};
+  if (!by_vertices || !session.why_no_solver().empty() || double{session.world().collision().tolerance} >= safe)
+    return {};
   return {fmt::format("Tolerance below {:.2g} m: vertices can slip through faces", safe)};
 }
 

@@ -17,10 +17,26 @@ void draw_file_report(Widgets& w, const session::Import::FileReport& report) {
   if (report.refused) ImGui::PopStyleColor();
 }
 
+/// Draws the question whether files are frames to play or bodies to import.
+void draw_question(Widgets& w, Session& session, session::Import& import) {
+  ImGui::TextWrapped("%s", import.question().c_str());
+  w.register_item("Import question", nullptr);
+  const bool play = w.button("Play",
+                             "The frames run in place of the scene, and nothing is simulated. Undo (Ctrl+Z) "
+                             "brings the scene back.",
+                             w.px(80));
+  ImGui::SameLine();
+  const bool import_each = w.button("Import", "Each file joins the scene as a soft body.", w.px(80));
+  ImGui::SameLine();  // "Close" follows
+  if (play) import.play(session);
+  if (import_each) import.import_each(session);
+}
+
 }  // namespace
 
-void draw_import_report(Widgets& w, session::Import& import, const ScreenRect& area) {
-  if (import.report().empty() && !import.busy()) return;
+void draw_import_report(Widgets& w, Session& session, session::Import& import, const ScreenRect& area) {
+  const bool asks = !import.question().empty();
+  if (import.report().empty() && !import.busy() && !asks) return;
   const float margin = w.px(12), width = std::min(w.px(360), area.max.x - area.min.x - 2 * margin);
   ImGui::SetNextWindowPos({area.min.x + margin, area.max.y - margin}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, area.max.y - area.min.y - 2 * margin});
@@ -30,11 +46,12 @@ void draw_import_report(Widgets& w, session::Import& import, const ScreenRect& a
     draw_file_report(w, report);
     if (&report != &import.report().back()) ImGui::Separator();
   }
+  if (asks) draw_question(w, session, import);
   if (import.busy()) {
     ImGui::TextWrapped("%s", import.progress().c_str());
     w.register_item("Import progress", nullptr);
   }
-  if (!import.report().empty() && w.button("Close###Close import report", "Closes this report.", w.px(80)))
+  if ((asks || !import.report().empty()) && w.button("Close###Close import report", "Closes this report.", w.px(80)))
     import.dismiss_report();
   ImGui::End();
 }

@@ -9,6 +9,6 @@ namespace app::ui {
 
 /// Draws the progress of a file that is being read, and the report on the last files until the user closes it, in the
 /// lower left corner of `area`. Draws nothing if there is neither.
-void draw_import_report(Widgets& widgets, session::Import& import, const ScreenRect& area);
+void draw_import_report(Widgets& widgets, Session& session, session::Import& import, const ScreenRect& area);
 
 }  // namespace app::ui

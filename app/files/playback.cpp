@@ -1,0 +1,161 @@
+#include "app/files/playback.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/core.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "softbody/world/body_model_set.h"
+
+namespace app::files {
+namespace {
+
+glm::vec3 place(const VertexPositions& at, collide::Index vertex) { return {at.x[vertex], at.y[vertex], at.z[vertex]}; }
+
+/// Returns the mesh of a body in the shape that it has in this frame.
+softbody::Mesh mesh_of(const BodyMeshes& meshes, std::size_t body, const VertexPositions& at) {
+  softbody::Mesh mesh;
+  for (collide::Index v = meshes.first[body]; v < meshes.first[body + 1]; ++v) mesh.vertices.emplace_back(place(at, v));
+  mesh.triangles = triangles_of(meshes, body, at);
+  for (const auto& [a, b] : meshes.edges(body))
+    if (a != b) mesh.edges.push_back(softbody::ordered(a, b));
+  std::ranges::sort(mesh.edges);
+  mesh.edges.erase(std::ranges::unique(mesh.edges).begin(), mesh.edges.end());
+  return mesh;
+}
+
+bool same_topology(const collide::Shape& a, const collide::Shape& b) {
+  return a.shared_topology() == b.shared_topology() || a.topology() == b.topology();
+}
+
+/// Returns true if bodies of the model can have this mesh and shape, but for the positions of its vertices.
+bool suits(const softbody::BodyModel& model, const softbody::Mesh& mesh, const collide::Shape& shape) {
+  return model.shape->shared_topology() == shape.shared_topology() && model.shape->rest() == shape.rest() &&
+         model.mesh.triangles == mesh.triangles;
+}
+
+}  // namespace
+
+Playback::Playback(std::vector<std::filesystem::path> files, std::optional<BodiesBy> by, std::size_t kept_bytes)
+    : sequence_(std::move(files), {.by = by, .may_grow = true}), free_bytes_(kept_bytes) {
+  const std::shared_ptr<const softbody::RecordedFrame> first = frame(0);
+  if (first->x.empty())
+    throw softbody::SceneError(sequence_.file(0).string() + ": has no vertex; nothing can be played");
+  bounds_.fill(glm::vec3(first->x[0], first->y[0], first->z[0]));
+  include(*first);
+  for (const int number : {(frame_count() - 1) / 2, frame_count() - 1}) {
+    try {
+      include(*frame(number));
+    } catch (const std::exception&) {  // it is reported when it is shown
+    }
+  }
+}
+
+/// Makes bounds() large enough for a frame.
+void Playback::include(const softbody::RecordedFrame& frame) {
+  if (frame.x.empty()) return;
+  const auto [left, right] = std::ranges::minmax(frame.x);
+  const auto [bottom, top] = std::ranges::minmax(frame.y);
+  const auto [back, front] = std::ranges::minmax(frame.z);
+  bounds_[0] = glm::min(bounds_[0], glm::vec3(left, bottom, back));
+  bounds_[1] = glm::max(bounds_[1], glm::vec3(right, top, front));
+}
+
+std::shared_ptr<const softbody::RecordedFrame> Playback::frame(int number) {
+  assert(number >= 0 && number < frame_count());
+  const auto known = kept_.find(number);
+  std::shared_ptr<const softbody::RecordedFrame> frame;
+  if (known != kept_.end()) {
+    frame = known->second;
+  } else {
+    try {
+      frame = record(number, read(number));
+    } catch (const std::runtime_error& error) {  // of the file
+      throw softbody::SceneError(error.what());
+    }
+    const std::size_t bytes = 3 * sizeof(float) * frame->x.size();
+    if (number == 0 || bytes <= free_bytes_) {
+      free_bytes_ -= std::min(free_bytes_, bytes);
+      kept_.emplace(number, frame);
+    }
+  }
+  read_ahead((number + 1) % frame_count());
+  return frame;
+}
+
+/// Reads a frame now, unless it was read ahead.
+SequenceFrame Playback::read(int number) {
+  if (std::optional<Ahead> ahead = std::exchange(ahead_, std::nullopt)) {
+    if (ahead->number == number) return ahead->frame.get();
+    ahead->frame.wait();
+  }
+  return sequence_.read(static_cast<std::size_t>(number));
+}
+
+void Playback::read_ahead(int number) {
+  if (ahead_ || kept_.contains(number)) return;
+  const auto read = [this, number] { return sequence_.read(static_cast<std::size_t>(number)); };
+  ahead_.emplace(Ahead{number, std::async(std::launch::async, read)});
+}
+
+/// Makes models of bodies that no frame had before. Bodies of one mesh share a model.
+std::shared_ptr<const softbody::RecordedFrame> Playback::record(int number, SequenceFrame frame) {
+  const SequenceBodies& of = *frame.of;
+  std::uint32_t count = 0;
+  for (std::size_t body = 0; body < of.meshes.count(); ++body) {
+    if (of.meshes.size(body) == 0) continue;
+    const auto& shape = of.bodies.shape[body];
+    if (count == models_.size()) {
+      softbody::Mesh mesh = mesh_of(of.meshes, body, frame.at);
+      models_.push_back(!models_.empty() && suits(*models_.back(), mesh, *shape)
+                            ? models_.back()
+                            : softbody::recorded_body_model(std::move(mesh), shape));
+    } else if (!same_topology(*models_[count]->shape, *shape)) {
+      throw softbody::SceneError(sequence_.file(static_cast<std::size_t>(number)).string() + ": body " +
+                                 std::to_string(body) +
+                                 " is another one than in an earlier frame; give frames of the " + "same bodies");
+    }
+    ++count;
+  }
+  return std::make_shared<softbody::RecordedFrame>(
+      softbody::RecordedFrame{count, std::move(frame.at.x), std::move(frame.at.y), std::move(frame.at.z)});
+}
+
+float Playback::usual_tolerance() {
+  const std::shared_ptr<const softbody::RecordedFrame> first = frame(0);
+  std::vector<float> lengths;
+  std::size_t begin = 0;
+  for (std::uint32_t body = 0; body < first->body_count; ++body) {
+    const auto at = [&](softbody::Index v) {
+      return glm::vec3(first->x[begin + v], first->y[begin + v], first->z[begin + v]);
+    };
+    for (const auto& [a, b] : models_[body]->mesh.edges) lengths.push_back(glm::distance(at(a), at(b)));
+    begin += models_[body]->mesh.vertices.size();
+  }
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::ranges::nth_element(lengths, middle);
+  const float tolerance = lengths.empty() ? 0.01f * glm::distance(bounds_[0], bounds_[1]) : 0.5f * *middle;
+  return std::clamp(tolerance, collide::min_tolerance, collide::max_tolerance);
+}
+
+softbody::Scene recorded_scene(const std::vector<std::filesystem::path>& files, std::optional<BodiesBy> by) {
+  const auto playback = std::make_shared<Playback>(files, by);
+  softbody::Scene scene;
+  scene.key = std::filesystem::absolute(files.front()).string();
+  scene.name = files.front().filename().string();
+  scene.look_at = fmt::format("{} recorded frames, from {} to {}. Nothing is simulated.", files.size(),
+                              files.front().filename().string(), files.back().filename().string());
+  scene.collision.tolerance = playback->usual_tolerance();
+  const auto [low, high] = playback->bounds();
+  scene.view.target = glm::dvec3(0.5f * (low + high));
+  scene.view.distance = std::max(double{glm::distance(low, high)}, 1e-4);
+  scene.recording = playback;
+  return scene;
+}
+
+}  // namespace app::files

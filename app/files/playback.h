@@ -1,0 +1,54 @@
+#pragma once
+// Plays a sequence of mesh files: the recording of a scene, which shows frame by frame what the files hold.
+
+#include <future>
+#include <map>
+
+#include "app/files/frame_sequence.h"
+#include "softbody/scene/scene.h"
+
+namespace app::files {
+
+/// Reads frames when they are shown, and the next one ahead of time, on a thread of its own. The first frames, as many
+/// as fit into the memory that a Playback may take, are read only once. Bodies without vertices are left out.
+class Playback : public softbody::Recording {
+ public:
+  static constexpr std::size_t max_kept_bytes = std::size_t{512} << 20;  // of positions
+
+  /// Reads the first frame, and for bounds() one in the middle and the last. by: left out, the default of the first
+  /// file's format. Throws as FrameSequence does, and SceneError if the first frame cannot be read or has no vertex.
+  explicit Playback(std::vector<std::filesystem::path> files, std::optional<BodiesBy> by = {},
+                    std::size_t kept_bytes = max_kept_bytes);
+
+  std::array<glm::vec3, 2> bounds() const override { return bounds_; }
+  int frame_count() const override { return static_cast<int>(sequence_.count()); }
+  std::shared_ptr<const softbody::RecordedFrame> frame(int number) override;
+  const std::shared_ptr<const softbody::BodyModel>& model(std::uint32_t body) const override { return models_[body]; }
+
+  /// Returns half the median length of the edges of the first frame, whatever the unit of the files is; without edges,
+  /// a hundredth of the diagonal of bounds().
+  float usual_tolerance();
+
+ private:
+  struct Ahead {
+    int number;
+    std::future<SequenceFrame> frame;  // its end waits for the thread
+  };
+  SequenceFrame read(int number);
+  void read_ahead(int number);
+  void include(const softbody::RecordedFrame& frame);
+  std::shared_ptr<const softbody::RecordedFrame> record(int number, SequenceFrame frame);
+
+  FrameSequence sequence_;  // while there is an ahead_, only its thread may use it
+  std::map<int, std::shared_ptr<const softbody::RecordedFrame>> kept_;  // by number; always the first
+  std::size_t free_bytes_;                                              // for more of them
+  std::vector<std::shared_ptr<const softbody::BodyModel>> models_;
+  std::array<glm::vec3, 2> bounds_{};
+  std::optional<Ahead> ahead_;  // last member: its thread ends before the others go
+};
+
+/// Returns a scene that plays these files with usual_tolerance(); the camera sees all of bounds(). Throws as
+/// Playback does.
+softbody::Scene recorded_scene(const std::vector<std::filesystem::path>& files, std::optional<BodiesBy> by = {});
+
+}  // namespace app::files

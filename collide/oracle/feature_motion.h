@@ -1,0 +1,84 @@
+#pragma once
+// A vertex and a face, or two edges, in motion, as polynomials of the time in any type of numbers.
+
+#include <array>
+#include <cstddef>
+
+#include "collide/oracle/exact_arithmetic.h"
+
+namespace collide::oracle {
+
+/// The relative motion of four points: three difference vectors.
+template <class T>
+using FeatureMotion = std::array<Vector<T, 1>, 3>;
+
+template <class T>
+using Weight = Polynomial<T, 4>;
+
+/// A point and a segment, as the vectors from the point to the ends of the segment.
+template <class T>
+using PointSegment = std::array<Vector<T, 1>, 2>;
+
+/// A vertex p and a face abc, as the vectors a - p, b - p and c - p.
+struct VertexFace {
+  /// The points of each vector: it leads from the second to the first.
+  static constexpr std::array<std::array<int, 2>, 3> vectors{{{1, 0}, {2, 0}, {3, 0}}};
+  static constexpr std::size_t first_size = 1;  // points of the first feature
+
+  /// Returns the vectors from each vertex of the first feature to each vertex of the second.
+  template <class T>
+  static const FeatureMotion<T>& between(const FeatureMotion<T>& v) {
+    return v;
+  }
+  /// Returns a polynomial with the sign of the side of p.
+  template <class T>
+  static Polynomial<T, 3> side(const FeatureMotion<T>& v) {
+    return dot(v[0], cross(v[2], v[1]));
+  }
+  /// Returns the barycentric coordinates of the projection of p, times the squared length of the normal. None is
+  /// negative while the projection lies on the face. All are 0 where the face has no area.
+  template <class T>
+  static std::array<Weight<T>, 3> weights(const FeatureMotion<T>& v) {
+    const Vector<T, 2> a = cross(v[1], v[2]), b = cross(v[2], v[0]), c = cross(v[0], v[1]);
+    const Vector<T, 2> normal = a + b + c;
+    return {dot(normal, a), dot(normal, b), dot(normal, c)};
+  }
+  /// Returns the vertex with each side of the face.
+  template <class T>
+  static std::array<PointSegment<T>, 3> ends(const FeatureMotion<T>& v) {
+    return {{{v[0], v[1]}, {v[1], v[2]}, {v[2], v[0]}}};
+  }
+};
+
+/// Two edges pq and uv, as the vectors q - p, v - u and u - p.
+struct EdgeEdge {
+  static constexpr std::array<std::array<int, 2>, 3> vectors{{{1, 0}, {3, 2}, {2, 0}}};
+  static constexpr std::size_t first_size = 2;
+
+  template <class T>
+  static std::array<Vector<T, 1>, 4> between(const FeatureMotion<T>& v) {
+    return {v[2], v[2] - v[0], v[2] + v[1], v[2] + v[1] - v[0]};
+  }
+  template <class T>
+  static Polynomial<T, 3> side(const FeatureMotion<T>& v) {
+    return dot(v[2], cross(v[0], v[1]));
+  }
+  /// Returns s, 1 - s, r and 1 - r, where s and r are the parameters of the closest points of the two lines, times the
+  /// squared length of the normal. None is negative while these points lie on the edges. All are 0 where the edges are
+  /// parallel or one has no length.
+  template <class T>
+  static std::array<Weight<T>, 4> weights(const FeatureMotion<T>& v) {
+    const Vector<T, 2> normal = cross(v[0], v[1]);
+    const Weight<T> length2 = dot(normal, normal);
+    const Weight<T> along_p = dot(normal, cross(v[2], v[1])), along_u = dot(normal, cross(v[2], v[0]));
+    return {along_p, length2 - along_p, along_u, length2 - along_u};
+  }
+  /// Returns each end with the other edge.
+  template <class T>
+  static std::array<PointSegment<T>, 4> ends(const FeatureMotion<T>& v) {
+    const auto [pu, qu, pv, qv] = between(v);
+    return {{{pu, pv}, {qu, qv}, {pu, qu}, {pv, qv}}};
+  }
+};
+
+}  // namespace collide::oracle

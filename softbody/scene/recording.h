@@ -1,0 +1,38 @@
+#pragma once
+// Bodies whose motion is recorded, frame by frame. A world of a scene with a recording plays it and simulates nothing.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "softbody/model/body_model.h"
+
+namespace softbody {
+
+/// A frame of a recording: the first bodies of the recording, and where their vertices are.
+struct RecordedFrame {
+  std::uint32_t body_count = 0;
+  std::vector<float> x, y, z;  // m, in the world, one body after another; finite
+};
+
+class Recording {
+ public:
+  virtual ~Recording() = default;
+  /// Returns the lower and the upper corner of a box around the bodies, as far as that is known without all frames.
+  virtual std::array<glm::vec3, 2> bounds() const = 0;
+  /// Returns the number of frames, at least 1.
+  virtual int frame_count() const = 0;
+  /// Returns a frame. Precondition: 0 <= number < frame_count(). Throws SceneError if it cannot be read;
+  /// other frames can be read nevertheless.
+  virtual std::shared_ptr<const RecordedFrame> frame(int number) = 0;
+  /// Returns the model of a body, which is the same in all frames. Precondition: a frame with this body was read.
+  virtual const std::shared_ptr<const BodyModel>& model(std::uint32_t body) const = 0;
+};
+
+/// Returns the default cell size (§2.2) for the shapes that the bodies have in the first frame.
+glm::vec3 default_cell_size(Recording& recording, int levels, float tolerance);
+
+}  // namespace softbody

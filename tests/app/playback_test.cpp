@@ -1,0 +1,130 @@
+// Files as the recording of a scene: what is read when, and what the scene is like.
+
+#include "app/files/playback.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+#include <thread>
+
+#include "softbody/world/world.h"
+#include "tests/temporary_folder.h"
+
+namespace app {
+namespace {
+
+class PlaybackTest : public testing::Test {
+ protected:
+  /// Writes a frame of `bodies` tetrahedra with edges of 1 m and more; `at`: how far they have moved along x.
+  std::filesystem::path write(const std::string& name, int bodies, float at) const {
+    std::ostringstream text;
+    text << "o empty\n";
+    for (int body = 0; body < bodies; ++body) {
+      const int first = 4 * body + 1;
+      const double x = double(at) + 3 * body;
+      text << "o body\nv " << x << " 0 0\nv " << x + 1 << " 0 0\nv " << x << " 1 0\nv " << x << " 0 1\n";
+      for (const auto& [a, b, c] : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+        text << "f " << first + a << ' ' << first + b << ' ' << first + c << '\n';
+    }
+    return folder.write(name, text.str());
+  }
+  std::vector<std::filesystem::path> three() const {
+    return {write("0.obj", 2, 0), write("1.obj", 2, 0.5f), write("2.obj", 3, 1)};
+  }
+
+  tests::TemporaryFolder folder;
+};
+
+TEST_F(PlaybackTest, GivesWhatTheFilesHold) {
+  files::Playback playback(three());
+  ASSERT_EQ(playback.frame_count(), 3);
+  for (const int number : {0, 1, 2, 0, 2, 1}) {
+    const auto frame = playback.frame(number);
+    EXPECT_EQ(frame->body_count, number < 2 ? 2u : 3u) << "without the empty body";
+    ASSERT_EQ(frame->x.size(), 4 * frame->body_count);
+    EXPECT_EQ(frame->x[0], 0.5f * float(number));
+    EXPECT_EQ(frame->x[5], 4 + 0.5f * float(number));
+  }
+  EXPECT_EQ(playback.model(0), playback.model(2)) << "bodies of one mesh share a model";
+  EXPECT_EQ(playback.model(0)->mesh.edges.size(), 6u);
+  EXPECT_EQ(playback.bounds()[0], glm::vec3(0, 0, 0)) << "of the first frame";
+  EXPECT_EQ(playback.bounds()[1], glm::vec3(8, 1, 1)) << "of the last frame";
+}
+
+TEST_F(PlaybackTest, ReadsAgainOnlyWhatDoesNotFitIntoItsMemory) {
+  const auto files = three();
+  files::Playback playback(files, {}, 2 * sizeof(float) * 3 * 8);  // two frames
+  for (const int number : {0, 1, 2}) playback.frame(number);
+  for (const auto& file : files) std::filesystem::remove(file);
+  EXPECT_EQ(playback.frame(0)->x[0], 0.0f);
+  EXPECT_EQ(playback.frame(1)->x[0], 0.5f);
+  EXPECT_THROW(
+      {
+        playback.frame(2);  // may have been read ahead
+        playback.frame(0);
+        playback.frame(2);
+      },
+      softbody::SceneError);
+  EXPECT_EQ(playback.frame(1)->x[0], 0.5f) << "others can be read nevertheless";
+}
+
+TEST_F(PlaybackTest, ReadsTheNextFrameAheadOfTime) {
+  const auto files = three();
+  files::Playback playback(files, {}, 0);  // keeps none but the first
+  playback.frame(0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // a few lines take no longer
+  std::filesystem::remove(files[1]);
+  EXPECT_EQ(playback.frame(1)->x[0], 0.5f);
+}
+
+TEST_F(PlaybackTest, SaysWhichFileIsBrokenAndGoesOn) {
+  auto files = three();
+  folder.write("1.obj", "v 0 0 x\n");
+  files::Playback playback(files);
+  for (int i = 0; i < 2; ++i) try {
+      playback.frame(1);
+      FAIL();
+    } catch (const softbody::SceneError& error) {
+      EXPECT_NE(std::string(error.what()).find("1.obj:1"), std::string::npos) << error.what();
+    }
+  EXPECT_EQ(playback.frame(2)->x[0], 1.0f);
+}
+
+TEST_F(PlaybackTest, RefusesAnotherBodyInThePlaceOfALaterOne) {
+  const std::string two = "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const auto first = folder.write("0.obj", two),
+             grown = folder.write("1.obj", two + "o b\nv 0 0 1\nv 1 0 1\nv 0 1 1\nf 4 5 6\n"),
+             other = folder.write("2.obj", two + "o b\nv 0 0 1\nv 1 0 1\n");
+  files::Playback playback({first, grown, other, grown});
+  EXPECT_EQ(playback.frame(1)->body_count, 2u);
+  try {
+    playback.frame(2);
+    FAIL();
+  } catch (const softbody::SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("2.obj: body 1"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(playback.frame(3)->body_count, 2u);
+}
+
+TEST_F(PlaybackTest, MakesASceneWhoseToleranceSuitsTheData) {
+  const softbody::Scene scene = files::recorded_scene(three());
+  EXPECT_NEAR(scene.collision.tolerance, std::sqrt(2.0f) / 2, 1e-6) << "half the median edge";
+  EXPECT_EQ(scene.view.target, glm::dvec3(4, 0.5, 0.5));
+  softbody::World world(scene, {});
+  world.show_frame(2);
+  EXPECT_EQ(world.bodies().count(), 3u);
+  const auto points = folder.write("points.ply",
+                                   "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+                                   "property float z\nend_header\n0 0 0\n3 0 4\n");
+  EXPECT_NEAR(files::recorded_scene({points}).collision.tolerance, 0.05, 1e-6) << "a hundredth of the diagonal";
+}
+
+TEST_F(PlaybackTest, RefusesFilesWithoutVertices) {
+  EXPECT_THROW(files::Playback({folder.write("none.obj", "o nothing\n")}), softbody::SceneError);
+}
+
+}  // namespace
+}  // namespace app
