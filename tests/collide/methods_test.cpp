@@ -109,7 +109,7 @@ TEST(Methods, FollowASequenceWithJumps) {
       std::vector<glm::vec3> points = ball.vertices;
       const float squeeze = body == 3 ? std::abs(std::cos(0.4f * static_cast<float>(frame))) : 1;
       for (glm::vec3& p : points) p.y *= squeeze;
-      if (body == 4) std::ranges::rotate(points, points.begin() + frame);
+      if (body == 4) std::rotate(points.begin(), points.begin() + frame, points.end());
       if (body == 2 && frame % 8 == 6) points[100].z = NAN;
       const bool away = body == 1 && frame % 4 >= 2;
       state.add(shape, moved(points, at[body] + (away ? glm::vec3(1e6f, 0, -1e6f) : glm::vec3(0))));
