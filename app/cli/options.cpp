@@ -352,7 +352,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
 }
 
 softbody::Scene load_scene(const Options& options) {
-  if (options.scene.ends_with(".obj"))
+  if (options.scene.ends_with(".obj") || options.scene.ends_with(".ply"))
     throw UsageError("--scene " + options.scene + ": a mesh, not a scene; `sbcollide --mesh` opens it in the window");
   softbody::Scene scene = options.play.empty()
                               ? softbody::find_scene(options.scene, files::scene_folder())
