@@ -101,6 +101,18 @@ TEST_F(DetectBodies, AreWhatTheOptionSays) {
   EXPECT_EQ(detect({file, "--tolerance", "0.1", "--bodies", "objects"})["bodies"], 1);
 }
 
+TEST_F(DetectBodies, MayComeThroughAPipe) {
+  const State state = random_state(2);
+  const Scattered file(state, 2);
+  for (const std::string& text : {state.obj(), ply(file.vertices, file.faces, {.format = "binary_big_endian"})}) {
+    const std::string path = folder.write("a", text), out = folder.path() / "out";
+    const std::string command =
+        "cat " + path + " | " SBCOLLIDE_PROGRAM " detect /dev/stdin --tolerance 0.07 --json > " + out;
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    EXPECT_EQ(json::parse(read_file(out))["frames"][0]["contacts"], oracle(0, state, {.tolerance = 0.07f}).size());
+  }
+}
+
 TEST_F(DetectBodies, ThatAreSingleFacesAreNoted) {
   std::vector<std::array<float, 3>> vertices;
   std::vector<std::vector<unsigned>> faces;
