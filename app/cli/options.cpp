@@ -165,10 +165,14 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
   return detect;
 }
 
-CLI::App* add_report(CLI::App& cli, Options& options) {
+CLI::App* add_report(CLI::App& cli, Options& options, std::optional<double>& tolerance) {
   report::ReportOptions& r = options.report;
   CLI::App* report = cli.add_subcommand("report", "measure for minutes; write tables and plots");
   report->add_option("what", r.name, "detection, contact, solver or stability");
+  report->add_option("FILE", r.files, "detection: OBJ or PLY files, consecutive frames of your own in place of scenes");
+  report->add_option("--tolerance", tolerance, "of FILE: collision tolerance in metres")->type_name("H");
+  add_bodies_option(*report, r.by);
+  report->add_option("--rest", r.rest, "of FILE: bodies at rest, as for `detect`")->type_name("FILE");
   report->add_option("--scene", r.scene, "only this scene: a key of `list scenes` or a .toml file")->type_name("S");
   report->add_flag("--quick", r.quick, "within a minute: fewer scenes, states and repetitions");
   report
@@ -237,6 +241,27 @@ void check(const Options& options) {
   if (options.animation) check_animation(options);
 }
 
+/// Completes the options of a report. tolerance: as given. Throws UsageError.
+void complete_report(report::ReportOptions& r, std::optional<double> tolerance) {
+  if (r.name.empty()) throw UsageError("report: say which one: detection, contact, solver or stability");
+  if (r.files.empty()) {
+    for (const auto& [option, given] : {std::pair("--tolerance", tolerance.has_value()),
+                                        {"--bodies", r.by.has_value()},
+                                        {"--rest", r.rest.has_value()}})
+      if (given) throw UsageError(std::string(option) + ": goes with files; write report detection FILE...");
+    return;
+  }
+  if (r.name != "detection")
+    throw UsageError("report " + r.name + " " + r.files.front() + ": only report detection takes files");
+  if (r.scene) throw UsageError("--scene " + *r.scene + ": goes without files; leave one of them out");
+  if (!tolerance) throw UsageError("--tolerance: is missing; files need one, in metres");
+  DetectionOptions detection;
+  detection.tolerance = tolerance;
+  collide::Settings settings;
+  apply(detection, settings);
+  r.tolerance = *tolerance;
+}
+
 /// Throws UsageError for what does not go with recorded frames.
 void check_play(const CLI::App& cli, const Options& options) {
   if (options.play.empty()) {
@@ -268,6 +293,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   Options options;
   options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   std::string size, captures;
+  std::optional<double> report_tolerance;
 
   CLI::App cli{
       "Soft spheres fall on a solid sphere while a detector finds their collisions and self-collisions.\n"
@@ -288,7 +314,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
 
   const CLI::App* simulate = add_simulate(cli, options, size, captures);
   const CLI::App* detect = add_detect(cli, options);
-  const CLI::App* report = add_report(cli, options);
+  const CLI::App* report = add_report(cli, options, report_tolerance);
   CLI::App* list = cli.add_subcommand("list", "print keys and names, a line each");
   list->add_option("what", options.list_of, "scenes, methods, integrators or contact-surfaces")
       ->check(CLI::IsMember({"scenes", "methods", "integrators", "contact-surfaces"}));
@@ -304,11 +330,10 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     const std::string command = below.empty() ? "" : below.front()->get_name() + " ";
     throw UsageError(reason(error) + "; see sbcollide " + command + "--help");
   }
-  if (*report && options.report.name.empty())
-    throw UsageError("report: say which one: detection, contact, solver or stability");
   if (*list && options.list_of.empty())
     throw UsageError("list: say of what: scenes, methods, integrators or contact-surfaces");
   refuse_missing_values(cli);
+  if (*report) complete_report(options.report, report_tolerance);
   options.command = *simulate ? Command::simulate
                     : *detect ? Command::detect
                     : *report ? Command::report
@@ -327,7 +352,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
 }
 
 softbody::Scene load_scene(const Options& options) {
-  if (options.scene.ends_with(".obj"))
+  if (options.scene.ends_with(".obj") || options.scene.ends_with(".ply"))
     throw UsageError("--scene " + options.scene + ": a mesh, not a scene; `sbcollide --mesh` opens it in the window");
   softbody::Scene scene = options.play.empty()
                               ? softbody::find_scene(options.scene, files::scene_folder())

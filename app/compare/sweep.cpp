@@ -39,13 +39,13 @@ glm::vec3 automatic_cell_size(const softbody::World& world, int levels) {
   return collide::default_cell_size({x, y, z, &bodies}, levels, world.collision().tolerance);
 }
 
-std::vector<Configuration> sweep_configurations(const softbody::World& world) {
-  const collide::Settings& settings = world.collision();
+std::vector<Configuration> sweep_configurations(const collide::Settings& settings,
+                                                const std::function<glm::vec3(int levels)>& automatic_cell_size) {
   std::vector<Configuration> all;
   for (std::size_t m = 0; m < collide::method_table().size(); ++m) {
     const collide::Method& method = collide::method_table()[m];
     for (const int levels : axis(method.uses_levels, sweep_levels, settings.levels)) {
-      const glm::vec3 automatic = automatic_cell_size(world, levels);
+      const glm::vec3 automatic = automatic_cell_size(levels);
       for (const std::uint32_t buckets : axis(method.uses_hash, sweep_buckets, settings.buckets)) {
         for (const double cell : axis(method.uses_hash, sweep_cells, 1.0)) {
           Configuration& c = all.emplace_back(Configuration{m, settings, cell});
@@ -57,6 +57,10 @@ std::vector<Configuration> sweep_configurations(const softbody::World& world) {
     }
   }
   return all;
+}
+
+std::vector<Configuration> sweep_configurations(const softbody::World& world) {
+  return sweep_configurations(world.collision(), [&](int levels) { return automatic_cell_size(world, levels); });
 }
 
 Sweep::Sweep(const collide::Frame& frame, const std::vector<Configuration>& configurations, const SweepLimits& limits,

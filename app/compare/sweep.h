@@ -1,6 +1,7 @@
 #pragma once
 // Measures what each method costs and finds on one frame, over all settings that it uses: error against run time.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <random>
@@ -21,7 +22,7 @@ inline constexpr std::array<double, 5> sweep_cells{0.25, 0.5, 1, 2, 4};
 /// A method and the settings that it runs with.
 struct Configuration {
   std::size_t method = 0;      // index in collide::method_table()
-  collide::Settings settings;  // settings that the method does not use are the world's
+  collide::Settings settings;  // settings that the method does not use are those given
   double cell = 1;             // the cell size in units of the automatic one
 };
 
@@ -30,7 +31,9 @@ struct Configuration {
 glm::vec3 automatic_cell_size(const softbody::World& world, int levels);
 
 /// Returns each method with all combinations of the axes that it uses, in the order of the table. The other settings
-/// are the world's.
+/// are those given, or the world's. automatic_cell_size: of a level.
+std::vector<Configuration> sweep_configurations(const collide::Settings& settings,
+                                                const std::function<glm::vec3(int levels)>& automatic_cell_size);
 std::vector<Configuration> sweep_configurations(const softbody::World& world);
 
 /// The figures of one configuration on the frame.

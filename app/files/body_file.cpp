@@ -151,6 +151,9 @@ BodyMeshes divide(const FileMesh& mesh, BodiesBy by, const std::filesystem::path
   };
   const auto body_of_face = [&](std::size_t face) { return body_of[corners_of(face)[0]]; };
   bodies.first_polygon = offsets_of<std::size_t>(count, mesh.faces.size(), body_of_face);
+  if (by == BodiesBy::components && count > 2 && 2 * count > mesh.faces.size() && !mesh.faces.empty())
+    notes.push_back(std::to_string(mesh.faces.size()) + " faces are " + std::to_string(count) +
+                    " bodies, since most share no vertex with another one; if they are one mesh, give --bodies one");
   std::vector<std::size_t> next_polygon(bodies.first_polygon.begin(), bodies.first_polygon.end() - 1);
   std::vector<std::size_t> face_of(mesh.faces.size());
   for (std::size_t face = 0; face < face_of.size(); ++face) face_of[next_polygon[body_of_face(face)]++] = face;

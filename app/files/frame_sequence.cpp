@@ -52,10 +52,11 @@ FrameSequence::FrameSequence(std::vector<std::filesystem::path> files, const Opt
   assert(!files_.empty());
   for (const std::filesystem::path& file : files_) protect_input(file);
   if (options.rest) protect_input(*options.rest);
-  const softbody::FileMesh mesh = softbody::read_file_mesh(files_.front());
+  softbody::FileMesh mesh = softbody::read_file_mesh(files_.front());
   by_ = options.by.value_or(default_bodies_by(mesh));
   const auto first = std::make_shared<SequenceBodies>();
   first->meshes = divide(mesh, by_, files_.front(), notes_);
+  first_at_ = positions_of(std::move(mesh), first->meshes);
   first_ = last_ = first;
   const VertexPositions rest = options.rest ? read(*options.rest, false).at : VertexPositions{};
   add_bodies(first->bodies, first->meshes, options.rest ? &rest : nullptr);
@@ -63,6 +64,7 @@ FrameSequence::FrameSequence(std::vector<std::filesystem::path> files, const Opt
 
 SequenceFrame FrameSequence::read(std::size_t frame) {
   assert(frame < count());
+  if (frame == 0 && first_at_) return {first_, *std::exchange(first_at_, std::nullopt)};
   return read(files_[frame], may_grow_);
 }
 

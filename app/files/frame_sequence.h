@@ -22,9 +22,10 @@ struct SequenceFrame {
   collide::Frame view() const { return {at.x, at.y, at.z, &of->bodies}; }
 };
 
-/// Reads the frames of a sequence on demand and keeps none of them. The first file decides which vertices belong to
-/// which body and which edges and faces there are. Another file must match it body by body; where its bodies are
-/// components, it may have the same vertices without faces.
+/// Reads the frames of a sequence on demand and keeps none of them, except the first one until it is asked for: it may
+/// come through a pipe. The first file decides which vertices belong to which body and which edges and faces there are.
+/// Another file must match it body by body; where its bodies are components, it may have the same vertices without
+/// faces.
 class FrameSequence {
  public:
   struct Options {
@@ -56,6 +57,7 @@ class FrameSequence {
   BodiesBy by_;
   bool may_grow_;
   std::shared_ptr<const SequenceBodies> first_, last_;  // of the first file; of the last one read that has more, if any
+  std::optional<VertexPositions> first_at_;             // until read(0) returns it
   std::vector<std::string> notes_;
 };
 

@@ -1,5 +1,6 @@
 #include "app/report/files.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <iostream>
@@ -66,6 +67,15 @@ std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options) {
 std::string command_of(const ReportOptions& o) {
   std::string text = "sbcollide report " + o.name;
   if (o.scene) text.append(" --scene ").append(*o.scene);
+  if (!o.files.empty()) {
+    text.append(" ").append(o.files.front());
+    if (o.files.size() > 2) text += " ...";
+    if (o.files.size() > 1) text.append(" ").append(o.files.back());
+    text += fmt::format(" --tolerance {:.9g}", o.tolerance);
+  }
+  if (o.by)
+    text.append(" --bodies ").append(std::ranges::find(files::bodies_by_keys, *o.by, &files::BodiesByKey::value)->key);
+  if (o.rest) text.append(" --rest ").append(*o.rest);
   if (o.quick) text += " --quick";
   if (o.threads) text.append(" --threads ").append(std::to_string(*o.threads));
   return text + " --out DIR";

@@ -4,16 +4,24 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "app/files/body_file.h"
 
 namespace app::report {
 
 struct ReportOptions {
   std::string name;                  // which report
   std::optional<std::string> scene;  // only this one
-  bool quick = false;                // within a minute: less of everything
-  std::optional<int> threads;        // detection: of the detectors that are timed; else: runs side by side
-  int cores = 1;                     // threads for all that is not timed
-  std::filesystem::path out = ".";   // folder of the files
+  // detection: the frames of a recorded sequence, in place of scenes
+  std::vector<std::string> files;
+  double tolerance = 0;               // m, of the sequence
+  std::optional<files::BodiesBy> by;  // what a body of the sequence is; otherwise the format's default
+  std::optional<std::string> rest;    // the bodies of the sequence at rest
+  bool quick = false;                 // within a minute: less of everything
+  std::optional<int> threads;         // detection: of the detectors that are timed; else: runs side by side
+  int cores = 1;                      // threads for all that is not timed
+  std::filesystem::path out = ".";    // folder of the files
 };
 
 /// Makes the report that `options.name` names. Throws UsageError before anything runs if there is no such report or the

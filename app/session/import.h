@@ -59,7 +59,7 @@ class Import {
   static constexpr float min_size = 0.05f, max_size = 20;   // m
   static constexpr double min_weld = 1e-7, max_weld = 0.1;  // times a mesh's size
 
-  std::string path;                         // OBJ or TOML
+  std::string path;                         // OBJ, PLY or TOML
   float size = 1;                           // m, the largest extent that a mesh is scaled to
   double weld = softbody::MeshFile{}.weld;  // times the size, see softbody::MeshFile
   bool z_is_up = false;                     // in the file; else y is up

@@ -13,7 +13,7 @@ struct DemoOptions {
   std::string scene_name;              // its key or file
   bool scene_given = false;            // else it is the default scene, which opens with the story
   std::filesystem::path scene_folder;  // of the other scenes that the panel offers
-  std::vector<std::string> meshes;     // OBJ files that are imported as if dropped on the window
+  std::vector<std::string> meshes;     // mesh files that are imported as if dropped on the window
   softbody::IntegratorChoice integrator;
   int threads = 1;
   int width = 1280, height = 720;  // of the window, screen coordinates

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "softbody/mesh/obj_file.h"
+#include "softbody/mesh/file_mesh.h"
 #include "tests/cli/process.h"
 
 namespace api::test {
@@ -17,7 +17,7 @@ RecordedBodies::RecordedBodies(const std::string& scene, int frame) {
   EXPECT_EQ(made.status, 0) << made.err;
   frame_file = folder.path() / ("frame_" + name);
   rest_file = folder.path() / ("rest_" + name);
-  const softbody::ObjFile moved = softbody::read_obj_file(frame_file), still = softbody::read_obj_file(rest_file);
+  const softbody::FileMesh moved = softbody::read_file_mesh(frame_file), still = softbody::read_file_mesh(rest_file);
   x = moved.x, y = moved.y, z = moved.z;
   for (std::size_t v = 0; v < x.size(); ++v) rest.insert(rest.end(), {still.x[v], still.y[v], still.z[v]});
   for (const auto& object : moved.objects) first.push_back(object.first_vertex);

@@ -67,7 +67,7 @@ std::string State::obj() const {
   return text.str();
 }
 
-std::vector<Row> oracle(unsigned frame, const State& state, const Rules& rules) {
+std::vector<ContactRow> oracle(unsigned frame, const State& state, const Rules& rules) {
   struct Vertex {
     unsigned body, local;
     std::array<float, 3> at;
@@ -80,7 +80,7 @@ std::vector<Row> oracle(unsigned frame, const State& state, const Rules& rules) 
     for (unsigned v = 0; v < body.vertices.size(); ++v) all.push_back({b, v, body.vertices[v]});
   }
   const float limit = rules.tolerance * rules.tolerance;
-  std::vector<Row> rows;
+  std::vector<ContactRow> rows;
   for (unsigned i = 0; i < all.size(); ++i) {
     for (unsigned j = i + 1; j < all.size(); ++j) {
       const Vertex &a = all[i], &b = all[j];
@@ -122,16 +122,16 @@ State moved(const State& state, float max, unsigned seed) {
   return result;
 }
 
-std::vector<Row> read_contacts(const std::filesystem::path& file) {
+std::vector<ContactRow> read_contacts(const std::filesystem::path& file) {
   const std::string text = read_file(file);
   EXPECT_TRUE(text.ends_with('\n'));
   std::istringstream in(text);
   std::string line;
   std::getline(in, line);
   EXPECT_EQ(line, "frame,vertex_a,vertex_b,body_a,body_b,distance");
-  std::vector<Row> rows;
+  std::vector<ContactRow> rows;
   while (std::getline(in, line)) {
-    Row r{};
+    ContactRow r{};
     std::sscanf(line.c_str(), "%u,%u,%u,%u,%u,%g", &r.frame, &r.vertex_a, &r.vertex_b, &r.body_a, &r.body_b,
                 &r.distance);
     EXPECT_EQ(line,

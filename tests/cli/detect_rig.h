@@ -24,10 +24,10 @@ struct State {
 };
 
 /// A line of the contacts file, as found or as expected.
-struct Row {
+struct ContactRow {
   unsigned frame, vertex_a, vertex_b, body_a, body_b;
   float distance;
-  auto operator<=>(const Row&) const = default;
+  auto operator<=>(const ContactRow&) const = default;
 };
 
 struct Rules {
@@ -38,7 +38,7 @@ struct Rules {
 };
 
 /// Returns the contacts, by a plain double loop over all pairs.
-std::vector<Row> oracle(unsigned frame, const State& state, const Rules& rules);
+std::vector<ContactRow> oracle(unsigned frame, const State& state, const Rules& rules);
 
 /// Returns crumpled, overlapping grids of mixed sizes, a body of one vertex and an empty body.
 State random_state(unsigned seed);
@@ -46,6 +46,6 @@ State random_state(unsigned seed);
 State moved(const State& state, float max, unsigned seed);
 
 /// Reads a contacts file. Fails the test if it is not of the contract's form.
-std::vector<Row> read_contacts(const std::filesystem::path& file);
+std::vector<ContactRow> read_contacts(const std::filesystem::path& file);
 
 }  // namespace cli::test

@@ -18,7 +18,7 @@ class Detect : public testing::Test {
  protected:
   std::string file(const std::string& name, const State& state) { return folder.write(name, state.obj()); }
   std::string csv() const { return folder.path() / "contacts.csv"; }
-  std::vector<Row> contacts(std::vector<std::string> arguments) {
+  std::vector<ContactRow> contacts(std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--contacts", csv()});
     figures = detect(arguments);
     return read_contacts(csv());
@@ -38,7 +38,7 @@ TEST_F(Detect, FindsTheSameAsADoubleLoopByExactMethods) {
     for (const char* tolerance : {"0.05", "0.12"}) {
       const auto expected = oracle(0, state, {.tolerance = std::strtof(tolerance, nullptr)});
       ASSERT_GT(expected.size(), 20u);
-      const auto self = std::ranges::count_if(expected, [](const Row& r) { return r.body_a == r.body_b; });
+      const auto self = std::ranges::count_if(expected, [](const ContactRow& r) { return r.body_a == r.body_b; });
       for (const std::string method : exact) {
         for (const char* threads : {"1", "2"}) {
           EXPECT_EQ(contacts({obj, "--tolerance", tolerance, "--method", method, "--threads", threads}), expected)
@@ -114,8 +114,8 @@ TEST_F(Detect, LeavesOutPolygonEdgesButNotDiagonals) {
   const auto quad = folder.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
   const auto found = contacts({quad, "--tolerance", "2"});
   ASSERT_EQ(found.size(), 2u);
-  EXPECT_EQ(found[0], (Row{0, 0, 2, 0, 0, std::sqrt(2.0f)}));
-  EXPECT_EQ(found[1], (Row{0, 1, 3, 0, 0, std::sqrt(2.0f)}));
+  EXPECT_EQ(found[0], (ContactRow{0, 0, 2, 0, 0, std::sqrt(2.0f)}));
+  EXPECT_EQ(found[1], (ContactRow{0, 1, 3, 0, 0, std::sqrt(2.0f)}));
   EXPECT_EQ(contacts({quad, "--tolerance", "1.4142"}).size(), 0u);
 }
 

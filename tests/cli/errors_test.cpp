@@ -25,6 +25,7 @@ std::vector<std::string> drop(std::vector<std::string> more) {
 const Bad bad_lines[]{
     {"unknown_scene", {"simulate", "--scene", "dorp", "--frames", "2"}, {"'dorp'", "drop"}},
     {"mesh_as_scene", {"simulate", "--scene", "cube.obj", "--frames", "2"}, {"--scene cube.obj", "--mesh"}},
+    {"ply_as_scene", {"simulate", "--scene", "cube.ply", "--frames", "2"}, {"--scene cube.ply", "--mesh"}},
     {"missing_mesh", {"--mesh", "none.obj"}, {"--mesh", "none.obj"}},
     {"missing_scene_file", {"simulate", "--scene", "none.toml", "--frames", "2"}, {"none.toml", "cannot be read"}},
     {"unknown_method", drop({"--method", "magic"}), {"--method magic", "brute-force"}},

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "tests/cli/detect_rig.h"
 #include "tests/cli/report_rig.h"
 
 namespace cli::test {
@@ -141,6 +142,94 @@ TEST(DetectionReport, HasThePapersScenesInTable1) {
   EXPECT_NE(text.find("| method | A: 3 bodies, 101 buckets |"), std::string::npos);
   EXPECT_NE(text.find("2 threads,"), std::string::npos);
   EXPECT_EQ(text.find("Growth"), std::string::npos) << "three bodies are too few to grow";
+}
+
+/// A sequence of two frames, the first one with fewer contacts, and its rest shape.
+class SequenceReport : public testing::Test {
+ protected:
+  static State stretched(const State& state) {
+    State result = state;
+    for (Body& body : result.bodies)
+      for (auto& vertex : body.vertices) vertex[0] *= 3;
+    return result;
+  }
+  Outcome report(std::vector<std::string> more) {
+    more.insert(more.begin(), {"report", "detection", first, second});
+    more.insert(more.end(), {"--out", out});
+    return run(more);
+  }
+
+  TemporaryFolder folder;
+  const State state = random_state(3);
+  const std::string out = folder.path() / "out", first = folder.write("far.obj", stretched(state).obj()),
+                    second = folder.write("near.obj", state.obj());
+};
+
+TEST_F(SequenceReport, MeasuresTheFrameWithTheMostContacts) {
+  const Outcome o = report({"--tolerance", "0.07", "--quick"});
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(printed_files(o, out), file_names(out));
+  const std::string contacts = std::to_string(oracle(1, state, {.tolerance = 0.07f}).size());
+  std::set<std::string> methods;
+  for (Row row : read_csv(std::filesystem::path(out) / "detection.csv")) {
+    EXPECT_EQ(row["part"], "sweep");
+    EXPECT_EQ(row["frame"], "1");
+    EXPECT_EQ(row["bodies"], std::to_string(state.bodies.size()));
+    EXPECT_EQ(row["true_contacts"], contacts);
+    methods.insert(row["method"]);
+  }
+  const std::string table = methods_table();
+  EXPECT_EQ(methods.size(), static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')));
+  const std::string text = read_file(std::filesystem::path(out) / "report.md");
+  EXPECT_NE(text.find("`sbcollide report detection " + first + " " + second + " --tolerance 0.07 --quick --out DIR`"),
+            std::string::npos);
+  EXPECT_NE(text.find("recorded sequence of 2"), std::string::npos);
+  EXPECT_NE(text.find("far.obj to near.obj"), std::string::npos);
+  EXPECT_EQ(text.find("## Table 1"), std::string::npos);
+  EXPECT_EQ(text.find("### Growth"), std::string::npos);
+}
+
+TEST_F(SequenceReport, TakesBodiesAndRestShapes) {
+  const Outcome o = report({"--tolerance", "0.07", "--quick", "--bodies", "one", "--rest", first});
+  EXPECT_EQ(o.status, 0) << o.err;
+  State one{{{}}};
+  State rest = one;
+  for (const auto& [from, to] : {std::pair(state, &one), std::pair(stretched(state), &rest)}) {
+    for (const Body& body : from.bodies) {
+      const unsigned base = static_cast<unsigned>(to->bodies[0].vertices.size());
+      to->bodies[0].vertices.insert(to->bodies[0].vertices.end(), body.vertices.begin(), body.vertices.end());
+      for (std::vector<unsigned> face : body.faces) {
+        for (unsigned& corner : face) corner += base;
+        to->bodies[0].faces.push_back(face);
+      }
+    }
+  }
+  const std::string contacts = std::to_string(oracle(1, one, {.tolerance = 0.07f, .rest = &rest}).size());
+  for (Row row : read_csv(std::filesystem::path(out) / "detection.csv")) {
+    EXPECT_EQ(row["bodies"], "1");
+    EXPECT_EQ(row["true_contacts"], contacts);
+  }
+}
+
+TEST_F(SequenceReport, RefusesBadInputInOneLineAndWritesNothing) {
+  const auto refuse = [&](std::vector<std::string> arguments, const std::vector<std::string>& words) {
+    arguments.insert(arguments.begin(), "report");
+    arguments.insert(arguments.end(), {"--out", out, "--quick"});
+    expect_refused(arguments, words);
+    EXPECT_FALSE(std::filesystem::exists(out));
+  };
+  const std::string lone = folder.write("lone.obj", "v 0 0 0\n");
+  refuse({"detection", first}, {"--tolerance", "missing"});
+  refuse({"detection", first, "--tolerance", "-1"}, {"--tolerance -1"});
+  refuse({"detection", first, "--tolerance", ""}, {"--tolerance"});
+  refuse({"detection", first, "--tolerance", "1", "--scene", "A"}, {"--scene A", "without files"});
+  refuse({"detection", first, "--tolerance", "1", "--bodies", "two"}, {"--bodies two"});
+  refuse({"detection", first, lone, "--tolerance", "1"}, {lone, "number of bodies"});
+  refuse({"detection", folder.path() / "none.ply", "--tolerance", "1"}, {"none.ply", "cannot be read"});
+  refuse({"contact", first, "--tolerance", "1"}, {"report contact", "only report detection takes files"});
+  refuse({"detection", "--tolerance", "1"}, {"--tolerance", "goes with files"});
+  refuse({"detection", "--rest", first}, {"--rest", "goes with files"});
+  refuse({"solver", "--bodies", "one"}, {"--bodies", "goes with files"});
 }
 
 TEST(DetectionReport, LeavesOutOnlyThePlotsWithoutGnuplot) {

@@ -144,7 +144,7 @@ TEST(MeshFromFile, ErrorsNameSceneAndMesh) {
       return e.what();
     }
   };
-  EXPECT_NE(says("").find("path must name an OBJ file"), std::string::npos);
+  EXPECT_NE(says("").find("path must name an OBJ or PLY file"), std::string::npos);
   EXPECT_NE(says(", path = \"none.obj\"").find("none.obj: cannot be read"), std::string::npos);
   EXPECT_NE(says(", path = \".\"").find("cannot be read"), std::string::npos);
   EXPECT_NE(says(", path = \"bad.obj\"").find("bad.obj:2: 'x' is no number"), std::string::npos);

@@ -68,13 +68,9 @@ SceneResult sweep_growth(const Recording& recording, const DetectionResults& res
   return growth;
 }
 
-DetectionResults measure(const ReportOptions& options, const std::vector<softbody::Scene>& scenes) {
-  DetectionResults results;
-  results.quick = options.quick;
-  results.threads = options.threads.value_or(1);
-  results.limits = limits_of(options);
-  results.command = command_of(options);
-  collide::Workers workers(results.threads);
+void measure_scenes(const ReportOptions& options, DetectionResults& results, collide::Workers& workers) {
+  const std::vector<softbody::Scene> scenes = chosen_scenes(options);
+  files::prepare_folder(options.out);
   const auto bodies = [](const softbody::Scene& scene) { return scene.bodies.size(); };
   const std::size_t max_bodies = bodies(*std::ranges::max_element(scenes, {}, bodies));
   for (const softbody::Scene& scene : scenes) {
@@ -86,15 +82,28 @@ DetectionResults measure(const ReportOptions& options, const std::vector<softbod
     if (swept) results.scenes.push_back(sweep_scene(recording, results, workers));
     if (largest) results.growth = sweep_growth(recording, results, workers);
   }
-  return results;
+}
+
+void measure_sequence(const ReportOptions& options, DetectionResults& results, collide::Workers& workers) {
+  const Recording recording = record_sequence(options);
+  files::prepare_folder(options.out);
+  results.scenes.push_back(sweep_scene(recording, results, workers));
 }
 
 }  // namespace
 
 void report_detection(const ReportOptions& options) {
-  const std::vector<softbody::Scene> scenes = chosen_scenes(options);
-  files::prepare_folder(options.out);
-  const DetectionResults results = measure(options, scenes);
+  DetectionResults results;
+  results.quick = options.quick;
+  results.threads = options.threads.value_or(1);
+  results.limits = limits_of(options);
+  results.command = command_of(options);
+  results.of_files = options.files.size();
+  collide::Workers workers(results.threads);
+  if (options.files.empty())
+    measure_scenes(options, results, workers);
+  else
+    measure_sequence(options, results, workers);
   write_report(options.out, "detection.csv", detection_table(results), "report.md", detection_page(results));
 }
 

@@ -156,8 +156,14 @@ void add_introduction(Page& page, const DetectionResults& r) {
       r.command);
   page.item(
       "Every method runs on the same recorded states, over levels 0, 3, 6, 9, four bucket counts and five cell sizes, "
-      "as far as it uses them. A cell size is given in units of the automatic one: the largest box of its level at "
-      "rest + the tolerance.");
+      "as far as it uses them. A cell size is given in units of the automatic one: the largest box of its level {} + "
+      "the tolerance.",
+      r.of_files > 0 ? "at rest (without --rest, in the first frame)" : "at rest");
+  if (r.of_files > 0)
+    page.item(
+        "The states are frames of a recorded sequence of {}, counted from 0. Left out is what needs the scenes of the "
+        "program: the paper's Table 1 and the growth with the number of bodies.",
+        grouped(r.of_files));
   page.item(
       "Detectors run on {} thread{}, from scratch: they forget before each run what they learnt from earlier frames. "
       "All configurations run once to be checked and at most {} times to be timed, in rounds of shuffled order. A "
@@ -300,7 +306,7 @@ Page detection_page(const DetectionResults& results) {
   for (const StateResult& state : results.growth.states) timed += state.sweep.timed;
   page.warn(warn_of_busy_machine(timed));
   add_table_1(page, results);
-  page.text("## Scenes: the best of every method");
+  page.text("## {}the best of every method", results.of_files > 0 ? "The sequence: " : "Scenes: ");
   page.text(
       "Of each method the fastest configuration, and the fastest of those that miss least if that is another one. "
       "Front: no other is as fast and as good. Means over the states; recall and precision over all their contacts.");

@@ -1,10 +1,14 @@
 #include "app/report/detection/recording.h"
 
 #include <algorithm>
+#include <set>
+#include <stdexcept>
 
 #include <glm/geometric.hpp>
 
 #include "app/base/usage_error.h"
+#include "app/files/frame_sequence.h"
+#include "app/report/files.h"
 
 namespace app::report {
 namespace {
@@ -14,6 +18,20 @@ constexpr std::uint64_t large_scene = 50'000;  // vertices
 RecordedState copy(const softbody::World& world) {
   RecordedState state{world.frame(), {}, world.bodies()};
   state.at.copy(world.positions());
+  return state;
+}
+
+/// Returns the state with the bodies that have a rest shape in it.
+RecordedState at_rest(RecordedState state) {
+  for (collide::Index b = 0; b < state.bodies.count(); ++b) {
+    collide::Index v = state.bodies.first[b];
+    for (const glm::vec3& place : state.bodies.shape[b]->rest()) {
+      state.at.x[v] = place.x;
+      state.at.y[v] = place.y;
+      state.at.z[v] = place.z;
+      ++v;
+    }
+  }
   return state;
 }
 
@@ -61,6 +79,46 @@ Recording record(const softbody::Scene& scene, const RecordingPlan& plan, int th
     throw UsageError("scene '" + scene.key + "': no body has arrived by frame " + std::to_string(world.frame()) +
                      ", so there is nothing to measure");
   recording.configurations = compare::sweep_configurations(world);
+  return recording;
+}
+
+Recording record_sequence(const ReportOptions& options) {
+  files::FrameSequence sequence({options.files.begin(), options.files.end()}, {.by = options.by, .rest = options.rest});
+  collide::Settings settings;
+  settings.tolerance = static_cast<float>(options.tolerance);
+  const auto state = [&](std::size_t frame) {
+    files::SequenceFrame read = sequence.read(frame);
+    return RecordedState{
+        static_cast<int>(frame), {std::move(read.at.x), std::move(read.at.y), std::move(read.at.z)}, read.of->bodies};
+  };
+  const std::size_t count = sequence.count(), last = count - 1;
+  std::size_t busiest = 0, max_contacts = 0;
+  const auto detector = collide::find_method(collide::default_method)->make();
+  collide::Workers workers(options.cores);
+  collide::Result found;
+  for (std::size_t frame = 0; frame < count; ++frame) {
+    say("looking for the frame with the most contacts", static_cast<double>(frame) / static_cast<double>(count));
+    const RecordedState here = state(frame);
+    try {
+      detector->detect(here.view(), settings, workers, found);
+    } catch (const std::length_error& error) {  // more contacts than a method may report
+      throw UsageError(options.files[frame] + ": " + error.what());
+    }
+    if (found.contacts.size() <= max_contacts) continue;
+    max_contacts = found.contacts.size();
+    busiest = frame;
+  }
+  std::set<std::size_t> frames{busiest};
+  if (!options.quick) frames.insert(last);
+  if (!options.quick && sequence.bodies()->bodies.vertex_count() < large_scene) frames.insert({count / 8, count / 2});
+
+  const std::filesystem::path first = options.files.front();
+  Recording recording{first.stem().string(), first.filename().string(), settings.buckets, {}, {}};
+  if (count > 1) recording.name += " to " + sequence.file(last).filename().string();
+  for (const std::size_t frame : frames) recording.states.push_back(state(frame));
+  const RecordedState rest = at_rest(state(0));
+  recording.configurations = compare::sweep_configurations(
+      settings, [&](int levels) { return collide::default_cell_size(rest.view(), levels, settings.tolerance); });
   return recording;
 }
 

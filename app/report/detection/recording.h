@@ -1,8 +1,9 @@
 #pragma once
-// States of a scene that a report measures on.
+// States of a scene or of a recorded sequence that a report measures on.
 
 #include "app/compare/positions.h"
 #include "app/compare/sweep.h"
+#include "app/report/report.h"
 
 namespace app::report {
 
@@ -38,6 +39,11 @@ std::uint64_t vertex_count(const softbody::Scene& scene);
 
 /// Runs the scene and copies states. Throws UsageError if no body appears, and SceneError.
 Recording record(const softbody::Scene& scene, const RecordingPlan& plan, int threads);
+
+/// Returns the frames of a recorded sequence to measure on: the one with the most contacts (the first of them); unless
+/// `quick`, also the last one, and of few vertices those after an eighth and half of all. Throws UsageError or
+/// MeshFileError.
+Recording record_sequence(const ReportOptions& options);
 
 /// Returns the `count` bodies nearest to the middle of all: a smaller pile of the same kind.
 RecordedState middle_bodies(const RecordedState& state, collide::Index count);

@@ -16,9 +16,9 @@ struct StateResult {
   compare::SweepReport sweep;
 };
 
-/// The same configurations on several states.
+/// The same configurations on several states of a scene or of a recorded sequence.
 struct SceneResult {
-  std::string scene, name;    // its key and its name
+  std::string scene, name;    // its key and its name; of a sequence the names of its files
   std::uint32_t buckets = 0;  // the scene's own
   std::vector<StateResult> states;
 };
@@ -28,7 +28,8 @@ struct DetectionResults {
   bool quick = false;
   int threads = 1;  // of the detectors
   compare::SweepLimits limits;
-  std::vector<SceneResult> scenes;
+  std::size_t of_files = 0;         // frames of the recorded sequence; 0: there is none
+  std::vector<SceneResult> scenes;  // or the one sequence
   SceneResult growth;  // piles of more and more bodies, cut out of one state; no states if its scene is too small
 };
 

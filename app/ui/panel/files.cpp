@@ -34,7 +34,7 @@ void draw_import(Widgets& w, Session& session, session::Import& import) {
   w.row_label("Open", w.px(narrow_column));
   ImGui::BeginDisabled(import.busy());
   if (field_with_button(w, "File to open", import.path, "mesh.obj or scene.toml",
-                        "A Wavefront OBJ file, which joins the scene as a soft body, or a scene file, which replaces "
+                        "An OBJ or PLY file, which joins the scene as a soft body, or a scene file, which replaces "
                         "it. You can also drop files on the window.",
                         "Load", "Reads the file."))
     import.load(session);
