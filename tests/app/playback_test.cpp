@@ -50,6 +50,7 @@ TEST_F(PlaybackTest, GivesWhatTheFilesHold) {
   }
   EXPECT_EQ(playback.model(0), playback.model(2)) << "bodies of one mesh share a model";
   EXPECT_EQ(playback.model(0)->mesh.edges.size(), 6u);
+  EXPECT_TRUE(playback.model(0)->mesh.closed);
   EXPECT_EQ(playback.bounds()[0], glm::vec3(0, 0, 0)) << "of the first frame";
   EXPECT_EQ(playback.bounds()[1], glm::vec3(8, 1, 1)) << "of the last frame";
 }
