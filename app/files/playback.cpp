@@ -28,7 +28,7 @@ softbody::Mesh mesh_of(const BodyMeshes& meshes, std::size_t body, const VertexP
   for (const auto& [a, b] : meshes.edges(body))
     if (a != b) mesh.edges.push_back(softbody::ordered(a, b));
   std::ranges::sort(mesh.edges);
-  mesh.edges.erase(std::ranges::unique(mesh.edges).begin(), mesh.edges.end());
+  mesh.edges.erase(std::unique(mesh.edges.begin(), mesh.edges.end()), mesh.edges.end());
   return mesh;
 }
 

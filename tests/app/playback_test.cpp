@@ -26,8 +26,8 @@ class PlaybackTest : public testing::Test {
       const int first = 4 * body + 1;
       const double x = double(at) + 3 * body;
       text << "o body\nv " << x << " 0 0\nv " << x + 1 << " 0 0\nv " << x << " 1 0\nv " << x << " 0 1\n";
-      for (const auto& [a, b, c] : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
-        text << "f " << first + a << ' ' << first + b << ' ' << first + c << '\n';
+      constexpr std::array<std::array<int, 3>, 4> faces{{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+      for (const auto& [a, b, c] : faces) text << "f " << first + a << ' ' << first + b << ' ' << first + c << '\n';
     }
     return folder.write(name, text.str());
   }
