@@ -201,6 +201,17 @@ TEST_F(RecordedSession, IsResetAndComesBackByUndo) {
   EXPECT_EQ(session.why_no_solver(), "the motion is recorded");
 }
 
+TEST_F(RecordedSession, EndsTheGhostOfTheSceneBefore) {
+  Session other(touching_pair(), {}, 1);
+  other.choose_ghost(softbody::IntegratorChoice{});
+  ASSERT_TRUE(other.ghost().get());
+  const softbody::Scene scene = softbody::test::scene_of(balls);
+  other.scenes.enter(session::make_window_world(scene, {}, 1), scene, "balls");
+  EXPECT_FALSE(other.ghost().get());
+  other.advance(tick);
+  EXPECT_EQ(other.world().frame(), 1);
+}
+
 TEST_F(RecordedSession, RefusesBodiesAndChangesNothing) {
   simulation.rewind_to(6);
   session.bodies.drop();

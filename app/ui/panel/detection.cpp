@@ -61,6 +61,9 @@ void draw_contact_surface(Widgets& w, Session& session) {
   session.settings.set_contact_surface(chosen);
 }
 
+/// Returns the format of lengths in a scene with this tolerance (m). A slider rounds its value to what it shows.
+const char* length_format(float usual) { return usual < 0.05f ? "%.3g m" : "%.3f m"; }
+
 bool draw_levels(Widgets& w, collide::Settings& settings, bool used) {
   ImGui::BeginDisabled(!used);
   w.row_label("Subdivision", w.px(label_column));
@@ -149,8 +152,7 @@ bool draw_cell_size(Widgets& w, collide::Settings& settings, bool& automatic, bo
   ImGui::BeginDisabled(automatic);
   float side = std::max({settings.cell_size.x, settings.cell_size.y, settings.cell_size.z});
   if (w.slider(
-          "Cell size", side, std::min(min_cell, usual / 5), std::max(max_cell, usual * 50),
-          usual < min_tolerance ? "%.3g m" : "%.3f m",
+          "Cell size", side, std::min(min_cell, usual / 5), std::max(max_cell, usual * 50), length_format(usual),
           "The side of a grid cell (§2.2). If it is smaller than a subdivided box, the paper's method skips cells.",
           true)) {
     settings.cell_size = glm::vec3(side);
@@ -182,7 +184,7 @@ void draw_detection(Widgets& w, Session& session, UiState& ui) {
   w.row_label("Tolerance", w.px(label_column));
   changed |= w.slider(
       "Tolerance", settings.tolerance, std::min(min_tolerance, usual / 20), std::max(max_tolerance, usual * 5),
-      usual < min_tolerance ? "%.3g m" : "%.3f m",
+      length_format(usual),
       !session.why_no_solver().empty() ? "Vertices closer than this are in contact (§2.3)."
       : uses_surface_contact(session)
           ? "Vertices closer than this are in contact (§2.3). With surface contact they do not push each other."
