@@ -9,28 +9,150 @@ namespace collide {
 
 namespace {
 
-/// Okabe and Ito's palette: colours that colour-blind eyes tell apart.
+/// The first six are Okabe and Ito's colours. The others are as far from all as colours can be for eyes of any kind.
 constexpr glm::vec3 rgb(int red, int green, int blue) {
   return glm::vec3(static_cast<float>(red) / 255, static_cast<float>(green) / 255, static_cast<float>(blue) / 255);
 }
 
-// key, name, summary, colour, exact, uses_levels, uses_hash, make
 constexpr std::array table{
-    Method{"brute-force", "Brute force", "Tests every vertex against every other: the exact reference.",
-           rgb(153, 153, 153), true, false, false, methods::make_brute_force},
-    Method{"grid-hash", "Grid Hash", "Hashes every vertex into a grid, without boxes (§3).", rgb(213, 94, 0), true,
-           false, true, methods::make_grid_hash},
-    Method{"bounding-box", "Bounding Box", "Tests all vertices of bodies whose boxes overlap (§3).", rgb(230, 159, 0),
-           true, false, false, methods::make_bounding_box},
-    Method{"bounding-box-grid-hash", "Bounding Box + Grid Hash",
-           "Hashes only the vertices of bodies whose boxes overlap (§3).", rgb(204, 121, 167), true, false, true,
-           methods::make_bounding_box_grid_hash},
-    Method{"multi-level-sb", "Multi-Level SB",
-           "The paper's method: hashes the eight corners of each subdivided box (§2). It can miss contacts.",
-           rgb(86, 180, 233), false, true, true, methods::make_multi_level_sb},
-    Method{"multi-level-sb-exact", "Multi-Level SB, exact",
-           "Searches only where bodies face each other, without a hash (§2.1, §5). It misses nothing.",
-           rgb(0, 158, 115), true, true, false, exact::make_multi_level_sb_exact},
+    Method{.key = "brute-force",
+           .name = "Brute force",
+           .summary = "Tests every vertex against every other: the exact reference.",
+           .description =
+               "Tests every vertex against every other. Choose it as the reference, or for a few hundred vertices. "
+               "Cost: n²/2 tests. It builds nothing and keeps nothing.",
+           .group = MethodGroup::rivals,
+           .shown = true,
+           .colour = rgb(153, 153, 153),
+           .marker = Marker::plus,
+           .exact = true,
+           .uses_levels = false,
+           .uses_hash = false,
+           .make = methods::make_brute_force},
+    Method{
+        .key = "grid-hash",
+        .name = "Grid Hash",
+        .summary = "Hashes every vertex into a grid, without boxes (§3).",
+        .description =
+            "Puts every vertex into a cell of a grid and hashes the cell (§2.2). Then it looks into all cells within "
+            "the tolerance, at any cell size, so it misses nothing. Choose it to see what the paper compares itself "
+            "with; where only contacts count, Sorted grid is the faster form. Cost: n hashes and those of the cells "
+            "around each vertex; linear in n if there are more buckets than vertices, else n². It rebuilds its "
+            "table in every frame. Source: the paper's §3; Teschner et al. 2003.",
+        .group = MethodGroup::rivals,
+        .shown = true,
+        .colour = rgb(213, 94, 0),
+        .marker = Marker::square,
+        .exact = true,
+        .uses_levels = false,
+        .uses_hash = true,
+        .make = methods::make_grid_hash},
+    Method{
+        .key = "bounding-box",
+        .name = "Bounding Box",
+        .summary = "Tests all vertices of bodies whose boxes overlap (§3).",
+        .description =
+            "Tests all vertices of two bodies whose boxes come within the tolerance, and all pairs inside each body. "
+            "Choose it for small bodies that seldom meet. Cost: linear in the number of bodies that stay apart, but "
+            "quadratic in the vertices of a body. It rebuilds the boxes in every frame. Source: the paper's §3.",
+        .group = MethodGroup::rivals,
+        .shown = false,
+        .colour = rgb(230, 159, 0),
+        .marker = Marker::triangle,
+        .exact = true,
+        .uses_levels = false,
+        .uses_hash = false,
+        .make = methods::make_bounding_box},
+    Method{
+        .key = "bounding-box-grid-hash",
+        .name = "Bounding Box + Grid Hash",
+        .summary = "Hashes only the vertices of bodies whose boxes overlap (§3).",
+        .description =
+            "Hashes only the vertices of bodies whose boxes come within the tolerance. With self-collision, these are "
+            "all bodies. Choose it over Grid Hash where most bodies are alone and none can touch itself. Cost: as "
+            "Grid Hash, for these vertices. It rebuilds boxes and table in every frame. Source: the paper's §3.",
+        .group = MethodGroup::rivals,
+        .shown = false,
+        .colour = rgb(204, 121, 167),
+        .marker = Marker::diamond,
+        .exact = true,
+        .uses_levels = false,
+        .uses_hash = true,
+        .make = methods::make_bounding_box_grid_hash},
+    Method{
+        .key = "multi-level-sb",
+        .name = "Multi-Level SB",
+        .summary = "The paper's method: hashes the eight corners of each subdivided box (§2). It can miss contacts.",
+        .description =
+            "The paper's method, to the letter; these pages also call it the literal method. It cuts the box of each "
+            "body into 2^levels boxes, hashes the eight corners of each, and tests the vertices of boxes that share "
+            "a bucket. Choose it to see what the paper describes: it misses contacts where a box is larger than a "
+            "cell, and some across the faces of cells. Cost: eight hashes for each of at most n boxes, and the tests "
+            "of boxes that share a bucket, be it by chance; linear in n with enough buckets, else n². It rebuilds "
+            "everything in every frame. Source: the paper's §2.",
+        .group = MethodGroup::paper,
+        .shown = true,
+        .colour = rgb(86, 180, 233),
+        .marker = Marker::circle,
+        .exact = false,
+        .uses_levels = true,
+        .uses_hash = true,
+        .make = methods::make_multi_level_sb},
+    Method{
+        .key = "multi-level-sb-complete",
+        .name = "Multi-Level SB, complete",
+        .summary = "The paper's method with padded boxes in all cells that they overlap (§2). It misses nothing.",
+        .description =
+            "The paper's method with one change, so that it misses nothing: a box is padded by half the tolerance and "
+            "goes into every cell that it overlaps, not only into those of its corners. Choose it to see what "
+            "completeness costs where nothing else is changed. Cost: a hash for each of these cells, at most eight a "
+            "box at the default cell size, and many more where cells are small; else as the paper's method. It "
+            "rebuilds everything in every frame. Source: the paper's §2; the change is ours.",
+        .group = MethodGroup::paper,
+        .shown = false,
+        .colour = rgb(0, 114, 178),
+        .marker = Marker::filled_pentagon,
+        .exact = true,
+        .uses_levels = true,
+        .uses_hash = true,
+        .make = methods::make_multi_level_sb_complete},
+    Method{
+        .key = "multi-level-sb-exact",
+        .name = "Multi-Level SB, exact",
+        .summary = "Searches only where bodies face each other, without a hash (§2.1, §5). It misses nothing.",
+        .description =
+            "Keeps the paper's idea (boxes of bodies, midpoint cuts, a tree over the area where two bodies overlap, "
+            "which §5 names as future work) and drops the hash. Of two near bodies it looks only at the vertices that "
+            "face the other body, and it proves of most bodies that they cannot touch themselves. Choose it wherever "
+            "contacts are what you need: it is the fastest here and misses nothing. Cost: linear in n and in the "
+            "pairs of near bodies. It searches from scratch in every frame, but bodies at rest keep their contacts. "
+            "Source: the paper's §2.1 and §5; the rest is ours.",
+        .group = MethodGroup::paper,
+        .shown = true,
+        .colour = rgb(0, 158, 115),
+        .marker = Marker::disc,
+        .exact = true,
+        .uses_levels = true,
+        .uses_hash = false,
+        .make = exact::make_multi_level_sb_exact},
+    Method{
+        .key = "sorted-grid",
+        .name = "Sorted grid",
+        .summary = "Sorts all vertices into cells of the tolerance's size, by counting.",
+        .description =
+            "Sorts all vertices into the cells of a uniform grid by counting, and tests each against those of its own "
+            "and of the 26 adjacent cells. Cells are as large as the tolerance. Choose it for particles, or for "
+            "meshes whose bodies mean little, at a tolerance below the distance of neighbours. Cost: linear in n, "
+            "and in the pairs that are about as close as the tolerance. It rebuilds the grid in every frame. "
+            "Source: Green 2008, \"CUDA Particles\"; the grid is rolled up so that its size follows n alone.",
+        .group = MethodGroup::sorted,
+        .shown = true,
+        .colour = rgb(0, 68, 238),
+        .marker = Marker::filled_square,
+        .exact = true,
+        .uses_levels = false,
+        .uses_hash = false,
+        .make = methods::make_sorted_grid},
 };
 
 }  // namespace

@@ -5,6 +5,23 @@
 
 namespace collide {
 
+namespace {
+
+/// Calls test(rows) for parts of a run that is tested against so many others, so that the number of contacts is looked
+/// at now and then.
+template <class Test>
+void for_rows(Range a, std::uint64_t others, const Test& test) {
+  constexpr std::uint64_t max_tests = 1u << 20;
+  const Index max_rows =
+      a.size() * others <= max_tests ? a.size() : static_cast<Index>(std::max(max_tests / others, std::uint64_t{1}));
+  for (Range rows{a.begin, a.begin}; rows.begin < a.end; rows.begin = rows.end) {
+    rows.end = rows.begin + std::min(max_rows, a.end - rows.begin);
+    test(rows);
+  }
+}
+
+}  // namespace
+
 void ContactSearch::begin(const Frame& frame, const Settings& settings, const Points& points, int threads) {
   frame_ = &frame;
   points_ = &points;
@@ -23,22 +40,22 @@ void ContactSearch::test(int thread, Range a, Range b) {
   assert((b.begin == a.begin && b.end >= a.end) || b.begin >= a.end);
   Thread& own = threads_[static_cast<std::size_t>(thread)];
   const std::uint64_t na = a.size(), nb = b.size();
-  constexpr std::uint64_t max_tests = 1u << 20;  // between two looks at the number of contacts
-  const Index max_rows =
-      na * nb <= max_tests ? a.size() : static_cast<Index>(std::max(max_tests / nb, std::uint64_t{1}));
-  for (Range rows{a.begin, a.begin}; rows.begin < a.end; rows.begin = rows.end) {
-    rows.end = rows.begin + std::min(max_rows, a.end - rows.begin);
+  for_rows(a, nb, [&](Range rows) {
     near_pairs(*points_, rows, b, tolerance2_, own.hits);
     keep_contacts(own);
-  }
+  });
   own.pair_tests += na * nb - (a.begin == b.begin ? na * (na + 1) / 2 : 0);
 }
 
 void ContactSearch::test(int thread, Range a, std::span<const Range> runs) {
   Thread& own = threads_[static_cast<std::size_t>(thread)];
-  near_pairs(*points_, a, runs, tolerance2_, own.hits);
-  keep_contacts(own);
-  for (const Range run : runs) own.pair_tests += std::uint64_t{a.size()} * run.size();
+  std::uint64_t columns = 0;
+  for (const Range run : runs) columns += run.size();
+  for_rows(a, columns, [&](Range rows) {
+    near_pairs(*points_, rows, runs, tolerance2_, own.hits);
+    keep_contacts(own);
+  });
+  own.pair_tests += a.size() * columns;
 }
 
 void ContactSearch::keep_contacts(Thread& own) {

@@ -20,7 +20,7 @@ class ContactSearch {
   /// contacts.
   void test(int thread, Range a, Range b);
 
-  /// Does the same for each of many short runs that lie behind a: 2^20 pairs at most.
+  /// Does the same for each of many short runs. None of them overlaps a.
   void test(int thread, Range a, std::span<const Range> runs);
 
   /// Adds the sorted contacts, the number of self contacts and the pair tests to a result that BodyBoxes::build()

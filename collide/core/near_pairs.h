@@ -13,7 +13,7 @@ struct SlotPair {
 /// Appends every pair of slots i < j, i from a and j from b, with squared_distance < tolerance2.
 void near_pairs(const Points& points, Range a, Range b, float tolerance2, std::vector<SlotPair>& hits);
 
-/// Does the same for each of many short runs b that lie behind a.
+/// Appends every pair of a slot of a and a slot of one of many short runs, which do not overlap a.
 void near_pairs(const Points& points, Range a, std::span<const Range> runs, float tolerance2,
                 std::vector<SlotPair>& hits);
 

@@ -21,4 +21,9 @@ void Points::gather(const Frame& frame, std::span<const Index> which, std::vecto
   resize(slot);
 }
 
+VertexList::VertexList(const Bodies& bodies, std::span<const Index> which) : bodies_(&bodies), which_(which) {
+  first_.reserve(which.size() + 1);
+  for (const Index body : which) first_.push_back(first_.back() + bodies.size(body));
+}
+
 }  // namespace collide

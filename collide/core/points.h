@@ -2,6 +2,7 @@
 // Vertices in the order in which a method tests them.
 
 #include "collide/core/frame.h"
+#include "collide/core/workers.h"
 
 namespace collide {
 
@@ -33,6 +34,30 @@ struct Points {
 
  private:
   Index size_ = 0;
+};
+
+/// The vertices of some bodies, numbered one after another.
+class VertexList {
+ public:
+  VertexList(const Bodies& bodies, std::span<const Index> which);
+
+  Index size() const { return first_.back(); }
+  /// Calls visit(number, vertex, body) for a part of the vertices; ascending.
+  template <class Visit>
+  void for_each(Part part, const Visit& visit) const {
+    auto number = static_cast<Index>(part.begin);
+    for (auto k = static_cast<std::size_t>(std::upper_bound(first_.begin(), first_.end(), number) - first_.begin()) - 1;
+         number < part.end; ++k) {
+      const Index body = which_[k], first_vertex = bodies_->first[body] - first_[k];
+      const Index end = std::min(first_[k + 1], static_cast<Index>(part.end));
+      for (; number < end; ++number) visit(number, first_vertex + number, body);
+    }
+  }
+
+ private:
+  const Bodies* bodies_;
+  std::span<const Index> which_;
+  std::vector<Index> first_{0};  // the number of each body's first vertex
 };
 
 }  // namespace collide

@@ -27,6 +27,8 @@ std::unique_ptr<Detector> make_grid_hash();
 std::unique_ptr<Detector> make_bounding_box();
 std::unique_ptr<Detector> make_bounding_box_grid_hash();
 std::unique_ptr<Detector> make_multi_level_sb();
+std::unique_ptr<Detector> make_multi_level_sb_complete();
+std::unique_ptr<Detector> make_sorted_grid();
 
 /// What debug() of the paper's method shows on a frame, without the search for contacts, which may take far longer.
 /// Copies share the memory that it keeps from frame to frame: not for two threads at once.

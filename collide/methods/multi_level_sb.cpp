@@ -1,6 +1,10 @@
 // Multi-Level SB Collide as the paper has it (§2): eight corner hashes a box. A box that exceeds a cell skips the cells
-// between its corners, and boxes are not padded by the tolerance, so contacts can be missed.
+// between its corners, and boxes are not padded by the tolerance, so contacts can be missed. And the same method made
+// complete: only its §2.2 differs, which says into which buckets a box goes.
 
+#include <algorithm>
+
+#include "collide/core/cutoff.h"
 #include "collide/methods/box_table.h"
 #include "collide/methods/cell_hash.h"
 #include "collide/methods/detectors.h"
@@ -34,36 +38,6 @@ Sides<std::int64_t> indices_of(const Aabb& box, const CellHash& hash) {
   return indices;
 }
 
-/// §2.2: the buckets of the corner points of a body's boxes. Corners lie on the borders of its cuts and share them.
-class CornerHash {
- public:
-  CornerHash(const Aabb& body, int levels, const CellHash& hash) : hash_(hash) {
-    const std::array<Cuts, 3> cuts = cuts_of(body, levels);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const int a = static_cast<int>(axis);
-      for (std::size_t border = 0; border <= static_cast<std::size_t>(cuts[axis].intervals()); ++border) {
-        residue_[axis][border] = hash.residue(a, hash.index(a, cuts[axis].border[border]));
-      }
-    }
-  }
-
-  std::array<std::uint32_t, 8> buckets(const SubdividedBox& box) const {
-    Sides<std::uint32_t> sides;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t low = box.interval[axis];
-      sides[axis] = {residue_[axis][low], residue_[axis][low + 1]};
-    }
-    std::array<std::uint32_t, 8> buckets;
-    std::size_t corner = 0;
-    for_each_corner(sides, [&](auto x, auto y, auto z) { buckets[corner++] = hash_.bucket_of_residues(x, y, z); });
-    return buckets;
-  }
-
- private:
-  const CellHash& hash_;
-  std::array<std::array<std::uint32_t, (1 << Cuts::max_depth) + 1>, 3> residue_;
-};
-
 bool exceeds_cell(const Aabb& box, const glm::vec3& cell) {
   for (int axis = 0; axis < 3; ++axis) {
     if (double{box.hi[axis]} - double{box.lo[axis]} > double{cell[axis]}) return true;
@@ -71,6 +45,96 @@ bool exceeds_cell(const Aabb& box, const glm::vec3& cell) {
   return false;
 }
 
+/// §2.2 to the letter: a box goes into the buckets of its eight corners. Corners lie on the borders of the body's cuts
+/// and share them.
+class CornerHash {
+ public:
+  CornerHash(const Settings& settings, std::size_t, Index) : settings_(settings), hash_(settings) {}
+
+  void begin_body(const Aabb& body) {
+    const std::array<Cuts, 3> cuts = cuts_of(body, settings_.levels);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int a = static_cast<int>(axis);
+      for (std::size_t border = 0; border <= static_cast<std::size_t>(cuts[axis].intervals()); ++border) {
+        residue_[axis][border] = hash_.residue(a, hash_.index(a, cuts[axis].border[border]));
+      }
+    }
+  }
+
+  std::span<const std::uint32_t> buckets(const SubdividedBox& box) {
+    Sides<std::uint32_t> sides;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t low = box.interval[axis];
+      sides[axis] = {residue_[axis][low], residue_[axis][low + 1]};
+    }
+    std::size_t corner = 0;
+    for_each_corner(sides, [&](auto x, auto y, auto z) { buckets_[corner++] = hash_.bucket_of_residues(x, y, z); });
+    exceeded_ = exceeded_ || exceeds_cell(box.region, settings_.cell_size);
+    return buckets_;
+  }
+
+  Coverage coverage() const { return exceeded_ ? Coverage::exceeded : Coverage::covered; }
+
+  /// Adds the cells that a box is hashed into.
+  void list_cells(const SubdividedBox& box, CellList& cells) const {
+    for_each_corner(indices_of(box.region, hash_), [&](auto x, auto y, auto z) { cells.add({x, y, z}, hash_); });
+  }
+
+ private:
+  Settings settings_;
+  CellHash hash_;
+  std::array<std::array<std::uint32_t, (1 << Cuts::max_depth) + 1>, 3> residue_;
+  std::array<std::uint32_t, 8> buckets_;
+  bool exceeded_ = false;
+};
+
+/// §2.2 made complete: a box, padded by half the cutoff, goes into the bucket of every cell that it overlaps.
+///
+/// Then two boxes with vertices p, q in contact share a cell. With h half the cutoff, p - q <= 2h along each axis, so
+/// p - h <= q + h. The region of a box holds its vertices, and rounding and the index of a cell are monotonic, so the
+/// first cell of p's box is not behind the last one of q's, and the other way round.
+class OverlapHash {
+ public:
+  OverlapHash(const Settings& settings, std::size_t boxes, Index vertices)
+      : hash_(settings),
+        half_(contact_cutoff(settings.tolerance) / 2.0),
+        max_cells_(std::min(std::max(64.0, vertices / 32.0),  // beyond, the test of all vertices takes less time
+                            std::max(8.0, 0x1p24 / static_cast<double>(boxes)))) {}
+
+  void begin_body(const Aabb&) {}
+
+  /// Returns no bucket for a box that overlaps too many cells to list them.
+  std::span<const std::uint32_t> buckets(const SubdividedBox& box) {
+    buckets_.clear();
+    if (const CellRange cells = cells_of(box); cells.count() <= max_cells_) {
+      cells.for_each([&](const CellHash::Cell& cell) { buckets_.push_back(hash_.bucket(cell)); });
+    }
+    return buckets_;
+  }
+
+  Coverage coverage() const { return Coverage::exact; }
+
+  void list_cells(const SubdividedBox& box, CellList& list) const {
+    const CellRange cells = cells_of(box);
+    if (cells.count() > max_cells_) return;
+    cells.for_each([&](const CellHash::Cell& cell) { list.add(cell, hash_); });
+  }
+
+ private:
+  CellRange cells_of(const SubdividedBox& box) const {
+    const auto cell_at = [&](const glm::vec3& corner, double by) {
+      return hash_.cell(corner.x + by, corner.y + by, corner.z + by);
+    };
+    return {cell_at(box.region.lo, -half_), cell_at(box.region.hi, half_)};
+  }
+
+  CellHash hash_;
+  double half_, max_cells_;
+  std::vector<std::uint32_t> buckets_;
+};
+
+/// Hashing: CornerHash or OverlapHash.
+template <class Hashing>
 class MultiLevelSb final : public Detector {
  public:
   /// All of a frame but its contacts.
@@ -78,7 +142,7 @@ class MultiLevelSb final : public Detector {
     settings_ = settings;
     bodies_.build(frame, result);
     subdivision_.build(frame, bodies_, bodies_.live, settings.levels, workers);  // §2.1
-    hash_corners(result);                                                        // §2.2
+    hash_boxes(result);                                                          // §2.2
   }
 
   void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
@@ -92,11 +156,11 @@ class MultiLevelSb final : public Detector {
 
   DebugGeometry debug() const override {
     DebugGeometry geometry;
-    const CellHash hash(settings_);
+    const Hashing hashing(settings_, subdivision_.boxes().size(), subdivision_.points().size());
     CellList cells;
     for (const SubdividedBox& box : subdivision_.boxes()) {
       geometry.boxes.push_back({box.region.lo, box.region.hi, box.body});
-      for_each_corner(indices_of(box.region, hash), [&](auto x, auto y, auto z) { cells.add({x, y, z}, hash); });
+      hashing.list_cells(box, cells);
     }
     geometry.cells = cells.take();
     table_.describe(geometry);
@@ -104,26 +168,25 @@ class MultiLevelSb final : public Detector {
   }
 
  private:
-  void hash_corners(Result& result) {
-    const CellHash hash(settings_);
-    bool exceeded = false;
+  void hash_boxes(Result& result) {
+    const std::vector<SubdividedBox>& boxes = subdivision_.boxes();
+    Hashing hashing(settings_, boxes.size(), subdivision_.points().size());
     table_.clear();
     end_of_body_.resize(bodies_.box.size());
-    const std::vector<SubdividedBox>& boxes = subdivision_.boxes();
     for (std::size_t next = 0; next < boxes.size();) {
       const Index body = boxes[next].body;
-      const CornerHash corners(bodies_.box[body], settings_.levels, hash);
+      hashing.begin_body(bodies_.box[body]);
       for (; next < boxes.size() && boxes[next].body == body; ++next) {
-        table_.add(corners.buckets(boxes[next]));
-        exceeded = exceeded || exceeds_cell(boxes[next].region, settings_.cell_size);
+        const std::span<const std::uint32_t> buckets = hashing.buckets(boxes[next]);
+        table_.add(buckets);
+        result.counters.hashes += buckets.size();
       }
       end_of_body_[body] = static_cast<Index>(next);
     }
     table_.build(settings_.buckets);
     table_.buckets().count(result.counters);
     result.counters.boxes = table_.size();
-    result.counters.hashes = 8 * table_.size();
-    result.coverage = exceeded ? Coverage::exceeded : Coverage::covered;
+    result.coverage = hashing.coverage();
   }
 
   void test_boxes(int thread, int threads) {
@@ -149,10 +212,12 @@ class MultiLevelSb final : public Detector {
 
 }  // namespace
 
-std::unique_ptr<Detector> make_multi_level_sb() { return std::make_unique<MultiLevelSb>(); }
+std::unique_ptr<Detector> make_multi_level_sb() { return std::make_unique<MultiLevelSb<CornerHash>>(); }
+std::unique_ptr<Detector> make_multi_level_sb_complete() { return std::make_unique<MultiLevelSb<OverlapHash>>(); }
 
 PaperStructure make_paper_structure() {
-  return [method = std::make_shared<MultiLevelSb>()](const Frame& frame, const Settings& settings, Workers& workers) {
+  return [method = std::make_shared<MultiLevelSb<CornerHash>>()](const Frame& frame, const Settings& settings,
+                                                                 Workers& workers) {
     Result unused;
     method->build(frame, settings, workers, unused);
     return method->debug();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "states.h"
@@ -9,25 +10,52 @@
 namespace collide::test {
 namespace {
 
-TEST(Methods, HasTheSixOfTheCommandLine) {
+TEST(Methods, AreThoseOfTheCommandLine) {
   EXPECT_EQ(method_keys(),
-            "brute-force, grid-hash, bounding-box, bounding-box-grid-hash, multi-level-sb, multi-level-sb-exact");
+            "brute-force, grid-hash, bounding-box, bounding-box-grid-hash, multi-level-sb, multi-level-sb-complete, "
+            "multi-level-sb-exact, sorted-grid");
   EXPECT_NE(find_method(default_method), nullptr);
   EXPECT_EQ(find_method("nearly"), nullptr);
 }
 
 TEST(Methods, TellsThemApart) {
-  std::set<std::string_view> keys, names;
+  std::set<std::string_view> keys, names, summaries, descriptions;
   std::set<std::array<float, 3>> colours;
+  std::set<Marker> markers;
   for (const Method& method : method_table()) {
     keys.insert(method.key);
     names.insert(method.name);
+    summaries.insert(method.summary);
+    descriptions.insert(method.description);
     colours.insert({method.colour.x, method.colour.y, method.colour.z});
+    markers.insert(method.marker);
     EXPECT_EQ(method.exact, method.key != "multi-level-sb");
   }
-  EXPECT_EQ(keys.size(), method_table().size());
-  EXPECT_EQ(names.size(), method_table().size());
-  EXPECT_EQ(colours.size(), method_table().size());
+  for (const std::size_t different :
+       {keys.size(), names.size(), summaries.size(), descriptions.size(), colours.size(), markers.size()}) {
+    EXPECT_EQ(different, method_table().size());
+  }
+}
+
+TEST(Methods, StandByGroupAndFewAreShown) {
+  EXPECT_TRUE(std::ranges::is_sorted(method_table(), {}, &Method::group));
+  EXPECT_TRUE(std::ranges::is_sorted(method_groups, {}, &MethodGroupName::group));
+  const auto shown = std::ranges::count_if(method_table(), &Method::shown);
+  EXPECT_TRUE(shown >= 3 && shown <= 6) << shown;
+  EXPECT_TRUE(find_method(default_method)->shown && find_method(paper_method)->shown);
+}
+
+/// What every description says.
+TEST(Methods, AreDescribedByUseCostAndUpdate) {
+  for (const Method& method : method_table()) {
+    EXPECT_NE(method.description.find("Choose it "), std::string_view::npos) << method.key;
+    EXPECT_NE(method.description.find("Cost: "), std::string_view::npos) << method.key;
+    const bool says = method.description.find("rebuilds") != std::string_view::npos ||
+                      method.description.find("refits") != std::string_view::npos ||
+                      method.description.find("from scratch") != std::string_view::npos ||
+                      method.description.find("builds nothing") != std::string_view::npos;
+    EXPECT_TRUE(says) << method.key;
+  }
 }
 
 TEST(Methods, NamesBodiesThatAreNotFinite) {

@@ -1,4 +1,4 @@
-// The tables of the documents that follow from the program:
+// The parts of documents that follow from the program:
 //
 //   test_documents --write
 //
@@ -9,14 +9,14 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
+#include "collide/methods.h"
 #include "softbody/forces/material_keys.h"
 #include "softbody/mesh/shortest_text.h"
 
 namespace softbody::test {
 namespace {
-
-constexpr const char* scene_format = SBCOLLIDE_SCENES "/README.md";
 
 std::string read(const char* file) {
   std::ifstream in(file);
@@ -38,25 +38,73 @@ std::string table_of_keys() {
     text.append(" | ").append(shown(key->limits.least) + between + shown(key->limits.most));
     text.append(" | ").append(key->summary).append(" |\n");
   }
+  text.pop_back();  // the end of the last line
   return text;
 }
 
-/// Returns the page with the table of keys in place of the one that it has.
-std::string with_table(const std::string& page) {
-  const std::size_t begin = page.find(head), end = page.find("\n\n", begin);
-  if (begin == std::string::npos || end == std::string::npos) return page;
-  return page.substr(0, begin) + table_of_keys() + page.substr(end + 1);
+/// Returns the text in lines of at most 120 characters. A byte counts as one, so that some lines are shorter.
+std::string wrapped(const std::string& text) {
+  std::istringstream words(text);
+  std::string lines, word;
+  std::size_t length = 0;
+  while (words >> word) {
+    if (length > 0) {
+      const bool fits = length + 1 + word.size() <= 120;
+      lines += fits ? ' ' : '\n';
+      length = fits ? length + 1 : 0;
+    }
+    lines += word;
+    length += word.size();
+  }
+  return lines + "\n";
 }
 
-TEST(SceneFormat, HasTheTableOfAllKeysOfMaterials) {
-  const std::string page = read(scene_format);
-  EXPECT_TRUE(page.find("\n" + table_of_keys() + "\n") != std::string::npos) << "write it anew: test_documents --write";
-  EXPECT_TRUE(with_table(page) == page);
+std::string descriptions_of_methods() {
+  std::string text;
+  for (const collide::MethodGroupName& group : collide::method_groups) {
+    text.append("### ").append(group.name).append("\n");
+    for (const collide::Method& method : collide::method_table()) {
+      if (method.group != group.group) continue;
+      std::string paragraph("**");
+      paragraph.append(method.name).append("** (`").append(method.key).append("`). ").append(method.description);
+      text.append("\n").append(wrapped(paragraph));
+    }
+    text.append("\n");
+  }
+  return text;
+}
+
+/// A part of a page: from `begin` to before the next `end`.
+struct Part {
+  const char* page;
+  std::string begin, end, text;
+
+  std::string replaced_in(const std::string& whole) const {
+    const std::size_t first = whole.find(begin), last = whole.find(end, first);
+    if (first == std::string::npos || last == std::string::npos) return {};
+    return whole.substr(0, first) + text + whole.substr(last);
+  }
+};
+
+std::vector<Part> parts() {
+  return {{SBCOLLIDE_SOURCES "/assets/scenes/README.md", head, "\n\n", table_of_keys()},
+          {SBCOLLIDE_SOURCES "/collide/README.md", "### The paper's rivals\n", "## How the paper's method works\n",
+           descriptions_of_methods()}};
+}
+
+TEST(Documents, HaveTheTextOfTheProgram) {
+  for (const Part& part : parts()) {
+    const std::string page = read(part.page);
+    EXPECT_TRUE(part.replaced_in(page) == page) << part.page << ": write it anew: test_documents --write";
+  }
 }
 
 int write() {
-  const std::string page = with_table(read(scene_format));
-  return std::ofstream(scene_format) << page ? 0 : 1;
+  for (const Part& part : parts()) {
+    const std::string page = part.replaced_in(read(part.page));
+    if (page.empty() || !(std::ofstream(part.page) << page)) return 1;
+  }
+  return 0;
 }
 
 }  // namespace
