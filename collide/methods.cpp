@@ -153,6 +153,78 @@ constexpr std::array table{
         .uses_levels = false,
         .uses_hash = false,
         .make = methods::make_sorted_grid},
+    Method{
+        .key = "sweep-and-prune",
+        .name = "Sweep and prune",
+        .summary = "Sorts boxes of bodies, then of patches of 16 vertices, along one axis.",
+        .description =
+            "Sorts the boxes of the bodies along the axis on which they are spread widest and keeps the pairs that "
+            "overlap on all three; inside these pairs, and inside each body, it does the same with boxes around "
+            "patches of up to 16 neighbouring vertices. Choose it for few bodies, or for bodies in a long row; it is "
+            "simple, and most physics engines have it. Cost: sorting, and all pairs of boxes that overlap along that "
+            "one axis, so more than linear in the number of bodies of a heap. It cuts the patches once, refits their "
+            "boxes and rebuilds the order in every frame. Source: Baraff 1992; Cohen et al. 1995.",
+        .group = MethodGroup::sorted,
+        .shown = false,
+        .colour = rgb(170, 238, 136),
+        .marker = Marker::cross,
+        .exact = true,
+        .uses_levels = false,
+        .uses_hash = false,
+        .make = methods::make_sweep_and_prune},
+    Method{.key = "aabb-tree",
+           .name = "AABB tree",
+           .summary = "Goes down a tree of boxes for each body, refitted, and one over the bodies.",
+           .description =
+               "Keeps a tree of boxes for each body, whose leaves are patches of up to 16 neighbouring vertices, and a "
+               "tree over the bodies; goes down all of them with pairs of boxes that come within the tolerance. Choose "
+               "it for meshes that bend but stay whole: it is the usual way of physics engines, and it has no setting. "
+               "Cost: linear in n to refit, n log n over the bodies, and about log n for each pair of near patches. It "
+               "cuts the bodies once, refits their trees and rebuilds the one over the bodies in every frame. Source: "
+               "van den Bergen 1997.",
+           .group = MethodGroup::trees,
+           .shown = true,
+           .colour = rgb(153, 68, 51),
+           .marker = Marker::filled_triangle,
+           .exact = true,
+           .uses_levels = false,
+           .uses_hash = false,
+           .make = methods::make_aabb_tree},
+    Method{
+        .key = "kd-tree",
+        .name = "k-d tree",
+        .summary = "Halves all vertices again and again at medians, and compares the tree with itself.",
+        .description =
+            "Halves all vertices near the median across the longest side, again and again, whatever body they belong "
+            "to, and goes down the tree with pairs of boxes that come within the tolerance. Choose it for scattered "
+            "points of very uneven density. Cost: n log n to build, and about log n for each pair of near leaves. It "
+            "rebuilds the tree in every frame. Source: Bentley 1975.",
+        .group = MethodGroup::trees,
+        .shown = false,
+        .colour = rgb(187, 102, 255),
+        .marker = Marker::filled_diamond,
+        .exact = true,
+        .uses_levels = false,
+        .uses_hash = false,
+        .make = methods::make_kd_tree},
+    Method{
+        .key = "octree",
+        .name = "Octree",
+        .summary = "Cuts the box of all vertices into eight again and again, and compares the tree with itself.",
+        .description =
+            "Cuts the box of all vertices into up to eight parts at the middle of its sides, again and again, and "
+            "goes down the tree with pairs of boxes that come within the tolerance. Choose it where a k-d tree would "
+            "serve and building counts: it has fewer levels, but leaves of uneven size. Cost: n log n to build for "
+            "points of even density, and about log n for each pair of near leaves. It rebuilds the tree in every "
+            "frame. Source: Meagher 1980.",
+        .group = MethodGroup::trees,
+        .shown = false,
+        .colour = rgb(0, 238, 238),
+        .marker = Marker::filled_inverted_triangle,
+        .exact = true,
+        .uses_levels = false,
+        .uses_hash = false,
+        .make = methods::make_octree},
 };
 
 }  // namespace

@@ -7,7 +7,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # model/body_model.cpp still makes the data of the forces.
 allowed="
 collide/core:
-collide/methods: collide/core
+collide/trees: collide/core
+collide/methods: collide/core collide/trees
 collide/exact: collide/core
 collide/surface: collide/core
 collide/oracle: collide/core collide/surface

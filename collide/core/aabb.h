@@ -22,6 +22,11 @@ inline bool near(const Aabb& a, const Aabb& b, float cutoff) {
          a.lo.z - b.hi.z <= cutoff && b.lo.z - a.hi.z <= cutoff;
 }
 
+/// Returns the axis along which a side, or half of it, is longest.
+inline int longest_axis(const glm::vec3& side) {
+  return side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
+}
+
 /// Sweep and prune: calls meet(a, b) once for every two different items of `order` whose boxes box_of(a), box_of(b) are
 /// near(). Sorts `order` along the axis on which the boxes are spread widest.
 template <class BoxOf, class Meet>
@@ -35,10 +40,7 @@ void sweep(std::vector<Index>& order, float cutoff, const BoxOf& box_of, const M
       most[axis] = std::max(most[axis], lo[axis]);
     }
   }
-  int axis = 0;
-  for (int other = 1; other < 3; ++other) {
-    if (most[other] - least[other] > most[axis] - least[axis]) axis = other;
-  }
+  const int axis = longest_axis(most - least);
   std::sort(order.begin(), order.end(), [&](Index a, Index b) {
     const float x = box_of(a).lo[axis], y = box_of(b).lo[axis];
     return x != y ? x < y : a < b;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "collide/core/cutoff.h"
+
 namespace collide {
 
 namespace {
@@ -26,6 +28,7 @@ void ContactSearch::begin(const Frame& frame, const Settings& settings, const Po
   frame_ = &frame;
   points_ = &points;
   tolerance2_ = settings.tolerance * settings.tolerance;
+  cutoff_ = contact_cutoff(settings.tolerance);
   self_collision_ = settings.self_collision;
   found_ = 0;
   threads_.resize(static_cast<std::size_t>(threads));
@@ -58,6 +61,15 @@ void ContactSearch::test(int thread, Range a, std::span<const Range> runs) {
   own.pair_tests += a.size() * columns;
 }
 
+void ContactSearch::test(int thread, Range a, Range b, const Aabb& box_of_b) {
+  Thread& own = threads_[static_cast<std::size_t>(thread)];
+  for_rows(a, b.size(), [&](Range rows) {
+    const std::uint64_t tested = near_pairs(*points_, rows, b, box_of_b, cutoff_, tolerance2_, own.hits);
+    keep_contacts(own);
+    own.pair_tests += tested * b.size();
+  });
+}
+
 void ContactSearch::keep_contacts(Thread& own) {
   if (own.hits.empty()) return;
   const Points& points = *points_;
@@ -78,12 +90,38 @@ void ContactSearch::keep_contacts(Thread& own) {
 }
 
 void ContactSearch::finish(Result& result) {
+  sort_into(result.contacts);
   for (const Thread& thread : threads_) {
-    result.contacts.insert(result.contacts.end(), thread.contacts.begin(), thread.contacts.end());
     result.self_contacts += thread.self_contacts;
     result.counters.pair_tests += thread.pair_tests;
   }
-  std::sort(result.contacts.begin(), result.contacts.end());
+}
+
+/// By counting their first vertices, where there are enough contacts for the pass over all vertices.
+void ContactSearch::sort_into(std::vector<Contact>& contacts) {
+  const std::size_t vertices = frame_->bodies->vertex_count();
+  contacts.clear();
+  if (found_ < vertices / 16) {
+    for (const Thread& thread : threads_) {
+      contacts.insert(contacts.end(), thread.contacts.begin(), thread.contacts.end());
+    }
+    return std::sort(contacts.begin(), contacts.end());
+  }
+  end_.assign(vertices + 1, 0);
+  for (const Thread& thread : threads_) {
+    for (const Contact& contact : thread.contacts) ++end_[contact.a + std::size_t{1}];
+  }
+  for (std::size_t v = 0; v < vertices; ++v) end_[v + 1] += end_[v];
+  contacts.resize(found_);
+  for (const Thread& thread : threads_) {
+    for (const Contact& contact : thread.contacts) contacts[end_[contact.a]++] = contact;
+  }
+  auto begin = contacts.begin();  // end_[v] is now where the contacts of v end
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const auto end = contacts.begin() + end_[v];
+    if (end - begin > 1) std::sort(begin, end);
+    begin = end;
+  }
 }
 
 }  // namespace collide

@@ -23,6 +23,10 @@ class ContactSearch {
   /// Does the same for each of many short runs. None of them overlaps a.
   void test(int thread, Range a, std::span<const Range> runs);
 
+  /// Does the same for a run b that does not overlap a, and that lies in a box: only the slots of a near the box are
+  /// tested.
+  void test(int thread, Range a, Range b, const Aabb& box_of_b);
+
   /// Adds the sorted contacts, the number of self contacts and the pair tests to a result that BodyBoxes::build()
   /// cleared.
   void finish(Result& result);
@@ -34,13 +38,15 @@ class ContactSearch {
     std::uint64_t self_contacts, pair_tests;
   };
   void keep_contacts(Thread& own);
+  void sort_into(std::vector<Contact>& contacts);
 
   const Frame* frame_ = nullptr;
   const Points* points_ = nullptr;
-  float tolerance2_ = 0;
+  float tolerance2_ = 0, cutoff_ = 0;
   bool self_collision_ = true;
   std::vector<Thread> threads_;
   std::atomic<std::size_t> found_ = 0;
+  std::vector<std::uint32_t> end_;  // of each vertex's contacts
 };
 
 }  // namespace collide

@@ -11,8 +11,7 @@ struct MidpointCut {
 };
 
 inline MidpointCut cut_of(const Aabb& box) {
-  const glm::vec3 side = box.hi - box.lo;
-  const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
+  const int axis = longest_axis(box.hi - box.lo);
   return {axis, box.lo[axis] * 0.5f + box.hi[axis] * 0.5f};
 }
 

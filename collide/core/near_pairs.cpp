@@ -68,6 +68,31 @@ void NearRuns(const Points& points, Range a, std::span<const Range> runs, float 
   }
 }
 
+Index NearPairsInBox(const Points& points, Range a, Range b, const Aabb& box, float cutoff, float tolerance2,
+                     std::vector<SlotPair>& hits) {
+  const Floats tag;
+  const V limit = all(cutoff);
+  const auto within = [limit](V at, float lo, float hi) HWY_ATTR {  // as near()
+    return hn::And(hn::Le(hn::Sub(at, all(hi)), limit), hn::Le(hn::Sub(all(lo), at), limit));
+  };
+  Index rows = 0;
+  for (Index first = a.begin; first < a.end; first += lanes) {
+    const Block<Floats> block = block_at(tag, points, first);
+    const M near =
+        hn::And(hn::And(within(block.x, box.lo.x, box.hi.x), within(block.y, box.lo.y, box.hi.y)),
+                hn::And(within(block.z, box.lo.z, box.hi.z), hn::FirstN(tag, std::min(lanes, a.end - first))));
+    for (std::uint64_t bits = bits_of(tag, near); bits != 0; bits &= bits - 1) {
+      const Index i = first + static_cast<Index>(std::countr_zero(bits));
+      ++rows;
+      for (Index j = b.begin; j < b.end; j += lanes) {
+        const M mask = close(tag, points, i, block_at(tag, points, j), tolerance2);
+        if (HWY_UNLIKELY(!hn::AllFalse(tag, mask))) append(tag, mask, i, j, b.end, hits);
+      }
+    }
+  }
+  return rows;
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace collide
@@ -78,6 +103,7 @@ namespace collide {
 
 HWY_EXPORT(NearPairs);
 HWY_EXPORT(NearRuns);
+HWY_EXPORT(NearPairsInBox);
 
 void near_pairs(const Points& points, Range a, Range b, float tolerance2, std::vector<SlotPair>& hits) {
   HWY_DYNAMIC_DISPATCH(NearPairs)(points, a, b, tolerance2, hits);
@@ -86,6 +112,11 @@ void near_pairs(const Points& points, Range a, Range b, float tolerance2, std::v
 void near_pairs(const Points& points, Range a, std::span<const Range> runs, float tolerance2,
                 std::vector<SlotPair>& hits) {
   HWY_DYNAMIC_DISPATCH(NearRuns)(points, a, runs, tolerance2, hits);
+}
+
+Index near_pairs(const Points& points, Range a, Range b, const Aabb& box_of_b, float cutoff, float tolerance2,
+                 std::vector<SlotPair>& hits) {
+  return HWY_DYNAMIC_DISPATCH(NearPairsInBox)(points, a, b, box_of_b, cutoff, tolerance2, hits);
 }
 
 }  // namespace collide

@@ -1,0 +1,78 @@
+// A k-d tree over all vertices, built anew in every frame: each node is cut across its longest side, near the median.
+
+#include <algorithm>
+
+#include "collide/core/body_boxes.h"
+#include "collide/core/cutoff.h"
+#include "collide/methods/detectors.h"
+#include "collide/trees/point_tree.h"
+
+namespace collide::methods {
+
+namespace {
+
+using trees::Item;
+
+/// Returns the median of a sample of the items along an axis.
+float sampled_median(std::span<const Item> items, std::size_t axis) {
+  constexpr std::size_t max_sample = 31;
+  std::array<float, max_sample> sample;
+  const std::size_t count = std::min(items.size(), max_sample);
+  for (std::size_t k = 0; k < count; ++k) sample[k] = items[(2 * k + 1) * items.size() / (2 * count)].at[axis];
+  const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(sample.begin(), middle, sample.begin() + static_cast<std::ptrdiff_t>(count));
+  return *middle;
+}
+
+/// Copies the items below a value to the front, and the others to the back. Returns how many are below.
+std::size_t divide(std::span<const Item> items, std::size_t axis, float value, Item* to) {
+  std::size_t low = 0, high = items.size();
+  for (const Item& item : items) {  // to both places, of which one stays: no branch that could be guessed wrong
+    to[low] = to[high - 1] = item;
+    const bool below = item.at[axis] < value;
+    low += below;
+    high -= !below;
+  }
+  return low;
+}
+
+trees::Parts halve(std::span<const Item> items, const Aabb& box, Item* to) {
+  const int side = longest_axis(box.hi - box.lo);
+  if (!(box.hi[side] > box.lo[side])) return {};
+  const auto axis = static_cast<std::size_t>(side);
+  std::size_t low = divide(items, axis, sampled_median(items, axis), to);
+  if (std::min(low, items.size() - low) < items.size() / 8) {  // the sample misled: the median itself, by place
+    low = items.size() / 2;
+    std::copy(items.begin(), items.end(), to);
+    std::nth_element(to, to + low, to + items.size(),
+                     [axis](const Item& a, const Item& b) { return a.at[axis] < b.at[axis]; });
+  }
+  trees::Parts parts;
+  parts.size = {static_cast<Index>(low), static_cast<Index>(items.size() - low)};
+  parts.count = 2;
+  return parts;
+}
+
+class KdTree final : public Detector {
+ public:
+  void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
+    bodies_.build(frame, result);
+    tree_.build(frame, bodies_.live, halve, leaf_size, workers);
+    search_.begin(frame, settings, tree_.points(), workers.threads());
+    tree_search_.run(tree_.nodes(), settings.self_collision, contact_cutoff(settings.tolerance), search_, workers);
+    search_.finish(result);
+  }
+
+ private:
+  static constexpr Index leaf_size = 16;  // vertices
+  BodyBoxes bodies_;
+  trees::PointTree tree_;
+  trees::TreeSearch tree_search_;
+  ContactSearch search_;
+};
+
+}  // namespace
+
+std::unique_ptr<Detector> make_kd_tree() { return std::make_unique<KdTree>(); }
+
+}  // namespace collide::methods

@@ -1,0 +1,76 @@
+// An octree over all vertices, built anew in every frame: each node is shrunk to the box of its vertices and cut across
+// the middle of its sides. Sides shorter than half of the longest one stay whole, so that nodes become cubes.
+
+#include <algorithm>
+
+#include "collide/core/body_boxes.h"
+#include "collide/core/cutoff.h"
+#include "collide/methods/detectors.h"
+#include "collide/trees/point_tree.h"
+
+namespace collide::methods {
+
+namespace {
+
+using trees::Item;
+
+/// Where the sides of a node are cut: values above `middle` belong to the upper half.
+struct Middles {
+  std::array<float, 3> middle;
+
+  explicit Middles(const Aabb& box) {
+    const glm::vec3 half = box.hi * 0.5f - box.lo * 0.5f;
+    const float longest = std::max({half.x, half.y, half.z});
+    for (int axis = 0; axis < 3; ++axis) {
+      const float lo = box.lo[axis], hi = box.hi[axis], mid = lo * 0.5f + hi * 0.5f;
+      const bool whole = half[axis] < longest / 2;
+      middle[static_cast<std::size_t>(axis)] = whole ? hi : mid < hi ? mid : lo;  // neither half of two floats is empty
+    }
+  }
+
+  std::size_t octant(const Item& item) const {
+    return std::size_t{item.at[0] > middle[0]} | std::size_t{item.at[1] > middle[1]} << 1 |
+           std::size_t{item.at[2] > middle[2]} << 2;
+  }
+};
+
+/// A counting sort by octant.
+trees::Parts cut_into_octants(std::span<const Item> items, const Aabb& box, Item* to) {
+  const Middles middles(box);
+  std::array<Index, 8> size{}, next{};
+  for (const Item& item : items) ++size[middles.octant(item)];
+  trees::Parts parts;
+  Index end = 0;
+  for (std::size_t octant = 0; octant < size.size(); ++octant) {
+    next[octant] = end;
+    end += size[octant];
+    if (size[octant] > 0) parts.size[parts.count++] = size[octant];
+  }
+  if (parts.count == 1) return {};  // all in one place
+  for (const Item& item : items) to[next[middles.octant(item)]++] = item;
+  return parts;
+}
+
+class Octree final : public Detector {
+ public:
+  void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
+    bodies_.build(frame, result);
+    tree_.build(frame, bodies_.live, cut_into_octants, leaf_size, workers);
+    search_.begin(frame, settings, tree_.points(), workers.threads());
+    tree_search_.run(tree_.nodes(), settings.self_collision, contact_cutoff(settings.tolerance), search_, workers);
+    search_.finish(result);
+  }
+
+ private:
+  static constexpr Index leaf_size = 24;  // vertices
+  BodyBoxes bodies_;
+  trees::PointTree tree_;
+  trees::TreeSearch tree_search_;
+  ContactSearch search_;
+};
+
+}  // namespace
+
+std::unique_ptr<Detector> make_octree() { return std::make_unique<Octree>(); }
+
+}  // namespace collide::methods
