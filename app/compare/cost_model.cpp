@@ -22,6 +22,20 @@ double cells_of_a_vertex(const collide::Settings& settings) {
   return cells;
 }
 
+/// Returns the share of all pairs of points in a box that are about as close as the tolerance: in one cell of that size
+/// or in adjacent ones.
+double share_nearby(const glm::dvec3& extent, double tolerance) {
+  double share = 1;
+  for (int axis = 0; axis < 3; ++axis)
+    if (extent[axis] > 3 * tolerance) share *= 3 * tolerance / extent[axis];
+  return share;
+}
+
+/// True for methods that test a vertex only against those about as close as the tolerance, whatever bodies they are of.
+bool searches_nearby(const collide::Method& method) {
+  return method.group == collide::MethodGroup::sorted || method.group == collide::MethodGroup::trees;
+}
+
 std::uint64_t whole(double number) { return static_cast<std::uint64_t>(std::min(number, 1e18)); }
 
 }  // namespace
@@ -59,27 +73,30 @@ void CostModel::begin(const collide::Frame& frame, const collide::Settings& sett
     hi = glm::max(hi, glm::dvec3(boxes_.box[b].hi));
   }
   extent_ = boxes_.live.empty() ? glm::dvec3(0) : hi - lo;
-  // The exact method: about sixteen tests per vertex, but at least those that its cuts leave of all.
-  const auto cut = [&](std::uint64_t tests, std::uint64_t vertices) {
-    return std::max(16 * vertices, tests >> settings.levels);
+  const auto extent = [&](collide::Index b) { return glm::dvec3(boxes_.box[b].hi) - glm::dvec3(boxes_.box[b].lo); };
+  mean_side_ = glm::dvec3(0);
+  for (const collide::Index b : boxes_.live) mean_side_ += extent(b) / static_cast<double>(boxes_.live.size());
+  in_overlapping_boxes_ = exact_tests_ = nearby_tests_ = 0;
+  // About sixteen tests per vertex, but at least those that cuts leave of all.
+  const auto add = [&](std::uint64_t tests, std::uint64_t vertices, double nearby) {
+    in_overlapping_boxes_ += tests;
+    exact_tests_ += std::max(16 * vertices, tests >> settings.levels);
+    nearby_tests_ += std::max(16 * vertices, whole(static_cast<double>(tests) * nearby));
   };
-  in_overlapping_boxes_ = exact_tests_ = 0;
-  for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_cutoff(settings.tolerance))) {
-    in_overlapping_boxes_ += std::uint64_t{bodies.size(a)} * bodies.size(b);
-    exact_tests_ += cut(std::uint64_t{bodies.size(a)} * bodies.size(b), bodies.size(a) + bodies.size(b));
-  }
+  const auto nearby = [&](collide::Index b) { return share_nearby(extent(b), double{settings.tolerance}); };
+  for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_cutoff(settings.tolerance)))
+    add(std::uint64_t{bodies.size(a)} * bodies.size(b), bodies.size(a) + bodies.size(b),
+        std::min(nearby(a), nearby(b)));
   if (!settings.self_collision) return;
-  for (const collide::Index b : boxes_.live) {
-    in_overlapping_boxes_ += pairs_of(bodies.size(b));
-    exact_tests_ += cut(pairs_of(bodies.size(b)), bodies.size(b));
-  }
+  for (const collide::Index b : boxes_.live) add(pairs_of(bodies.size(b)), bodies.size(b), nearby(b));
 }
 
 WorkEstimate CostModel::of(std::size_t method) const {
   assert(method < learnt_.size());
   const Learnt& learnt = learnt_[method];
   const collide::Method& row = collide::method_table()[method];
-  if (learnt.vertices == 0 || (!row.uses_hash && !row.uses_levels)) return estimate(row);
+  const bool is_exact = !row.uses_hash && !row.uses_levels && !searches_nearby(row);
+  if (learnt.vertices == 0 || is_exact) return estimate(row);
   const double growth = vertices_ / learnt.vertices;  // more bodies since then: the pairs grow with its square
   return {whole(static_cast<double>(learnt.work.pair_tests) * growth * growth),
           whole(static_cast<double>(learnt.work.hashes) * growth)};
@@ -103,17 +120,27 @@ double CostModel::reachable_buckets() const {
   return std::min(static_cast<double>(settings_.buckets / common), max_sum);
 }
 
+/// Returns the mean number of cells that a subdivided box overlaps if it is padded by half the tolerance on each side.
+double CostModel::cells_of_a_box() const {
+  double cells = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double side = mean_side_[axis] * std::exp2(-settings_.levels / 3.0) + double{settings_.tolerance};
+    cells *= 1 + side / double{settings_.cell_size[axis]};
+  }
+  return cells;
+}
+
 WorkEstimate CostModel::estimate(const collide::Method& method) const {
   if (method.key == collide::reference_method) return {all_, 0};
+  if (searches_nearby(method)) return {std::min(nearby_tests_, all_), 0};
   if (!method.uses_hash)
     return {method.uses_levels ? std::min(exact_tests_, in_overlapping_boxes_) : in_overlapping_boxes_, 0};
-  double entry_pairs = 64;  // of two boxes: each has eight corners, or about as many cells
-  double hashes = 8 * std::min(std::ldexp(bodies_, settings_.levels), vertices_);
-  if (!method.uses_levels) {
-    entry_pairs = cells_of_a_vertex(settings_);
-    if (entry_pairs > std::max(64.0, vertices_ / 32)) return {all_, 0};  // VertexGrid::visit_cells: too many cells
-    hashes = vertices_ * (1 + entry_pairs);
-  }
+  double cells = 8;  // of an entry, or the corners of a box
+  if (method.exact) cells = method.uses_levels ? cells_of_a_box() : cells_of_a_vertex(settings_);
+  if (method.exact && cells > std::max(64.0, vertices_ / 32)) return {all_, 0};  // too many: the methods visit none
+  const double boxes = std::min(std::ldexp(bodies_, settings_.levels), vertices_);
+  const double hashes = method.uses_levels ? boxes * cells : vertices_ * (1 + cells);
+  const double entry_pairs = method.uses_levels ? cells * cells : cells;
   const double aliased = static_cast<double>(all_) * entry_pairs / reachable_buckets();
   return {std::min(all_, in_overlapping_boxes_ + whole(aliased)), whole(hashes)};
 }

@@ -37,10 +37,11 @@ glm::vec3 automatic_cell_size(const softbody::World& world, int levels) {
   return collide::default_cell_size({x, y, z, &bodies}, levels, world.collision().tolerance);
 }
 
-std::vector<Configuration> sweep_configurations(const softbody::World& world) {
+std::vector<Configuration> sweep_configurations(const softbody::World& world, const MethodSet& methods) {
   const collide::Settings& settings = world.collision();
   std::vector<Configuration> all;
-  for (std::size_t m = 0; m < collide::method_table().size(); ++m) {
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    if (!methods[m]) continue;
     const collide::Method& method = collide::method_table()[m];
     for (const int levels : axis(method.uses_levels, sweep_levels, settings.levels)) {
       const glm::vec3 automatic = automatic_cell_size(world, levels);

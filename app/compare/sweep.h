@@ -9,6 +9,7 @@
 
 #include "app/base/timings.h"
 #include "app/compare/cost_model.h"
+#include "app/compare/method_set.h"
 #include "softbody/world/world.h"
 
 namespace app::compare {
@@ -29,9 +30,9 @@ struct Configuration {
 /// current ones.
 glm::vec3 automatic_cell_size(const softbody::World& world, int levels);
 
-/// Returns each method with all combinations of the axes that it uses, in the order of the table. The other settings
-/// are the world's.
-std::vector<Configuration> sweep_configurations(const softbody::World& world);
+/// Returns each of the methods with all combinations of the axes that it uses, in the order of the table. The other
+/// settings are the world's.
+std::vector<Configuration> sweep_configurations(const softbody::World& world, const MethodSet& methods = all_methods());
 
 /// The figures of one configuration on the frame.
 struct SweepRow {
