@@ -9,6 +9,7 @@
 
 #include "app/base/text.h"
 #include "collide/core/cutoff.h"
+#include "collide/core/cuts.h"
 
 namespace app::compare {
 namespace {
@@ -31,9 +32,9 @@ double share_nearby(const glm::dvec3& extent, double tolerance) {
   return share;
 }
 
-/// True for methods that test a vertex only against those about as close as the tolerance, whatever bodies they are of.
-bool searches_nearby(const collide::Method& method) {
-  return method.group == collide::MethodGroup::sorted || method.group == collide::MethodGroup::trees;
+/// Returns true if the estimate is what the method does on every frame.
+bool is_certain(const collide::Method& method) {
+  return method.group == collide::MethodGroup::rivals && !method.uses_hash;
 }
 
 std::uint64_t whole(double number) { return static_cast<std::uint64_t>(std::min(number, 1e18)); }
@@ -68,22 +69,22 @@ void CostModel::begin(const collide::Frame& frame, const collide::Settings& sett
   collide::Result unused;
   boxes_.build(frame, unused);
   glm::dvec3 lo(1e300), hi(-1e300);
+  side_ = glm::dvec3(0);
   for (const collide::Index b : boxes_.live) {
     lo = glm::min(lo, glm::dvec3(boxes_.box[b].lo));
     hi = glm::max(hi, glm::dvec3(boxes_.box[b].hi));
+    side_ += (glm::dvec3(boxes_.box[b].hi) - glm::dvec3(boxes_.box[b].lo)) / static_cast<double>(boxes_.live.size());
   }
   extent_ = boxes_.live.empty() ? glm::dvec3(0) : hi - lo;
-  const auto extent = [&](collide::Index b) { return glm::dvec3(boxes_.box[b].hi) - glm::dvec3(boxes_.box[b].lo); };
-  mean_side_ = glm::dvec3(0);
-  for (const collide::Index b : boxes_.live) mean_side_ += extent(b) / static_cast<double>(boxes_.live.size());
   in_overlapping_boxes_ = exact_tests_ = nearby_tests_ = 0;
-  // About sixteen tests per vertex, but at least those that cuts leave of all.
   const auto add = [&](std::uint64_t tests, std::uint64_t vertices, double nearby) {
     in_overlapping_boxes_ += tests;
-    exact_tests_ += std::max(16 * vertices, tests >> settings.levels);
-    nearby_tests_ += std::max(16 * vertices, whole(static_cast<double>(tests) * nearby));
+    exact_tests_ += std::max(16 * vertices, tests >> settings.levels);  // at least those that its cuts leave of all
+    nearby_tests_ += std::max(64 * vertices, whole(static_cast<double>(tests) * nearby));
   };
-  const auto nearby = [&](collide::Index b) { return share_nearby(extent(b), double{settings.tolerance}); };
+  const auto nearby = [&](collide::Index b) {
+    return share_nearby(glm::dvec3(boxes_.box[b].hi) - glm::dvec3(boxes_.box[b].lo), double{settings.tolerance});
+  };
   for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_cutoff(settings.tolerance)))
     add(std::uint64_t{bodies.size(a)} * bodies.size(b), bodies.size(a) + bodies.size(b),
         std::min(nearby(a), nearby(b)));
@@ -95,8 +96,7 @@ WorkEstimate CostModel::of(std::size_t method) const {
   assert(method < learnt_.size());
   const Learnt& learnt = learnt_[method];
   const collide::Method& row = collide::method_table()[method];
-  const bool is_exact = !row.uses_hash && !row.uses_levels && !searches_nearby(row);
-  if (learnt.vertices == 0 || is_exact) return estimate(row);
+  if (learnt.vertices == 0 || is_certain(row)) return estimate(row);
   const double growth = vertices_ / learnt.vertices;  // more bodies since then: the pairs grow with its square
   return {whole(static_cast<double>(learnt.work.pair_tests) * growth * growth),
           whole(static_cast<double>(learnt.work.hashes) * growth)};
@@ -120,27 +120,33 @@ double CostModel::reachable_buckets() const {
   return std::min(static_cast<double>(settings_.buckets / common), max_sum);
 }
 
-/// Returns the mean number of cells that a subdivided box overlaps if it is padded by half the tolerance on each side.
+/// Returns the mean number of cells that a subdivided box overlaps, padded by the tolerance.
 double CostModel::cells_of_a_box() const {
   double cells = 1;
   for (int axis = 0; axis < 3; ++axis) {
-    const double side = mean_side_[axis] * std::exp2(-settings_.levels / 3.0) + double{settings_.tolerance};
-    cells *= 1 + side / double{settings_.cell_size[axis]};
+    const double side = std::ldexp(side_[axis], -collide::cuts_along(axis, settings_.levels));
+    cells *= 1 + (side + static_cast<double>(settings_.tolerance)) / static_cast<double>(settings_.cell_size[axis]);
   }
   return cells;
 }
 
 WorkEstimate CostModel::estimate(const collide::Method& method) const {
   if (method.key == collide::reference_method) return {all_, 0};
-  if (searches_nearby(method)) return {std::min(nearby_tests_, all_), 0};
-  if (!method.uses_hash)
-    return {method.uses_levels ? std::min(exact_tests_, in_overlapping_boxes_) : in_overlapping_boxes_, 0};
-  double cells = 8;  // of an entry, or the corners of a box
-  if (method.exact) cells = method.uses_levels ? cells_of_a_box() : cells_of_a_vertex(settings_);
-  if (method.exact && cells > std::max(64.0, vertices_ / 32)) return {all_, 0};  // too many: the methods visit none
+  if (method.uses_hash) return estimate_hashed(method);
+  if (is_certain(method)) return {in_overlapping_boxes_, 0};
+  if (method.uses_levels) return {std::min(exact_tests_, in_overlapping_boxes_), 0};
+  return {std::min(all_, nearby_tests_), 0};
+}
+
+WorkEstimate CostModel::estimate_hashed(const collide::Method& method) const {
   const double boxes = std::min(std::ldexp(bodies_, settings_.levels), vertices_);
-  const double hashes = method.uses_levels ? boxes * cells : vertices_ * (1 + cells);
+  const bool complete = method.uses_levels && method.exact;
+  // Of two boxes: each is in eight cells, or in all that it overlaps. Of two vertices: the cells around one of them.
+  const double cells = complete ? cells_of_a_box() : method.uses_levels ? 8 : cells_of_a_vertex(settings_);
+  const double too_many = std::max(64.0, vertices_ / 32);  // as in multi_level_sb.cpp and vertex_grid.cpp
+  if (cells > too_many && method.exact) return {all_, 0};
   const double entry_pairs = method.uses_levels ? cells * cells : cells;
+  const double hashes = method.uses_levels ? boxes * cells : vertices_ * (1 + cells);
   const double aliased = static_cast<double>(all_) * entry_pairs / reachable_buckets();
   return {std::min(all_, in_overlapping_boxes_ + whole(aliased)), whole(hashes)};
 }

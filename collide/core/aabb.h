@@ -17,9 +17,9 @@ struct Aabb {
 /// True unless the gap between the boxes exceeds the cutoff (m) along an axis. Rounding never hides a near pair:
 /// subtraction rounds monotonically, and the cutoff is a float itself.
 inline bool near(const Aabb& a, const Aabb& b, float cutoff) {
-  return a.lo.x - b.hi.x <= cutoff && b.lo.x - a.hi.x <= cutoff &&  //
-         a.lo.y - b.hi.y <= cutoff && b.lo.y - a.hi.y <= cutoff &&  //
-         a.lo.z - b.hi.z <= cutoff && b.lo.z - a.hi.z <= cutoff;
+  return (a.lo.x - b.hi.x <= cutoff) & (b.lo.x - a.hi.x <= cutoff) &  // without branches, which are hard to guess
+         (a.lo.y - b.hi.y <= cutoff) & (b.lo.y - a.hi.y <= cutoff) &  //
+         (a.lo.z - b.hi.z <= cutoff) & (b.lo.z - a.hi.z <= cutoff);
 }
 
 /// Returns the axis along which a side, or half of it, is longest.

@@ -17,7 +17,7 @@ using trees::Item;
 float sampled_median(std::span<const Item> items, std::size_t axis) {
   constexpr std::size_t max_sample = 31;
   std::array<float, max_sample> sample;
-  const std::size_t count = std::min(items.size(), max_sample);
+  const std::size_t count = std::clamp<std::size_t>(items.size() / 16, 5, max_sample);
   for (std::size_t k = 0; k < count; ++k) sample[k] = items[(2 * k + 1) * items.size() / (2 * count)].at[axis];
   const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(sample.begin(), middle, sample.begin() + static_cast<std::ptrdiff_t>(count));
@@ -64,7 +64,7 @@ class KdTree final : public Detector {
   }
 
  private:
-  static constexpr Index leaf_size = 16;  // vertices
+  static constexpr Index leaf_size = 24;  // vertices
   BodyBoxes bodies_;
   trees::PointTree tree_;
   trees::TreeSearch tree_search_;

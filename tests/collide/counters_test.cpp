@@ -66,6 +66,20 @@ TEST(Counters, OfTheLiteralMethodIncludeABoxWithItself) {
   EXPECT_EQ(counters.pair_tests, 28u);
 }
 
+TEST(Counters, OfTheCompleteMethodAreTheCellsOfPaddedBoxes) {
+  const Counters inside = detect("multi-level-sb-complete", cube(1), cells_of(10)).counters;
+  EXPECT_EQ(inside.boxes, 8u);
+  EXPECT_EQ(inside.hashes, 8u);  // each box lies in the cell 0, 0, 0, padded or not
+  EXPECT_EQ(inside.pair_tests, 28u);
+  // Boxes of 1 m from 0 on, padded: three cells along each axis.
+  EXPECT_EQ(detect("multi-level-sb-complete", cube(0), cells_of(1, 65537)).counters.hashes, 8u * 27);
+  // More than 64 cells: no box is hashed, and all meet.
+  const Counters everywhere = detect("multi-level-sb-complete", cube(0), cells_of(0.25f)).counters;
+  EXPECT_EQ(everywhere.hashes, 0u);
+  EXPECT_EQ(everywhere.pair_tests, 28u);
+  EXPECT_EQ(detect("multi-level-sb-complete", cube(0), cells_of(0.999f)).coverage, Coverage::exact);
+}
+
 TEST(Counters, OfTheExactMethodHaveNoHashes) {
   const Counters counters = detect("multi-level-sb-exact", cube(1), cells_of(10)).counters;
   EXPECT_EQ(counters.hashes, 0u);

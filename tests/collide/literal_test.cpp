@@ -172,6 +172,7 @@ TEST(Literal, MissesAContactAcrossACellFace) {
   const Result result = detect("multi-level-sb", state, Settings{});
   EXPECT_EQ(result.contacts.size(), 0u);
   EXPECT_EQ(result.coverage, Coverage::covered);
+  EXPECT_EQ(detect("multi-level-sb-complete", state, Settings{}).contacts, oracle(state, Settings{}));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "states.h"
@@ -85,6 +86,48 @@ TEST(Methods, LeavesOutEdgesAndPairsNearAtRest) {
     EXPECT_EQ(detect(method.key, state, Settings{}).contacts, (std::vector<Contact>{{0, 2}, {0, 3}, {1, 2}, {1, 3}}))
         << method.key;
   }
+}
+
+/// Frames in a row: bodies of one mesh bend, roll, jump far away and back, lose a coordinate, leave and come.
+TEST(Methods, FollowASequenceWithJumps) {
+  const Ball ball = icosphere(2, 0.5f);
+  const auto shape = std::make_shared<const Shape>(162, ball.edges, ball.vertices);
+  std::vector<std::unique_ptr<Detector>> one, two;
+  for (const Method& method : method_table()) {
+    one.push_back(method.make());
+    two.push_back(method.make());
+  }
+  Workers alone(1), both(2);
+  Settings settings;
+  settings.tolerance = 0.08f;
+  std::mt19937 random(10);
+  std::vector<glm::vec3> at = random_points(random, 7, -0.8f, 0.8f);
+  std::size_t contacts = 0;
+  for (int frame = 0; frame < 16; ++frame) {
+    State state;
+    for (std::size_t body = 0; body < at.size() - (frame % 6 == 5 ? 2 : 0); ++body) {
+      std::vector<glm::vec3> points = ball.vertices;
+      const float squeeze = body == 3 ? std::abs(std::cos(0.4f * static_cast<float>(frame))) : 1;
+      for (glm::vec3& p : points) p.y *= squeeze;
+      if (body == 4) std::rotate(points.begin(), points.begin() + frame, points.end());
+      if (body == 2 && frame % 8 == 6) points[100].z = NAN;
+      const bool away = body == 1 && frame % 4 >= 2;
+      state.add(shape, moved(points, at[body] + (away ? glm::vec3(1e6f, 0, -1e6f) : glm::vec3(0))));
+      if (frame % 5 != 4) at[body] += random_points(random, 1, -0.03f, 0.03f)[0];  // else all rest in the next frame
+    }
+    const std::vector<Contact> expected = oracle(state, settings);
+    contacts += expected.size();
+    for (std::size_t m = 0; m < method_table().size(); ++m) {
+      if (!method_table()[m].exact) continue;
+      Result on_one, on_two;
+      one[m]->detect(state.frame(), settings, alone, on_one);
+      two[m]->detect(state.frame(), settings, both, on_two);
+      EXPECT_EQ(on_one.contacts, expected) << method_table()[m].key << ", frame " << frame;
+      EXPECT_EQ(on_two.contacts, expected) << method_table()[m].key << ", frame " << frame;
+      EXPECT_EQ(on_one.counters.pair_tests, on_two.counters.pair_tests) << method_table()[m].key;
+    }
+  }
+  EXPECT_GT(contacts, 1000u);
 }
 
 /// Numbers of boxes, cells and entries that would need days or all memory if any of them were taken at its word.

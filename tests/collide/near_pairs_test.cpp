@@ -3,7 +3,10 @@
 #include "collide/core/near_pairs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
+
+#include "collide/core/cutoff.h"
 
 #include "every_target.h"
 
@@ -55,6 +58,18 @@ TEST_P(NearPairs, AreThoseOfPlainLoops) {
     near_pairs(points, a, {begin, 120}, tolerance2, hits);
     EXPECT_EQ(sorted(hits), sorted(within));
     EXPECT_FALSE(within.empty());
+
+    const Range b = runs.front();
+    const auto [x_lo, x_hi] = std::ranges::minmax(std::span(points.x).subspan(b.begin, b.size()));
+    const Aabb box{{x_lo, 0, 0}, {x_hi, 1, 1}};
+    hits.clear();
+    in_runs.clear();
+    plain(b, in_runs);
+    const float cutoff = contact_cutoff(std::sqrt(tolerance2));
+    const Index tested = near_pairs(points, a, b, box, cutoff, tolerance2, hits);
+    EXPECT_EQ(sorted(hits), sorted(in_runs));
+    EXPECT_EQ(tested, std::count_if(points.x.begin() + a.begin, points.x.begin() + a.end,
+                                    [&](float x) { return x - x_hi <= cutoff && x_lo - x <= cutoff; }));
   }
 }
 

@@ -15,9 +15,17 @@ compare::SweepLimits limits_of(const ReportOptions& options) {
   return {};
 }
 
+/// Lets every method run on all bodies of the largest scene, brute force for some ten seconds; except in a quick
+/// report.
+compare::SweepLimits growth_limits(const DetectionResults& results) {
+  compare::SweepLimits limits = results.limits;
+  if (!results.quick) limits.budget = 500'000'000'000;
+  return limits;
+}
+
 StateResult sweep_state(const RecordedState& state, const std::vector<compare::Configuration>& configurations,
-                        const DetectionResults& results, collide::Workers& workers, const std::string& what) {
-  compare::Sweep sweep(state.view(), configurations, results.limits, workers);
+                        const compare::SweepLimits& limits, collide::Workers& workers, const std::string& what) {
+  compare::Sweep sweep(state.view(), configurations, limits, workers);
   while (sweep.step()) say(what, sweep.progress());
   return {state.frame, state.bodies.count(), state.bodies.vertex_count(), sweep.report()};
 }
@@ -26,7 +34,7 @@ SceneResult sweep_scene(const Recording& recording, const DetectionResults& resu
   SceneResult scene{recording.scene, recording.name, recording.buckets, {}};
   for (const RecordedState& state : recording.states) {
     const std::string what = recording.scene + ", frame " + std::to_string(state.frame);
-    scene.states.push_back(sweep_state(state, recording.configurations, results, workers, what));
+    scene.states.push_back(sweep_state(state, recording.configurations, results.limits, workers, what));
   }
   return scene;
 }
@@ -51,7 +59,7 @@ SceneResult sweep_growth(const Recording& recording, const DetectionResults& res
   const auto configurations = growth_configurations(recording.configurations);
   const auto add = [&](const RecordedState& state) {
     const std::string what = "growth, bodies: " + std::to_string(state.bodies.count());
-    growth.states.push_back(sweep_state(state, configurations, results, workers, what));
+    growth.states.push_back(sweep_state(state, configurations, growth_limits(results), workers, what));
   };
   for (const collide::Index count : growth_bodies) {
     if (count < all.bodies.count()) add(middle_bodies(all, count));

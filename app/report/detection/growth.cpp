@@ -99,8 +99,13 @@ Table growth_table(const SceneResult& growth) {
 }
 
 Plot cost_against_bodies(const SceneResult& growth) {
+  const bool all_ran = std::ranges::all_of(growth.states, [](const StateResult& state) {
+    return std::ranges::all_of(state.sweep.rows, [](const compare::SweepRow& row) { return row.not_run.empty(); });
+  });
   Plot plot{.name = "cost-bodies",
-            .caption = "Cost against bodies, level 3, automatic cell size; a line ends where the budget does.",
+            .caption = all_ran
+                           ? "Cost against bodies, level 3, automatic cell size."
+                           : "Cost against bodies, level 3, automatic cell size; a line ends where the budget does.",
             .title = "Cost of a frame against the number of bodies",
             .x = "bodies",
             .y = "detection from scratch, ms per frame",
@@ -111,7 +116,7 @@ Plot cost_against_bodies(const SceneResult& growth) {
     const bool dashed = method.uses_hash && c.settings.buckets == compare::sweep_buckets.back();
     Series series{std::string(method.name) + (method.uses_hash ? fmt::format(", {} buckets", buckets_of(c)) : ""),
                   colour(method),
-                  fmt::format("linespoints pointtype {} pointsize 0.8 linewidth 1.5 dashtype {}", point_type(method),
+                  fmt::format("linespoints pointtype {} pointsize 0.7 linewidth 2 dashtype {}", point_type(method),
                               dashed ? 2 : 1)};
     for (const StateResult& state : growth.states)
       if (const compare::SweepRow& row = state.sweep.rows[i]; row.not_run.empty())

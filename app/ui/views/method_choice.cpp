@@ -75,8 +75,9 @@ void draw_method_choice(Widgets& w, Session& session, const char* label, const c
 void draw_shown_methods(Widgets& w, Session& session) {
   const compare::MethodSet shown = session.comparison.shown_methods();
   const std::string preview = fmt::format("{} of {} methods", std::ranges::count(shown, true), shown.size());
-  draw_method_choice(w, session, "Shown methods", preview.c_str(),
-                     "Chooses which methods are shown. The one that drives the bodies always is.");
+  draw_method_choice(
+      w, session, "Shown methods", preview.c_str(),
+      "Chooses which methods are shown. The one that drives the bodies is always shown; its row is shaded.");
 }
 
 }  // namespace app::ui

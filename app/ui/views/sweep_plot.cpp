@@ -117,7 +117,7 @@ void SweepPlot::draw_axes(const Widgets& w) const {
   draw_error_axis(w);
   draw->AddRect({time_.start, top}, {time_.end, bottom_}, ImGui::GetColorU32(ImGuiCol_Border));
   draw_grey_text({time_.start, top - ImGui::GetTextLineHeight() - w.px(3)}, 0,
-                 "Missed share (1 - recall); shaded: none, one row per method");
+                 "Missed share (1 - recall); shaded: none missed, a row per method");
 }
 
 void SweepPlot::draw_time_axis(const Widgets& w, float top) const {
