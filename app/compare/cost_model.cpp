@@ -23,6 +23,15 @@ double cells_of_a_vertex(const collide::Settings& settings) {
   return cells;
 }
 
+/// Returns the share of all pairs of points in a box that are about as close as the tolerance: in one cell of that size
+/// or in adjacent ones.
+double share_nearby(const glm::dvec3& extent, double tolerance) {
+  double share = 1;
+  for (int axis = 0; axis < 3; ++axis)
+    if (extent[axis] > 3 * tolerance) share *= 3 * tolerance / extent[axis];
+  return share;
+}
+
 /// Returns true if the estimate is what the method does on every frame.
 bool is_certain(const collide::Method& method) {
   return method.group == collide::MethodGroup::rivals && !method.uses_hash;
@@ -67,20 +76,20 @@ void CostModel::begin(const collide::Frame& frame, const collide::Settings& sett
     side_ += (glm::dvec3(boxes_.box[b].hi) - glm::dvec3(boxes_.box[b].lo)) / static_cast<double>(boxes_.live.size());
   }
   extent_ = boxes_.live.empty() ? glm::dvec3(0) : hi - lo;
-  // The exact method: about sixteen tests per vertex, but at least those that its cuts leave of all.
-  const auto cut = [&](std::uint64_t tests, std::uint64_t vertices) {
-    return std::max(16 * vertices, tests >> settings.levels);
+  in_overlapping_boxes_ = exact_tests_ = nearby_tests_ = 0;
+  const auto add = [&](std::uint64_t tests, std::uint64_t vertices, double nearby) {
+    in_overlapping_boxes_ += tests;
+    exact_tests_ += std::max(16 * vertices, tests >> settings.levels);  // at least those that its cuts leave of all
+    nearby_tests_ += std::max(64 * vertices, whole(static_cast<double>(tests) * nearby));
   };
-  in_overlapping_boxes_ = exact_tests_ = 0;
-  for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_cutoff(settings.tolerance))) {
-    in_overlapping_boxes_ += std::uint64_t{bodies.size(a)} * bodies.size(b);
-    exact_tests_ += cut(std::uint64_t{bodies.size(a)} * bodies.size(b), bodies.size(a) + bodies.size(b));
-  }
+  const auto nearby = [&](collide::Index b) {
+    return share_nearby(glm::dvec3(boxes_.box[b].hi) - glm::dvec3(boxes_.box[b].lo), double{settings.tolerance});
+  };
+  for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_cutoff(settings.tolerance)))
+    add(std::uint64_t{bodies.size(a)} * bodies.size(b), bodies.size(a) + bodies.size(b),
+        std::min(nearby(a), nearby(b)));
   if (!settings.self_collision) return;
-  for (const collide::Index b : boxes_.live) {
-    in_overlapping_boxes_ += pairs_of(bodies.size(b));
-    exact_tests_ += cut(pairs_of(bodies.size(b)), bodies.size(b));
-  }
+  for (const collide::Index b : boxes_.live) add(pairs_of(bodies.size(b)), bodies.size(b), nearby(b));
 }
 
 WorkEstimate CostModel::of(std::size_t method) const {
@@ -126,7 +135,7 @@ WorkEstimate CostModel::estimate(const collide::Method& method) const {
   if (method.uses_hash) return estimate_hashed(method);
   if (is_certain(method)) return {in_overlapping_boxes_, 0};
   if (method.uses_levels) return {std::min(exact_tests_, in_overlapping_boxes_), 0};
-  return {std::min(all_, 4 * exact_tests_), 0};
+  return {std::min(all_, nearby_tests_), 0};
 }
 
 WorkEstimate CostModel::estimate_hashed(const collide::Method& method) const {

@@ -30,8 +30,8 @@ std::uint64_t all_pair_tests(const collide::Bodies& bodies, bool self_collision)
 /// Predicts the work of each method of collide::method_table(), by its index. The prediction is exact for brute force
 /// and Bounding Box. For another method it is its last measured work with the same settings in the same world. Before
 /// that it is an estimate: all vertex pairs of bodies whose boxes overlap, and aliasing as if the entries were spread
-/// evenly over the buckets. The exact method is assumed to test about sixteen others for each vertex, and the sorted
-/// methods and trees four times as many.
+/// evenly over the buckets. The exact method is assumed to test about sixteen others for each vertex. Sorted methods
+/// and trees are assumed to test four times as many, or those about as close as the tolerance.
 class CostModel {
  public:
   /// Sets the frame, which must be complete. `world` differs from world to world: what was learnt in another world is
@@ -58,8 +58,9 @@ class CostModel {
   double vertices_ = 0, bodies_ = 0;
   glm::dvec3 extent_{0};  // m, of all bodies
   glm::dvec3 side_{0};    // m, of a body's box, on average
-  // Pair tests: all; of bodies whose boxes overlap; of these, those that the exact method's cuts leave.
-  std::uint64_t all_ = 0, in_overlapping_boxes_ = 0, exact_tests_ = 0;
+  // Pair tests: all; of bodies whose boxes overlap; of these, those that the exact method's cuts leave, and those of
+  // vertices about as close as the tolerance.
+  std::uint64_t all_ = 0, in_overlapping_boxes_ = 0, exact_tests_ = 0, nearby_tests_ = 0;
   collide::BodyBoxes boxes_;
   collide::BodyPairs pairs_;
 };

@@ -21,7 +21,7 @@ void tell(Session& session, std::string text) {
 }
 
 void next_method(Session& session) {
-  session.settings.next_method();
+  session.settings.next_method(session.comparison.choice.methods);
   tell(session, "Method: " + std::string(session.world().method().name));
 }
 
