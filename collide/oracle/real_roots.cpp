@@ -55,11 +55,11 @@ Coefficients second_half(Coefficients c) { return reversed(first_half(reversed(s
 Coefficients remainder(Coefficients a, const Coefficients& divisor) {
   const Integer lead = abs(divisor.back());
   while (a.size() >= divisor.size()) {
-    const Integer factor = sgn(divisor.back()) * a.back();
+    const Integer factor = -sgn(divisor.back()) * a.back();
     a.pop_back();
     for (Integer& x : a) x *= lead;
     const std::size_t shift = a.size() + 1 - divisor.size();
-    for (std::size_t k = 0; k + 1 < divisor.size(); ++k) a[k + shift] -= factor * divisor[k];
+    for (std::size_t k = 0; k + 1 < divisor.size(); ++k) add_product(a[k + shift], factor, divisor[k]);
     drop_leading_zeros(a);
   }
   return a;
@@ -86,7 +86,8 @@ Coefficients square_free(Coefficients c) {
   return quotient;
 }
 
-/// Returns about where inside its piece a root is, 0 .. 1. Rounded; where all of it is lost, the answer is just useless.
+/// Returns about where inside its piece a root is, 0 .. 1. Rounded; where all of it is lost, the answer is just
+/// useless.
 double estimate(const Coefficients& polynomial) {
   const auto bits = [](const Integer& x) { return mpz_sizeinbase(x.get_mpz_t(), 2); };
   std::size_t most = 0;
@@ -116,7 +117,7 @@ int sign_at(const Coefficients& polynomial, std::uint64_t step, unsigned halving
   Integer value = 0, power = 1;
   for (const Integer& x : polynomial) {
     value *= rest;
-    value += x * power;
+    add_product(value, x, power);
     power *= step;
   }
   return sgn(value);

@@ -52,7 +52,8 @@ std::vector<KnownQuery> read_queries(const std::filesystem::path& file) {
   std::vector<KnownQuery> queries;
   for (std::string line; std::getline(in, line);) {
     const std::optional<KnownQuery> query = parse(line);
-    if (!query) throw std::runtime_error(file.string() + ": line " + std::to_string(queries.size() + 1) + " is no query");
+    if (!query)
+      throw std::runtime_error(file.string() + ": line " + std::to_string(queries.size() + 1) + " is no query");
     queries.push_back(*query);
   }
   return queries;
