@@ -205,7 +205,7 @@ std::pair<double, double> enclosure_of(Root root) {
   // 52 binary places are those of a double below 1.
   const unsigned surplus = piece.halvings > digits ? piece.halvings - digits : 0;
   const Integer low = piece.start >> surplus;
-  const bool point = exact && low << surplus == piece.start;
+  const bool point = exact && (low << surplus) == piece.start;
   const auto time = [&](const Integer& x) {
     return std::ldexp(x.get_d(), -static_cast<int>(piece.halvings - surplus));
   };
