@@ -137,7 +137,9 @@ Filtered filter(const FeatureMotion<double>& motion, double largest, unsigned st
     within = within && all_are(signs, 1);
   }
   if (std::ranges::count(side, 0) > 0) return {Answer::unknown};
-  if (within && side[0] != side[3]) return {Answer::passing, {start, halvings}, side[0] > 0};
+  // By Descartes' rule, a single change of sign is a single root.
+  const int changes = (side[0] != side[1]) + (side[1] != side[2]) + (side[2] != side[3]);
+  if (within && changes == 1) return {Answer::passing, {start, halvings}, side[0] > 0};
   if (halvings == max_halvings) return {Answer::unknown};
   const Filtered first = filter<Kind>(half_of(motion, false), largest, 2 * start, halvings + 1);
   if (first.answer != Answer::apart) return first;
