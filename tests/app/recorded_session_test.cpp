@@ -162,7 +162,7 @@ TEST_F(RecordedSession, ChecksItsSurfaces) {
 TEST_F(RecordedSession, IsSwept) {
   simulation.rewind_to(6);
   session::SweepWorker worker(compare::SweepLimits{.repetitions = 1});
-  worker.start(session.world());
+  worker.start(session.world(), compare::all_methods());
   session::SweepState state;
   ASSERT_TRUE(wait([&] {
     if (auto news = worker.take()) state = *news;
