@@ -105,7 +105,7 @@ class ZeroBand {
 /// Returns the points of a method, or of one of its levels: the higher the level, the larger.
 Series series(const std::vector<Mean>& means, const ZeroBand& band, std::size_t method, std::optional<int> level) {
   const collide::Method& row = collide::method_table()[method];
-  const double size = level ? 0.5 + 0.1 * *level : 1.0;
+  const double size = level ? 0.6 + 0.1 * *level : 1.2;
   Series series{std::string(row.name), colour(row),
                 fmt::format("points pointtype {} pointsize {:g} linewidth 1.5", point_type(row), size)};
   for (const Mean& m : means)
@@ -226,7 +226,7 @@ void add_table_1(Page& page, const DetectionResults& r) {
   page.text(
       "In the form of the paper's Table 1, measured: detection alone, 1 / its mean time on the recorded states; level "
       "3, automatic cell size.");
-  page.table(table);
+  page.table(table, 2);
   page.text("The paper has its rivals and Multi-Level SB. A method without a recall in brackets misses nothing.");
 }
 
