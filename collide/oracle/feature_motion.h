@@ -5,8 +5,11 @@
 #include <cstddef>
 
 #include "collide/oracle/exact_arithmetic.h"
+#include "collide/oracle/moving_features.h"
 
 namespace collide::oracle {
+
+using Points = std::array<MovingPoint, 4>;  // p, a, b, c or p, q, u, v
 
 /// The relative motion of four points: three difference vectors.
 template <class T>
@@ -80,5 +83,29 @@ struct EdgeEdge {
     return {{{pu, pv}, {qu, qv}, {pu, qu}, {pv, qv}}};
   }
 };
+
+/// number(x) converts a coordinate to the type T.
+template <class Kind, class T, class ToNumber>
+FeatureMotion<T> motion_of(const Points& points, const ToNumber& number) {
+  FeatureMotion<T> motion;
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    const MovingPoint &to = points[Kind::vectors[k][0]], &from = points[Kind::vectors[k][1]];
+    const auto component = [&](glm::length_t axis) {
+      return Polynomial<T, 1>{
+          {T(number(to.from[axis]) - number(from.from[axis])), T(number(to.to[axis]) - number(from.to[axis]))}};
+    };
+    motion[k] = {component(0), component(1), component(2)};
+  }
+  return motion;
+}
+
+/// Returns f(component) of all components of all vectors of a motion.
+template <class T, class Function>
+FeatureMotion<T> with_each(FeatureMotion<T> motion, const Function& f) {
+  for (Vector<T, 1>& v : motion) {
+    for (Polynomial<T, 1>* component : {&v.x, &v.y, &v.z}) *component = f(*component);
+  }
+  return motion;
+}
 
 }  // namespace collide::oracle
