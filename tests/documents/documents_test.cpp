@@ -1,4 +1,4 @@
-// The tables of the documents that follow from the program:
+// The tables of the documents that follow from the program, and the programs that they show:
 //
 //   test_documents --write
 //
@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -54,9 +55,37 @@ TEST(SceneFormat, HasTheTableOfAllKeysOfMaterials) {
   EXPECT_TRUE(with_table(page) == page);
 }
 
+/// A page that shows a program of app/package/examples.
+struct Example {
+  std::string page, file;
+};
+const std::array<Example, 2> examples{
+    {{"collide/README.md", "find_contacts.cpp"}, {"softbody/README.md", "drop_ball.cpp"}}};
+
+std::string source(const std::string& file) { return SBCOLLIDE_SCENES "/../../" + file; }
+
+/// Returns the page with the example in place of the one that it has.
+std::string with_example(const std::string& page, const std::string& file) {
+  const std::string start = "](../app/package/examples/" + file + "):\n\n```cpp\n";
+  const std::size_t begin = page.find(start), end = page.find("```\n", begin + start.size());
+  if (begin == std::string::npos || end == std::string::npos) return {};
+  return page.substr(0, begin + start.size()) + read(source("app/package/examples/" + file).c_str()) + page.substr(end);
+}
+
+TEST(Pages, ShowTheExamplesThatAreInstalled) {
+  for (const Example& e : examples) {
+    const std::string page = read(source(e.page).c_str());
+    EXPECT_TRUE(with_example(page, e.file) == page) << e.page << ": write it anew: test_documents --write";
+  }
+}
+
 int write() {
-  const std::string page = with_table(read(scene_format));
-  return std::ofstream(scene_format) << page ? 0 : 1;
+  bool written = bool(std::ofstream(scene_format) << with_table(read(scene_format)));
+  for (const Example& e : examples) {
+    const std::string file = source(e.page), page = with_example(read(file.c_str()), e.file);
+    written = !page.empty() && std::ofstream(file) << page && written;
+  }
+  return written ? 0 : 1;
 }
 
 }  // namespace
