@@ -99,13 +99,14 @@ FeatureMotion<T> motion_of(const Points& points, const ToNumber& number) {
   return motion;
 }
 
-/// Returns f(component) of all components of all vectors of a motion.
+/// Returns the motion with f(component) in place of each component of its vectors.
 template <class T, class Function>
-FeatureMotion<T> with_each(FeatureMotion<T> motion, const Function& f) {
-  for (Vector<T, 1>& v : motion) {
-    for (Polynomial<T, 1>* component : {&v.x, &v.y, &v.z}) *component = f(*component);
-  }
-  return motion;
+Vector<T, 1> with_each(const Vector<T, 1>& v, const Function& f) {
+  return {f(v.x), f(v.y), f(v.z)};
+}
+template <class T, class Function>
+FeatureMotion<T> with_each(const FeatureMotion<T>& motion, const Function& f) {
+  return {with_each(motion[0], f), with_each(motion[1], f), with_each(motion[2], f)};
 }
 
 }  // namespace collide::oracle

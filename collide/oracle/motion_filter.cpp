@@ -35,8 +35,8 @@ bool boxes_are_separate(const Points& points) {
 /// The filter halves the time at most this often.
 constexpr int max_halvings = 8;
 
-/// Returns a bound of the rounding error of each coefficient of a polynomial of degree N, beside d^N, where d is the
-/// largest coordinate difference. Proof: a coordinate difference is off by at most 9 * 2^-53 d after eight halvings. A
+/// Times d^N, this bounds the rounding error of each coefficient of a polynomial of degree N, where d is the largest
+/// coordinate difference. Proof: a coordinate difference is off by at most 9 * 2^-53 d after eight halvings. A
 /// coefficient of a component between vertices is a sum of 3 of them, one of the side a sum of at most 18 products of
 /// 3, one of a weight a sum of at most 216 products of 4. A product and its sums round at most 2, 10 and 19 times more.
 /// 3 * (9 + 2) < 2^6, 18 * (27 + 10) < 2^10, 216 * (36 + 19) < 2^14; one binary place more covers products of errors,

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 
 #include "collide/oracle/motion_filter.h"
@@ -49,7 +48,9 @@ FeatureMotion<Integer> integer_motion(const Points& points) {
   });
 }
 
-FeatureMotion<Integer> restricted(const FeatureMotion<Integer>& motion, const TimePiece& piece) {
+/// Returns a motion, or a vector of one, on a piece of its time, times 2^halvings.
+template <class Motion>
+Motion restricted(const Motion& motion, const TimePiece& piece) {
   const Integer whole = Integer(1) << piece.halvings, end = piece.start + 1;
   return with_each(motion, [&](const Polynomial<Integer, 1>& x) {
     const auto at = [&](const Integer& time) { return Integer(x.c[0] * (whole - time) + x.c[1] * time); };
@@ -108,20 +109,13 @@ std::optional<Meeting> first_meeting_in_plane(const FeatureMotion<Integer>& moti
     const Vector<Integer, 2> normal = cross(ends[0], ends[1]);
     const auto& in_line = !is_zero(normal.x) ? normal.x : !is_zero(normal.y) ? normal.y : normal.z;
     for (const Root& root : roots_of(coefficients(is_zero(in_line) ? dot(ends[0], ends[1]) : in_line))) {
-      const auto on_piece = [&](const Vector<Integer, 1>& v) { return restricted({v}, root.piece)[0]; };
-      if (!point_is_on_segment(root, {on_piece(ends[0]), on_piece(ends[1])})) continue;
+      if (!point_is_on_segment(root, {restricted(ends[0], root.piece), restricted(ends[1], root.piece)})) continue;
       const Meeting meeting = meeting_at(root);
       first = first ? Meeting{std::min(first->low, meeting.low), std::min(first->high, meeting.high)} : meeting;
       break;
     }
   }
   return first;
-}
-
-/// Returns true if all points lie in one plane at all times.
-template <class Kind>
-bool always_in_plane(const Filtered& filtered, const FeatureMotion<Integer>& motion) {
-  return filtered.answer == Filtered::Answer::unknown && is_zero(Kind::side(motion));
 }
 
 /// The signs of the side shortly before and after a root; 1 where there is no such time.
@@ -137,27 +131,12 @@ Sides sides_around(const Root& root, const Polynomial<Integer, 3>& side) {
   const bool begins = root.piece.start == 0, ends = root.piece.start == Integer(1) << root.piece.halvings;
   return {begins ? 1 : sgn(*first) * (is_odd ? -1 : 1), ends ? 1 : sgn(*first)};
 }
-/// A time at which features meet.
-struct Event {
-  Root root;  // of the side
-  Sides sides;
-  bool is_passage() const { return sides.before < 0 || sides.after < 0; }
-};
 
-/// Returns the first event for which counts(event) is true. Precondition: the side is not always 0.
-template <class Kind, class Counts>
-std::optional<Event> first_event(const Filtered& filtered, const FeatureMotion<Integer>& motion, const Counts& counts) {
-  if (filtered.answer == Filtered::Answer::passing) {
-    const TimePiece piece{filtered.start, filtered.halvings};
-    const Coefficients side = coefficients(Kind::side(restricted(motion, piece)));
-    return Event{{piece, side}, {sgn(side.front()), sgn(side.back())}};
-  }
-  for (const Root& root : roots_of(coefficients(Kind::side(motion)))) {
-    const FeatureMotion<Integer> piece = restricted(motion, root.piece);
-    const Event event{root, sides_around(root, Kind::side(piece))};
-    if (counts(event) && meet_at<Kind>(root, piece)) return event;
-  }
-  return std::nullopt;
+/// Returns the root that the filter found.
+template <class Kind>
+Root passing_root(const Filtered& filtered, const FeatureMotion<Integer>& motion) {
+  const TimePiece piece{filtered.start, filtered.halvings};
+  return {piece, coefficients(Kind::side(restricted(motion, piece)))};
 }
 
 template <class Kind>
@@ -165,10 +144,18 @@ std::optional<Meeting> first_meeting(const Points& points) {
   const Filtered filtered = filter_motion<Kind>(points);
   if (filtered.answer == Filtered::Answer::apart) return std::nullopt;
   const FeatureMotion<Integer> motion = integer_motion<Kind>(points);
-  if (always_in_plane<Kind>(filtered, motion)) return first_meeting_in_plane<Kind>(motion);
-  const std::optional<Event> event = first_event<Kind>(filtered, motion, [](const Event&) { return true; });
-  if (!event) return std::nullopt;
-  return meeting_at(event->root);
+  if (filtered.answer == Filtered::Answer::passing) return meeting_at(passing_root<Kind>(filtered, motion));
+  const Polynomial<Integer, 3> side = Kind::side(motion);
+  if (is_zero(side)) return first_meeting_in_plane<Kind>(motion);
+  for (const Root& root : roots_of(coefficients(side))) {
+    if (meet_at<Kind>(root, restricted(motion, root.piece))) return meeting_at(root);
+  }
+  return std::nullopt;
+}
+
+Passage passage_at(const Root& root, bool inward) {
+  const Meeting meeting = meeting_at(root);
+  return {(meeting.low + meeting.high) / 2, inward};
 }
 
 template <class Kind>
@@ -176,11 +163,18 @@ std::optional<Passage> first_passage(const Points& points) {
   const Filtered filtered = filter_motion<Kind>(points);
   if (filtered.answer == Filtered::Answer::apart) return std::nullopt;
   const FeatureMotion<Integer> motion = integer_motion<Kind>(points);
-  if (always_in_plane<Kind>(filtered, motion)) return std::nullopt;
-  const std::optional<Event> event = first_event<Kind>(filtered, motion, std::mem_fn(&Event::is_passage));
-  if (!event) return std::nullopt;
-  const Meeting meeting = meeting_at(event->root);
-  return Passage{(meeting.low + meeting.high) / 2, event->sides.before > 0};
+  if (filtered.answer == Filtered::Answer::passing) {
+    const Root root = passing_root<Kind>(filtered, motion);
+    return passage_at(root, root.polynomial.front() > 0);
+  }
+  const Polynomial<Integer, 3> side = Kind::side(motion);
+  if (is_zero(side)) return std::nullopt;
+  for (const Root& root : roots_of(coefficients(side))) {
+    const FeatureMotion<Integer> piece = restricted(motion, root.piece);
+    const Sides sides = sides_around(root, Kind::side(piece));
+    if ((sides.before < 0 || sides.after < 0) && meet_at<Kind>(root, piece)) return passage_at(root, sides.before > 0);
+  }
+  return std::nullopt;
 }
 
 [[maybe_unused]] bool is_finite(const MovingPoint& p) {
