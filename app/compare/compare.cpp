@@ -99,12 +99,11 @@ std::optional<std::size_t> Comparison::find_reference(const FrameSnapshot& snaps
   const WorkEstimate work = cost_model_.of(brute_force);
   if (work.cost() <= budget_) return brute_force;
   reference_note = "brute force would take " + work.in_words();
-  // A method with levels and one without share the least code; levels with a hash share some with both.
+  // A method with levels and one without share the least code.
   const bool driver_uses_levels = collide::method_table()[snapshot.driver].uses_levels;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const collide::Method& method = collide::method_table()[i];
     if (i == brute_force || !method.exact || method.uses_levels == driver_uses_levels) continue;
-    if (method.uses_levels && method.uses_hash) continue;
     if (entries_[i].done || cost_model_.of(i).cost() <= budget_) return i;
   }
   return std::nullopt;
