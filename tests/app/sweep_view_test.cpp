@@ -114,6 +114,7 @@ TEST(SweepView, SweepsItsFrameWhileItIsClosedAndTheWorldChanges) {
 
 TEST(SweepView, AppliesTheSettingsOfTheClickedPoint) {
   PanelRig rig;
+  rig.session.comparison.choice.methods = compare::all_methods();
   sweep(rig);
   ASSERT_TRUE(wait_until(rig, has_ended));
   const ui::SweepView& view = rig.interface.sweep_view();
