@@ -185,7 +185,7 @@ click 1100 400 1
 press q
 expect_clean_end "the key Q, after other keyboards"
 kept() { grep -qx "$2" "$1" || fail "$2 was not kept: a key of another keyboard was taken for something else"; }
-for line in 'method = "sorted-grid"' 'contact_surface = "vertex-vertex"' 'levels = 2'; do kept keys.toml "$line"; done
+for line in 'method = "aabb-tree"' 'contact_surface = "vertex-vertex"' 'levels = 2'; do kept keys.toml "$line"; done
 for line in 'body-boxes = true' 'touches = false' 'below = "none"' 'hash_table = false'; do
   kept "$preferences" "$line"
 done

@@ -244,7 +244,7 @@ INSTANTIATE_TEST_SUITE_P(Coordinates, MeetingsOf,
                          testing::Values(Sample{"SmallIntegers", small_integer, 1000},
                                          Sample{"AnyReals", any_real, 150},
                                          Sample{"OffByOneDigit", off_by_one_digit, 200},
-                                         Sample{"OfAnyMagnitude", of_any_magnitude, 30}),
+                                         Sample{"OfAnyMagnitude", of_any_magnitude, 100}),
                          [](const auto& sample) { return sample.param.name; });
 
 /// Points that are at known places at a known time. All sums and products below are exact in double.
