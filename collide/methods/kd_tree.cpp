@@ -44,8 +44,7 @@ trees::Parts halve(std::span<const Item> items, const Aabb& box, Item* to) {
   if (std::min(low, items.size() - low) < items.size() / 8) {  // the sample misled: the median itself, by place
     low = items.size() / 2;
     std::copy(items.begin(), items.end(), to);
-    std::nth_element(to, to + low, to + items.size(),
-                     [axis](const Item& a, const Item& b) { return a.at[axis] < b.at[axis]; });
+    trees::part_at({to, items.size()}, low, axis);
   }
   trees::Parts parts;
   parts.size = {static_cast<Index>(low), static_cast<Index>(items.size() - low)};

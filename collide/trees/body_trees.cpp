@@ -1,7 +1,7 @@
 #include "collide/trees/body_trees.h"
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 #include <glm/common.hpp>
 
@@ -24,7 +24,7 @@ Aabb bounds_of(const Points& points, Range slots) {
 void BodyTrees::update(const Frame& frame, std::span<const Index> which, Workers& workers) {
   if (!std::ranges::equal(which, which_) || frame.bodies->first != bodies_.first ||
       frame.bodies->shape != bodies_.shape || patterns_.empty()) {
-    lay_out(frame, which);
+    lay_out(frame, which, workers);
   }
   workers.run([&](int thread) {
     const Part part = part_of(which.size(), thread, workers.threads());
@@ -34,63 +34,77 @@ void BodyTrees::update(const Frame& frame, std::span<const Index> which, Workers
 
 void BodyTrees::forget() { patterns_.clear(); }
 
-void BodyTrees::lay_out(const Frame& frame, std::span<const Index> which) {
-  for (auto& [shape, pattern] : patterns_) pattern.used = false;
+void BodyTrees::lay_out(const Frame& frame, std::span<const Index> which, Workers& workers) {
+  Patterns patterns = std::exchange(patterns_, {});  // none, should this fail half-way: then all is laid out anew
+  find_patterns(frame, which, patterns, workers);
   bodies_ = *frame.bodies;
   which_.assign(which.begin(), which.end());
   first_node_.assign(1, static_cast<Index>(which.empty() ? 0 : 2 * which.size() - 1));
   nodes_.assign(first_node_.front(), {});
   points_.resize(bodies_.vertex_count());  // an upper bound
   Index slots = 0;
-  for (const Index body : which) {
-    const Pattern& pattern = pattern_of(frame, body);
-    for (Node node : pattern.nodes) {
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    const Index body = which[k];
+    for (Node node : pattern_[k]->nodes) {
       node.first += node.is_leaf() ? slots : first_node_.back();
       nodes_.push_back(node);
     }
     first_node_.push_back(static_cast<Index>(nodes_.size()));
-    for (const Index vertex : pattern.vertex) points_.set(slots++, frame, bodies_.first[body] + vertex, body);
+    for (const Index vertex : pattern_[k]->vertex) points_.set(slots++, frame, bodies_.first[body] + vertex, body);
   }
   points_.resize(slots);
-  std::erase_if(patterns_, [](const auto& item) { return !item.second.used; });
+  patterns_ = std::move(patterns);
 }
 
-const BodyTrees::Pattern& BodyTrees::pattern_of(const Frame& frame, Index body) {
-  const std::shared_ptr<const Shape>& shape = frame.bodies->shape[body];
-  Pattern& pattern = patterns_[shape.get()];
-  pattern.used = true;
-  if (pattern.nodes.empty()) {
+/// Finds the pattern of each body. Cuts the meshes that are new, and drops those that no body has any more.
+void BodyTrees::find_patterns(const Frame& frame, std::span<const Index> which, Patterns& patterns, Workers& workers) {
+  for (auto& [shape, pattern] : patterns) pattern.used = false;
+  pattern_.clear();
+  std::vector<std::pair<Pattern*, Index>> fresh;  // and the body that each is cut by
+  for (const Index body : which) {
+    const std::shared_ptr<const Shape>& shape = frame.bodies->shape[body];
+    Pattern& pattern = patterns[shape.get()];
+    pattern.used = true;
+    pattern_.push_back(&pattern);
+    if (pattern.shape) continue;
     pattern.shape = shape;
-    pattern.vertex.resize(shape->vertex_count());
-    std::iota(pattern.vertex.begin(), pattern.vertex.end(), Index{0});
-    pattern.nodes.emplace_back();
-    cut(pattern, frame, frame.bodies->first[body], 0, {0, shape->vertex_count()});
-    pattern.nodes.front().whole_body = true;
+    fresh.emplace_back(&pattern, body);
   }
-  return pattern;
+  items_.resize(static_cast<std::size_t>(workers.threads()));
+  workers.run([&](int thread) {
+    const Part part = part_of(fresh.size(), thread, workers.threads());
+    for (std::size_t k = part.begin; k < part.end; ++k) {
+      fresh[k].first->cut(frame, fresh[k].second, items_[static_cast<std::size_t>(thread)]);
+    }
+  });
+  std::erase_if(patterns, [](const auto& item) { return !item.second.used; });
+}
+
+void BodyTrees::Pattern::cut(const Frame& frame, Index body, std::vector<Item>& items) {
+  const Index first = frame.bodies->first[body], size = frame.bodies->size(body);
+  items.clear();
+  for (Index v = 0; v < size; ++v) items.push_back({{frame.x[first + v], frame.y[first + v], frame.z[first + v]}, v});
+  nodes.assign(1, {});
+  cut(items, 0, 0);
+  nodes.front().whole_body = true;
+  for (const Item& item : items) vertex.push_back(item.number);
 }
 
 /// Cuts across the longest side, near the median, so that all patches but one are full.
-void BodyTrees::cut(Pattern& pattern, const Frame& frame, Index first_vertex, Index node, Range slots) {
-  if (slots.size() <= patch_size) {
-    pattern.nodes[node] = {{}, slots.begin, 0, slots.size(), false};
+void BodyTrees::Pattern::cut(std::span<Item> items, Index node, Index first_slot) {
+  const auto size = static_cast<Index>(items.size());
+  if (size <= patch_size) {
+    nodes[node] = {{}, first_slot, 0, size, false};
     return;
   }
-  const auto vertices = std::span(pattern.vertex).subspan(slots.begin, slots.size());
-  std::span<const float> longest;
-  float length = -1;
-  for (const std::span<const float> axis : {frame.x, frame.y, frame.z}) {
-    const std::span<const float> own = axis.subspan(first_vertex);
-    const auto [lo, hi] = std::ranges::minmax(vertices, {}, [own](Index v) { return own[v]; });
-    if (own[hi] - own[lo] > length) length = own[hi] - own[lo], longest = own;
-  }
-  const Index low = (slots.size() / 2 + patch_size - 1) / patch_size * patch_size;
-  std::ranges::nth_element(vertices, vertices.begin() + low, {}, [longest](Index v) { return longest[v]; });
-  const auto child = static_cast<Index>(pattern.nodes.size());
-  pattern.nodes[node] = {{}, child, 2, slots.size(), false};
-  pattern.nodes.resize(pattern.nodes.size() + 2);
-  cut(pattern, frame, first_vertex, child, {slots.begin, slots.begin + low});
-  cut(pattern, frame, first_vertex, child + 1, {slots.begin + low, slots.end});
+  const Aabb box = trees::bounds_of(items);
+  const Index low = (size / 2 + patch_size - 1) / patch_size * patch_size;
+  part_at(items, low, static_cast<std::size_t>(longest_axis(box.hi * 0.5f - box.lo * 0.5f)));
+  const auto child = static_cast<Index>(nodes.size());
+  nodes[node] = {{}, child, 2, size, false};
+  nodes.resize(nodes.size() + 2);
+  cut(items.first(low), child, first_slot);
+  cut(items.subspan(low), child + 1, first_slot + low);
 }
 
 /// From the leaves to the root.

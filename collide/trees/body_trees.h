@@ -4,6 +4,7 @@
 
 #include <unordered_map>
 
+#include "collide/trees/item.h"
 #include "collide/trees/tree_search.h"
 
 namespace collide::trees {
@@ -35,16 +36,21 @@ class BodyTrees {
     std::vector<Index> vertex;           // of each slot
     std::vector<Node> nodes;
     bool used = false;
+
+    void cut(const Frame& frame, Index body, std::vector<Item>& items);
+    void cut(std::span<Item> items, Index node, Index first_slot);
   };
-  static void cut(Pattern& pattern, const Frame& frame, Index first_vertex, Index node, Range slots);
-  const Pattern& pattern_of(const Frame& frame, Index body);
-  void lay_out(const Frame& frame, std::span<const Index> which);
+  using Patterns = std::unordered_map<const Shape*, Pattern>;
+  void find_patterns(const Frame& frame, std::span<const Index> which, Patterns& patterns, Workers& workers);
+  void lay_out(const Frame& frame, std::span<const Index> which, Workers& workers);
   void refit(const Frame& frame, std::size_t k);
 
-  std::unordered_map<const Shape*, Pattern> patterns_;
-  Bodies bodies_;                  // of the last layout
-  std::vector<Index> which_;       // the same
-  std::vector<Index> first_node_;  // of each body, and the end of the last one's
+  Patterns patterns_;
+  std::vector<Pattern*> pattern_;         // of each of the bodies
+  std::vector<std::vector<Item>> items_;  // by thread: of a mesh that is being cut
+  Bodies bodies_;                         // of the last layout
+  std::vector<Index> which_;              // the same
+  std::vector<Index> first_node_;         // of each body, and the end of the last one's
   std::vector<Node> nodes_;
   Points points_;
 };

@@ -4,21 +4,6 @@
 
 namespace collide::trees {
 
-namespace {
-
-Aabb bounds_of(std::span<const Item> items) {
-  std::array<float, 3> lo = items.front().at, hi = lo;
-  for (const Item& item : items) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      lo[axis] = std::min(lo[axis], item.at[axis]);
-      hi[axis] = std::max(hi[axis], item.at[axis]);
-    }
-  }
-  return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}};
-}
-
-}  // namespace
-
 void PointTree::build(const Frame& frame, std::span<const Index> which, Cut cut, Index leaf_size, Workers& workers) {
   cut_ = cut;
   leaf_size_ = leaf_size;

@@ -2,16 +2,10 @@
 // A tree over all vertices, built anew from the top: each node is cut as a method wants it. Memory: 60 bytes a vertex,
 // and 40 bytes a node.
 
-#include "collide/core/points.h"
+#include "collide/trees/item.h"
 #include "collide/trees/tree_search.h"
 
 namespace collide::trees {
-
-/// A vertex on its way into a leaf.
-struct Item {
-  std::array<float, 3> at;  // m
-  Index number;             // in a VertexList
-};
 
 /// The sizes of the parts of a node.
 struct Parts {
