@@ -14,24 +14,6 @@
 namespace app::compare {
 namespace {
 
-/// Returns the mean number of cells within the tolerance of a vertex.
-double cells_of_a_vertex(const collide::Settings& settings) {
-  double cells = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    cells *= 1 + 2 * static_cast<double>(settings.tolerance) / static_cast<double>(settings.cell_size[axis]);
-  }
-  return cells;
-}
-
-/// Returns the share of all pairs of points in a box that are about as close as the tolerance: in one cell of that size
-/// or in adjacent ones.
-double share_nearby(const glm::dvec3& extent, double tolerance) {
-  double share = 1;
-  for (int axis = 0; axis < 3; ++axis)
-    if (extent[axis] > 3 * tolerance) share *= 3 * tolerance / extent[axis];
-  return share;
-}
-
 /// Returns true if the estimate is what the method does on every frame.
 bool is_certain(const collide::Method& method) {
   return method.group == collide::MethodGroup::rivals && !method.uses_hash;
@@ -66,6 +48,7 @@ void CostModel::begin(const collide::Frame& frame, const collide::Settings& sett
   bodies_ = bodies.count();
   all_ = all_pair_tests(bodies, settings.self_collision);
 
+  sample_.draw(frame, settings.self_collision);
   collide::Result unused;
   boxes_.build(frame, unused);
   glm::dvec3 lo(1e300), hi(-1e300);
@@ -76,20 +59,20 @@ void CostModel::begin(const collide::Frame& frame, const collide::Settings& sett
     side_ += (glm::dvec3(boxes_.box[b].hi) - glm::dvec3(boxes_.box[b].lo)) / static_cast<double>(boxes_.live.size());
   }
   extent_ = boxes_.live.empty() ? glm::dvec3(0) : hi - lo;
-  in_overlapping_boxes_ = exact_tests_ = nearby_tests_ = 0;
-  const auto add = [&](std::uint64_t tests, std::uint64_t vertices, double nearby) {
-    in_overlapping_boxes_ += tests;
-    exact_tests_ += std::max(16 * vertices, tests >> settings.levels);  // at least those that its cuts leave of all
-    nearby_tests_ += std::max(64 * vertices, whole(static_cast<double>(tests) * nearby));
+  // The exact method: about sixteen tests per vertex, but at least those that its cuts leave of all.
+  const auto cut = [&](std::uint64_t tests, std::uint64_t vertices) {
+    return std::max(16 * vertices, tests >> settings.levels);
   };
-  const auto nearby = [&](collide::Index b) {
-    return share_nearby(glm::dvec3(boxes_.box[b].hi) - glm::dvec3(boxes_.box[b].lo), double{settings.tolerance});
-  };
-  for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_cutoff(settings.tolerance)))
-    add(std::uint64_t{bodies.size(a)} * bodies.size(b), bodies.size(a) + bodies.size(b),
-        std::min(nearby(a), nearby(b)));
+  in_overlapping_boxes_ = exact_tests_ = 0;
+  for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_cutoff(settings.tolerance))) {
+    in_overlapping_boxes_ += std::uint64_t{bodies.size(a)} * bodies.size(b);
+    exact_tests_ += cut(std::uint64_t{bodies.size(a)} * bodies.size(b), bodies.size(a) + bodies.size(b));
+  }
   if (!settings.self_collision) return;
-  for (const collide::Index b : boxes_.live) add(pairs_of(bodies.size(b)), bodies.size(b), nearby(b));
+  for (const collide::Index b : boxes_.live) {
+    in_overlapping_boxes_ += pairs_of(bodies.size(b));
+    exact_tests_ += cut(pairs_of(bodies.size(b)), bodies.size(b));
+  }
 }
 
 WorkEstimate CostModel::of(std::size_t method) const {
@@ -120,14 +103,17 @@ double CostModel::reachable_buckets() const {
   return std::min(static_cast<double>(settings_.buckets / common), max_sum);
 }
 
-/// Returns the mean number of cells that a subdivided box overlaps, padded by the tolerance.
-double CostModel::cells_of_a_box() const {
-  double cells = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double side = std::ldexp(side_[axis], -collide::cuts_along(axis, settings_.levels));
-    cells *= 1 + (side + static_cast<double>(settings_.tolerance)) / static_cast<double>(settings_.cell_size[axis]);
-  }
-  return cells;
+/// Returns the sides (m) of a subdivided box, on average.
+glm::dvec3 CostModel::subdivided_box() const {
+  glm::dvec3 box;
+  for (int axis = 0; axis < 3; ++axis)
+    box[axis] = std::ldexp(side_[axis], -collide::cuts_along(axis, settings_.levels));
+  return box;
+}
+
+/// Returns the number of pairs that meet in such a grid; see PairSample::share().
+double CostModel::pairs_near(const glm::dvec3& cell, const glm::dvec3& reach) const {
+  return static_cast<double>(pairs_of(static_cast<std::uint64_t>(vertices_))) * sample_.share(cell, reach);
 }
 
 WorkEstimate CostModel::estimate(const collide::Method& method) const {
@@ -135,20 +121,24 @@ WorkEstimate CostModel::estimate(const collide::Method& method) const {
   if (method.uses_hash) return estimate_hashed(method);
   if (is_certain(method)) return {in_overlapping_boxes_, 0};
   if (method.uses_levels) return {std::min(exact_tests_, in_overlapping_boxes_), 0};
-  return {std::min(all_, nearby_tests_), 0};
+  const glm::dvec3 tolerance(static_cast<double>(settings_.tolerance));
+  return {std::min(all_, whole(64 * vertices_ + pairs_near(tolerance, tolerance))), 0};
 }
 
 WorkEstimate CostModel::estimate_hashed(const collide::Method& method) const {
+  const glm::dvec3 cell(settings_.cell_size), padding(static_cast<double>(settings_.tolerance));
   const double boxes = std::min(std::ldexp(bodies_, settings_.levels), vertices_);
   const bool complete = method.uses_levels && method.exact;
-  // Of two boxes: each is in eight cells, or in all that it overlaps. Of two vertices: the cells around one of them.
-  const double cells = complete ? cells_of_a_box() : method.uses_levels ? 8 : cells_of_a_vertex(settings_);
+  // A box is in eight cells, or in all that it overlaps with its padding; a vertex looks into the cells around it.
+  const glm::dvec3 reach = method.uses_levels ? subdivided_box() + (complete ? padding : glm::dvec3(0)) : padding;
+  const glm::dvec3 along = 1.0 + (method.uses_levels ? 1.0 : 2.0) * reach / cell;
+  const double cells = method.uses_levels && !complete ? 8 : along.x * along.y * along.z;
   const double too_many = std::max(64.0, vertices_ / 32);  // as in multi_level_sb.cpp and vertex_grid.cpp
   if (cells > too_many && method.exact) return {all_, 0};
   const double entry_pairs = method.uses_levels ? cells * cells : cells;
   const double hashes = method.uses_levels ? boxes * cells : vertices_ * (1 + cells);
   const double aliased = static_cast<double>(all_) * entry_pairs / reachable_buckets();
-  return {std::min(all_, in_overlapping_boxes_ + whole(aliased)), whole(hashes)};
+  return {std::min(all_, whole(pairs_near(cell, reach) + aliased)), whole(hashes)};
 }
 
 }  // namespace app::compare

@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "app/compare/pair_sample.h"
 #include "collide/core/body_boxes.h"
 #include "collide/methods.h"
 
@@ -29,9 +30,10 @@ std::uint64_t all_pair_tests(const collide::Bodies& bodies, bool self_collision)
 
 /// Predicts the work of each method of collide::method_table(), by its index. The prediction is exact for brute force
 /// and Bounding Box. For another method it is its last measured work with the same settings in the same world. Before
-/// that it is an estimate: all vertex pairs of bodies whose boxes overlap, and aliasing as if the entries were spread
-/// evenly over the buckets. The exact method is assumed to test about sixteen others for each vertex. Sorted methods
-/// and trees are assumed to test four times as many, or those about as close as the tolerance.
+/// that it is an estimate. Of methods with a hash table: the pairs that meet in the cells of the grid, by a sample of
+/// all pairs, and aliasing as if the entries were spread evenly over the buckets. Of the exact method: about sixteen
+/// tests for each vertex. Of the sorted methods and trees: 64 tests for each vertex, and the pairs that come within
+/// about twice the tolerance.
 class CostModel {
  public:
   /// Sets the frame, which must be complete. `world` differs from world to world: what was learnt in another world is
@@ -49,7 +51,8 @@ class CostModel {
   };
   WorkEstimate estimate(const collide::Method& method) const;
   WorkEstimate estimate_hashed(const collide::Method& method) const;
-  double cells_of_a_box() const;
+  glm::dvec3 subdivided_box() const;
+  double pairs_near(const glm::dvec3& cell, const glm::dvec3& reach) const;
   double reachable_buckets() const;
 
   collide::Settings settings_;
@@ -58,9 +61,9 @@ class CostModel {
   double vertices_ = 0, bodies_ = 0;
   glm::dvec3 extent_{0};  // m, of all bodies
   glm::dvec3 side_{0};    // m, of a body's box, on average
-  // Pair tests: all; of bodies whose boxes overlap; of these, those that the exact method's cuts leave, and those of
-  // vertices about as close as the tolerance.
-  std::uint64_t all_ = 0, in_overlapping_boxes_ = 0, exact_tests_ = 0, nearby_tests_ = 0;
+  // Pair tests: all; of bodies whose boxes overlap; of these, those that the exact method's cuts leave.
+  std::uint64_t all_ = 0, in_overlapping_boxes_ = 0, exact_tests_ = 0;
+  PairSample sample_;
   collide::BodyBoxes boxes_;
   collide::BodyPairs pairs_;
 };
