@@ -19,6 +19,25 @@ TEST(DetectionPanel, ChoosesEveryMethodWhileTheWorldRuns) {
   }
 }
 
+TEST(DetectionPanel, ListsAllMethodsAndExplainsEachBesideTheList) {
+  for (const glm::ivec2 size : {glm::ivec2(1000, 600), glm::ivec2(1280, 720)}) {
+    PanelRig rig;
+    rig.ui.lower = ui::LowerView::comparison;
+    rig.resize(size.x, size.y);
+    rig.click("Method");
+    const ui::WidgetRecorder::Widget list = rig.widget("All methods");
+    for (const collide::Method& method : collide::method_table()) {
+      const ui::WidgetRecorder::Widget line = rig.widget(method.name);
+      EXPECT_LE(line.max.y, static_cast<float>(size.y)) << method.key;
+      rig.move(line.min.x + 40, 0.5f * (line.min.y + line.max.y));
+      rig.frames(40);
+      const ui::WidgetRecorder::Widget tip = rig.widget("Tooltip");
+      EXPECT_TRUE(tip.min.x >= line.max.x || tip.max.y <= list.min.y) << method.key << " covers the list";
+      EXPECT_LE(tip.max.y, static_cast<float>(size.y)) << method.key;
+    }
+  }
+}
+
 TEST(DetectionPanel, ChoosesEveryContactSurface) {
   PanelRig rig;
   const std::vector order{softbody::ContactSurface::surfaces, softbody::ContactSurface::vertices};

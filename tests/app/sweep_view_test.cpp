@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 
 #include "app/ui/shortcuts.h"
 #include "tests/app/panel_rig.h"
@@ -62,6 +63,54 @@ TEST(SweepView, AddsPointsInsideThePlotDuringTheSweep) {
     missing = missing || row.recall < 1;
   }
   EXPECT_TRUE(missing) << "the literal method with small cells";
+}
+
+TEST(SweepView, RunsAndShowsTheShownMethods) {
+  PanelRig rig;
+  rig.session.comparison.choice.methods = compare::all_methods();
+  sweep(rig);
+  ASSERT_TRUE(wait_until(rig, has_ended));
+  const auto& points = rig.interface.sweep_view().plot().points();
+  const auto methods_with_points = [&] {
+    compare::MethodSet methods(collide::method_table().size(), false);
+    for (const ui::SweepPlot::Point& point : points) methods[point.method] = true;
+    return methods;
+  };
+  EXPECT_EQ(methods_with_points(), compare::all_methods());
+  std::map<float, std::size_t> lanes;
+  for (const ui::SweepPlot::Point& point : points)
+    if (point.value.error <= 0) {
+      EXPECT_EQ(lanes.emplace(point.at.y, point.method).first->second, point.method) << "each method has its lane";
+    }
+  rig.click("Shown methods");
+  rig.click("Trees");
+  rig.press_escape();
+  compare::MethodSet expected = compare::all_methods();
+  for (std::size_t m = 0; m < expected.size(); ++m)
+    expected[m] = collide::method_table()[m].group != collide::MethodGroup::trees;
+  EXPECT_EQ(methods_with_points(), expected);
+  EXPECT_EQ(rig.recorder.find("Legend Octree"), nullptr);
+  rig.session.comparison.choice.methods = compare::all_methods();
+  rig.frames(2);
+  EXPECT_EQ(methods_with_points(), compare::all_methods()) << "the sweep's results were kept";
+}
+
+TEST(SweepView, HasRoomForFewAndForAllMethods) {
+  for (const compare::MethodSet& methods : {compare::usual_methods(), compare::all_methods()})
+    for (const glm::ivec2 size : {glm::ivec2(1000, 600), glm::ivec2(1280, 720), glm::ivec2(1920, 1080)}) {
+      PanelRig rig;
+      rig.ui.lower = ui::LowerView::sweep;
+      rig.session.comparison.choice.methods = methods;
+      rig.resize(size.x, size.y);
+      const ui::WidgetRecorder::Widget plot = rig.widget("Scatter");
+      EXPECT_GE(plot.max.y - plot.min.y, 180) << size.x;
+      for (const ui::WidgetRecorder::Widget& entry : rig.recorder.widgets) {
+        if (!entry.label.starts_with("Legend ")) continue;
+        EXPECT_LE(entry.max.x, static_cast<float>(size.x)) << entry.label;
+        EXPECT_LE(entry.max.y, plot.min.y) << entry.label;
+      }
+      EXPECT_LE(rig.widget("Sweep footing").max.y, static_cast<float>(size.y));
+    }
 }
 
 TEST(SweepView, SeesTheEndOfASweepBehindTheTour) {

@@ -193,16 +193,17 @@ void SweepView::draw_legend(Widgets& w, const compare::MethodSet& shown) {
   }
   for (std::size_t level = 0; levels && level < compare::sweep_levels.size(); ++level) {
     draw_legend_entry(w, fmt::format("level {}", compare::sweep_levels[level]),
-                      "Points of this subdivision level (§2.1).", level == 0 ? group_gap : gap, [&](ImVec2 at) {
+                      "Points of this subdivision level (§2.1).", level == 0 ? new_line : gap, [&](ImVec2 at) {
                         draw_marker(at, w.px(SweepPlot::mark_radius(level)), collide::Marker::disc,
                                     ImGui::GetColorU32(ImGuiCol_TextDisabled), w.px(1));
                       });
   }
-  draw_legend_entry(w, "Pareto front", "No other point is both faster and better.", group_gap, [&](ImVec2 at) {
-    const float half = w.px(7);
-    ImGui::GetWindowDrawList()->AddLine({at.x - half, at.y}, {at.x + half, at.y}, ImGui::GetColorU32(ImGuiCol_Text),
-                                        w.px(1.5f));
-  });
+  draw_legend_entry(w, "Pareto front", "No other point is both faster and better.", levels ? group_gap : new_line,
+                    [&](ImVec2 at) {
+                      const float half = w.px(7);
+                      ImGui::GetWindowDrawList()->AddLine({at.x - half, at.y}, {at.x + half, at.y},
+                                                          ImGui::GetColorU32(ImGuiCol_Text), w.px(1.5f));
+                    });
   draw_legend_entry(w, "in use", "The method and settings that drive the bodies now.", gap,
                     [&](ImVec2 at) { SweepPlot::draw_ring(w, at); });
   ImGui::PopStyleVar();

@@ -116,7 +116,10 @@ void Widgets::show_tooltip(const char* text) const {
   const float wrap = px(250);
   const ImVec2 pad = ImGui::GetStyle().WindowPadding, lines = ImGui::CalcTextSize(text, nullptr, false, wrap);
   const ImVec2 size{lines.x + 2 * pad.x, lines.y + 2 * pad.y};
-  const ImVec2 at = tooltip_position(size, px(6), std::max(px(80), size.y), mouse_.last_results);
+  // Far from the item only beside an open list, whose other lines stay legible.
+  const bool list = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  const float max_shift = list ? ImGui::GetIO().DisplaySize.y : px(80);
+  const ImVec2 at = tooltip_position(size, px(6), max_shift, mouse_.last_results);
   if (recorder_) recorder_->widgets.push_back({"Tooltip", at, {at.x + size.x, at.y + size.y}, true});
   ImGui::SetNextWindowPos(at);
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, usual_alpha_);  // the tooltip of a disabled widget is not faint
