@@ -32,18 +32,18 @@ bool boxes_are_separate(const Points& points) {
   return false;
 }
 
-/// The filter halves the time at most this often.
-constexpr int max_halvings = 8;
+/// The filter halves the time at most this often. What is still open then is nearly always so because of rounding.
+constexpr int max_halvings = 4;
 
 /// Times d^N, this bounds the rounding error of each coefficient of a polynomial of degree N, where d is the largest
-/// coordinate difference. Proof: a coordinate difference is off by at most 9 * 2^-53 d after eight halvings. A
+/// coordinate difference. Proof: a coordinate difference is off by at most 5 * 2^-53 d after four halvings. A
 /// coefficient of a component between vertices is a sum of 3 of them, one of the side a sum of at most 18 products of
 /// 3, one of a weight a sum of at most 216 products of 4. A product and its sums round at most 2, 10 and 19 times more.
-/// 3 * (9 + 2) < 2^6, 18 * (27 + 10) < 2^10, 216 * (36 + 19) < 2^14; one binary place more covers products of errors,
+/// 3 * (5 + 2) < 2^5, 18 * (15 + 10) < 2^9, 216 * (20 + 19) < 2^14; one binary place more covers products of errors,
 /// and that d^N is rounded.
 template <std::size_t N>
-constexpr double relative_error = N == 1   ? 0x1p-46
-                                  : N == 3 ? 0x1p-42
+constexpr double relative_error = N == 1   ? 0x1p-47
+                                  : N == 3 ? 0x1p-43
                                            : 0x1p-38;
 
 /// Signs of the coefficients; 0 where rounding leaves it open.

@@ -147,7 +147,7 @@ Query random_query(std::mt19937_64& random, const Coordinate& coordinate) {
   return query;
 }
 
-/// Makes a query degenerate in one of several ways, or leaves it as it is.
+/// Makes half of all queries degenerate, in one of several ways.
 void degenerate(Query& query, std::mt19937_64& random) {
   auto& p = query.points;
   const auto each = [&](const auto& change) {
@@ -156,7 +156,7 @@ void degenerate(Query& query, std::mt19937_64& random) {
       change(point.to);
     }
   };
-  switch (random() % 10) {
+  switch (random() % 18) {
     case 0:
       p[1] = p[0];  // an edge of no length, or the vertex is a corner
       break;
@@ -209,7 +209,7 @@ TEST_P(MeetingsOf, AgreeWithRationalArithmetic) {
     met += truth.first_meeting.has_value();
     passed += truth.passes;
   }
-  EXPECT_GT(met, GetParam().count / 8);
+  EXPECT_GT(met, GetParam().count / 10);
   EXPECT_GT(passed, 0);
 }
 
@@ -244,7 +244,7 @@ INSTANTIATE_TEST_SUITE_P(Coordinates, MeetingsOf,
                          testing::Values(Sample{"SmallIntegers", small_integer, 1000},
                                          Sample{"AnyReals", any_real, 150},
                                          Sample{"OffByOneDigit", off_by_one_digit, 200},
-                                         Sample{"OfAnyMagnitude", of_any_magnitude, 100}),
+                                         Sample{"OfAnyMagnitude", of_any_magnitude, 60}),
                          [](const auto& sample) { return sample.param.name; });
 
 /// Points that are at known places at a known time. All sums and products below are exact in double.
