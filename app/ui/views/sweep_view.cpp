@@ -138,7 +138,7 @@ void draw_progress(Widgets& w, const session::SweepState& state, float width) {
 
 float SweepView::preferred_height(std::size_t methods, float window) {
   const float lanes = 9 * static_cast<float>(methods);  // and lines of the legend
-  return std::clamp(0.42f * window + lanes, min_height, 370 + lanes);
+  return std::clamp(0.44f * window + lanes, min_height, 370 + lanes);
 }
 
 void SweepView::draw_button(Widgets& w, const Session& session) {
