@@ -11,9 +11,12 @@
 #   fuzz       five minutes of every fuzz target
 #   debian-12  README's two commands in a new root of that Debian below build/, without a display; needs to be root
 #   debian-13  the same
+#   install    the program and the static libraries, installed and moved, and the shared ones; examples of their use
+#   package-12 Debian packages, made in an empty system of that Debian; installed, used and removed in another; as root
+#   package-13 the same
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
-all=(ci-clang headless asan tsan coverage soak fuzz debian-12 debian-13)
+all=(ci-clang headless asan tsan coverage soak fuzz debian-12 debian-13 install package-12 package-13)
 
 usage() { fail "Usage: tests/checks.sh NAME...   with names of: ${all[*]}, or all"; }
 
@@ -102,6 +105,43 @@ debian() {
     step "$1: tests" in_root "$folder" /sbcollide/tests/run.sh
 }
 
+# install_and_use PRESET: in a folder that is then moved, and that nobody may write to.
+install_and_use() {
+  local folder=$root/build/$1/installed
+  chmod -R u+w "$folder" 2>/dev/null || true
+  rm -rf "$folder" && mkdir "$folder"
+  cmake --install "$root/build/$1" --prefix "$folder/first" >"$folder.log"
+  mv "$folder/first" "$folder/another place"
+  chmod -R a-w "$folder/another place"
+  ! grep -qF "$root" "$folder/another place/bin/sbcollide" || fail "the program knows where its sources are"
+  "$root/tests/install.sh" "$folder/another place"
+}
+
+install_all() {
+  install_missing desktop-file-utils appstream
+  local preset
+  for preset in release shared; do
+    step "$preset: build" build "$preset" all -DBUILD_TESTING=OFF && step "$preset: install" install_and_use "$preset"
+  done
+}
+
+make_package() { in_root "$1" bash -c '. /sbcollide/app/setup.sh && install_missing "${program_packages[@]}" dpkg-dev &&
+  build release package -DBUILD_TESTING=OFF'; }
+
+use_package() {
+  mkdir "$2/packages"
+  cp "$1"/sbcollide/build/release/*.deb "$2"/sbcollide/tests/{install,package}.sh "$2/packages"
+  rm -r "$2/sbcollide"
+  in_root "$2" bash /packages/package.sh /packages
+}
+
+# package NAME SUITE
+package() {
+  local maker=$root/build/$1 user=$root/build/$1-user
+  step "$1: root" make_root "$2" "$maker" && step "$1: build" make_package "$maker" &&
+    step "$1: root" make_root "$2" "$user" && step "$1: use" use_package "$maker" "$user"
+}
+
 check() {
   case $1 in
     ci-clang) install_missing clang && build_and_test ci-clang ;;
@@ -109,6 +149,9 @@ check() {
     coverage | soak | fuzz) "$1" ;;
     debian-12) debian "$1" bookworm ;;
     debian-13) debian "$1" trixie ;;
+    install) install_all ;;
+    package-12) package "$1" bookworm ;;
+    package-13) package "$1" trixie ;;
     *) usage ;;
   esac
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/compare/cost_model.h"
+#include "app/compare/method_set.h"
 #include "app/compare/positions.h"
 
 namespace app::compare {
@@ -31,9 +32,9 @@ struct FrameSnapshot {
   Positions at;
   collide::Bodies bodies;
   collide::Settings settings;
-  std::size_t driver = 0;    // index of the method that drives the bodies
-  collide::Result found;     // the result of that method
-  std::vector<bool> chosen;  // by method: run it, too; empty: none
+  std::size_t driver = 0;  // index of the method that drives the bodies
+  collide::Result found;   // the result of that method
+  MethodSet chosen;        // to be run, too; empty: none
 
   collide::Frame frame() const { return {at.x, at.y, at.z, &bodies}; }
 };

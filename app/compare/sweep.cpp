@@ -40,9 +40,11 @@ glm::vec3 automatic_cell_size(const softbody::World& world, int levels) {
 }
 
 std::vector<Configuration> sweep_configurations(const collide::Settings& settings,
-                                                const std::function<glm::vec3(int levels)>& automatic_cell_size) {
+                                                const std::function<glm::vec3(int levels)>& automatic_cell_size,
+                                                const MethodSet& methods) {
   std::vector<Configuration> all;
-  for (std::size_t m = 0; m < collide::method_table().size(); ++m) {
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    if (!methods[m]) continue;
     const collide::Method& method = collide::method_table()[m];
     for (const int levels : axis(method.uses_levels, sweep_levels, settings.levels)) {
       const glm::vec3 automatic = automatic_cell_size(levels);
@@ -59,8 +61,9 @@ std::vector<Configuration> sweep_configurations(const collide::Settings& setting
   return all;
 }
 
-std::vector<Configuration> sweep_configurations(const softbody::World& world) {
-  return sweep_configurations(world.collision(), [&](int levels) { return automatic_cell_size(world, levels); });
+std::vector<Configuration> sweep_configurations(const softbody::World& world, const MethodSet& methods) {
+  return sweep_configurations(
+      world.collision(), [&](int levels) { return automatic_cell_size(world, levels); }, methods);
 }
 
 Sweep::Sweep(const collide::Frame& frame, const std::vector<Configuration>& configurations, const SweepLimits& limits,

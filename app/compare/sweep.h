@@ -10,6 +10,7 @@
 
 #include "app/base/timings.h"
 #include "app/compare/cost_model.h"
+#include "app/compare/method_set.h"
 #include "softbody/world/world.h"
 
 namespace app::compare {
@@ -30,11 +31,12 @@ struct Configuration {
 /// of the first frame of a recording, not on the current ones.
 glm::vec3 automatic_cell_size(const softbody::World& world, int levels);
 
-/// Returns each method with all combinations of the axes that it uses, in the order of the table. The other settings
-/// are those given, or the world's. automatic_cell_size: of a level.
+/// Returns each of the methods with all combinations of the axes that it uses, in the order of the table. The other
+/// settings are those given, or the world's. automatic_cell_size: of a level.
 std::vector<Configuration> sweep_configurations(const collide::Settings& settings,
-                                                const std::function<glm::vec3(int levels)>& automatic_cell_size);
-std::vector<Configuration> sweep_configurations(const softbody::World& world);
+                                                const std::function<glm::vec3(int levels)>& automatic_cell_size,
+                                                const MethodSet& methods = all_methods());
+std::vector<Configuration> sweep_configurations(const softbody::World& world, const MethodSet& methods = all_methods());
 
 /// The figures of one configuration on the frame.
 struct SweepRow {

@@ -15,17 +15,20 @@
 namespace app::files {
 namespace {
 
-glm::vec3 place(const VertexPositions& at, collide::Index vertex) { return {at.x[vertex], at.y[vertex], at.z[vertex]}; }
-
-/// Returns the mesh of a body in the shape that it has in this frame.
-softbody::Mesh mesh_of(const BodyMeshes& meshes, std::size_t body, const VertexPositions& at) {
-  softbody::Mesh mesh;
-  for (collide::Index v = meshes.first[body]; v < meshes.first[body + 1]; ++v) mesh.vertices.emplace_back(place(at, v));
-  mesh.triangles = triangles_of(meshes, body, at);
+/// Returns the mesh of a body with these triangles, in the shape that it has in this frame.
+softbody::Mesh mesh_of(const BodyMeshes& meshes, std::size_t body, const VertexPositions& at,
+                       std::vector<softbody::Triangle> triangles) {
+  softbody::Mesh mesh, connected;
+  connected.triangles = triangles;
+  softbody::connect_triangles(connected);
+  mesh.closed = connected.closed;
+  mesh.triangles = std::move(triangles);
+  for (collide::Index v = meshes.first[body]; v < meshes.first[body + 1]; ++v)
+    mesh.vertices.emplace_back(at.x[v], at.y[v], at.z[v]);
   for (const auto& [a, b] : meshes.edges(body))
     if (a != b) mesh.edges.push_back(softbody::ordered(a, b));
   std::ranges::sort(mesh.edges);
-  mesh.edges.erase(std::ranges::unique(mesh.edges).begin(), mesh.edges.end());
+  mesh.edges.erase(std::unique(mesh.edges.begin(), mesh.edges.end()), mesh.edges.end());
   return mesh;
 }
 
@@ -33,10 +36,11 @@ bool same_topology(const collide::Shape& a, const collide::Shape& b) {
   return a.shared_topology() == b.shared_topology() || a.topology() == b.topology();
 }
 
-/// Returns true if bodies of the model can have this mesh and shape, but for the positions of its vertices.
-bool suits(const softbody::BodyModel& model, const softbody::Mesh& mesh, const collide::Shape& shape) {
+/// Returns true if the model is that of all bodies with this shape and these triangles.
+bool suits(const softbody::BodyModel& model, const collide::Shape& shape,
+           const std::vector<softbody::Triangle>& triangles) {
   return model.shape->shared_topology() == shape.shared_topology() && model.shape->rest() == shape.rest() &&
-         model.mesh.triangles == mesh.triangles;
+         model.mesh.triangles == triangles;
 }
 
 }  // namespace
@@ -111,10 +115,11 @@ std::shared_ptr<const softbody::RecordedFrame> Playback::record(int number, Sequ
     if (of.meshes.size(body) == 0) continue;
     const auto& shape = of.bodies.shape[body];
     if (count == models_.size()) {
-      softbody::Mesh mesh = mesh_of(of.meshes, body, frame.at);
-      models_.push_back(!models_.empty() && suits(*models_.back(), mesh, *shape)
-                            ? models_.back()
-                            : softbody::recorded_body_model(std::move(mesh), shape));
+      std::vector<softbody::Triangle> triangles = triangles_of(of.meshes, body, frame.at);
+      models_.push_back(
+          !models_.empty() && suits(*models_.back(), *shape, triangles)
+              ? models_.back()
+              : softbody::recorded_body_model(mesh_of(of.meshes, body, frame.at, std::move(triangles)), shape));
     } else if (!same_topology(*models_[count]->shape, *shape)) {
       throw softbody::SceneError(sequence_.file(static_cast<std::size_t>(number)).string() + ": body " +
                                  std::to_string(body) +

@@ -40,6 +40,8 @@ std::string script(const Plot& plot);
 
 /// Returns "#rrggbb".
 std::string colour(const collide::Method& method);
+/// Returns the number of gnuplot's `pointtype`.
+inline int point_type(const collide::Method& method) { return static_cast<int>(method.marker); }
 /// Returns the colour of the table's integrator i. People who see few colours can tell them apart, too (Okabe and Ito
 /// 2008).
 const char* integrator_colour(std::size_t i);

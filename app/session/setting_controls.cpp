@@ -64,14 +64,14 @@ void SettingControls::set_method(std::string_view key) {
   simulation_.change([key](World& changed) { changed.set_method(key); });
 }
 
-void SettingControls::next_method() {
+void SettingControls::next_method(const compare::MethodSet& methods) {
   const auto all = collide::method_table();
   const World& world = simulation_.world();
   const auto here = std::ranges::find(all, world.method().key, &collide::Method::key);
   const auto first = static_cast<std::size_t>(here - all.begin());
   for (std::size_t i = 1; i < all.size(); ++i) {
-    const collide::Method& next = all[(first + i) % all.size()];
-    if (affordable(next, world.collision())) return set_method(next.key);
+    const std::size_t next = (first + i) % all.size();
+    if (methods[next] && affordable(all[next], world.collision())) return set_method(all[next].key);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "app/ui/layout.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/ui/panel/panel.h"
@@ -14,6 +15,7 @@ namespace {
 // All in design pixels.
 constexpr float tour_width = 340;
 constexpr float min_scene_height = 200;
+constexpr std::size_t min_compare_rows = 5;  // without scrolling
 
 float width_of(const ScreenRect& area) { return area.max.x - area.min.x; }
 
@@ -27,10 +29,17 @@ ScreenRect cut_tour(ScreenRect& scene, float scale) {
   return tour;
 }
 
-/// Returns the height of what stands below the scene.
-float lower_height(LowerView view, const ScreenRect& scene, float scale) {
-  if (view == LowerView::comparison) return compare_height(width_of(scene), scale);
-  return std::clamp(std::floor(0.5f * scene.max.y), SweepView::min_height * scale, SweepView::max_height * scale);
+/// Returns the height of what stands below the scene, at most `room`; more if that is too little.
+float lower_height(const Session& session, LowerView view, const ScreenRect& scene, float room, float scale) {
+  const auto rows = static_cast<std::size_t>(std::ranges::count(session.comparison.shown_methods(), true));
+  const auto fit = [&](float least, float wanted) {
+    return std::clamp(std::floor(room), least, std::max(least, wanted));
+  };
+  if (view == LowerView::comparison) {
+    const auto height = [&](std::size_t count) { return compare_height(count, width_of(scene), scale); };
+    return fit(height(std::min(rows, min_compare_rows)), height(rows));
+  }
+  return fit(SweepView::min_height * scale, std::floor(scale * SweepView::preferred_height(rows, scene.max.y / scale)));
 }
 
 }  // namespace
@@ -53,8 +62,9 @@ Layout compute_layout(const Session& session, const UiState& ui, float scale) {
   if (layout.panel_covers_scene) return layout;
   const float line = time_line_height(scale);
   if (ui.lower != LowerView::none) {
-    const float top = display.y - lower_height(ui.lower, scene, scale);
-    if (top >= min_scene_height * scale + line)
+    const float room = display.y - min_scene_height * scale - line;
+    const float height = lower_height(session, ui.lower, scene, room, scale), top = display.y - height;
+    if (height <= room)
       layout.lower = {{scene.min.x, top}, display};
     else
       layout.no_room_message = ui.lower == LowerView::comparison

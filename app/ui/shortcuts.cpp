@@ -21,7 +21,7 @@ void tell(Session& session, std::string text) {
 }
 
 void next_method(Session& session) {
-  session.settings.next_method();
+  session.settings.next_method(session.comparison.choice.methods);
   tell(session, "Method: " + std::string(session.world().method().name));
 }
 
@@ -55,7 +55,7 @@ constexpr std::array shortcut_table{
              false, 0, true},
     Shortcut{GLFW_KEY_DELETE, GLFW_KEY_BACKSPACE, "Del", "Delete the selected body",
              [](Session& s, UiState&) { s.bodies.remove_selected(); }, false, 0, true},
-    Shortcut{GLFW_KEY_M, 0, "M", "Next method", [](Session& s, UiState&) { next_method(s); }},
+    Shortcut{GLFW_KEY_M, 0, "M", "Next shown method", [](Session& s, UiState&) { next_method(s); }},
     Shortcut{GLFW_KEY_F, 0, "F", "Next contact surface", [](Session& s, UiState&) { next_contact_surface(s); }, false,
              0, true},
     Shortcut{GLFW_KEY_LEFT_BRACKET, 0, "[", "Fewer boxes per body", [](Session& s, UiState&) { change_levels(s, -1); },

@@ -39,6 +39,9 @@ Preferences read(softbody::Table root) {
     bool& on = p.overlays.*row.shown;
     on = shown.boolean(std::string(row.key), on);
   }
+  softbody::Table methods = root.child("methods");
+  for (std::size_t m = 0; m < p.methods.size(); ++m)
+    p.methods[m] = methods.boolean(std::string(collide::method_table()[m].key), p.methods[m]);
   for (softbody::Table& section : root.children("section"))
     p.sections[section.text("name", "")] = section.boolean("open", true);
   return p;
@@ -51,6 +54,8 @@ std::string text_of(const Preferences& p) {
   out.add("below", lower_views[static_cast<std::size_t>(p.lower)]);
   out.heading("[show]");
   for (const render::OverlayRow& row : render::overlay_table) out.add(row.key, p.overlays.*row.shown);
+  out.heading("[methods]");
+  for (std::size_t m = 0; m < p.methods.size(); ++m) out.add(collide::method_table()[m].key, bool{p.methods[m]});
   for (const auto& [name, open] : p.sections) out.heading("[[section]]").add("name", name).add("open", open);
   return out.text();
 }
@@ -84,7 +89,8 @@ Preferences preferences_of(const Session& session, const ui::UiState& ui, glm::i
           .lower = ui.lower,
           .picture_with_panel = ui.exporter.with_panel,
           .slow_factor = session.simulation.clock.slow_factor,
-          .sections = ui.sections};
+          .sections = ui.sections,
+          .methods = session.comparison.choice.methods};
 }
 
 void apply(const Preferences& p, Session& session, ui::UiState& ui) {
@@ -97,6 +103,7 @@ void apply(const Preferences& p, Session& session, ui::UiState& ui) {
   ui.lower = p.lower;
   ui.exporter.with_panel = p.picture_with_panel;
   ui.sections = p.sections;
+  session.comparison.choice.methods = p.methods;
 }
 
 fs::path preferences_path() {

@@ -19,7 +19,8 @@ struct Preferences {
   ui::LowerView lower = ui::LowerView::none;
   bool picture_with_panel = false;
   double slow_factor = 0.1;
-  std::map<std::string, bool> sections;  // of the panel: whether they are open
+  std::map<std::string, bool> sections;                   // of the panel: whether they are open
+  compare::MethodSet methods = compare::usual_methods();  // that are shown side by side
 
   bool operator==(const Preferences&) const = default;
 };

@@ -21,6 +21,7 @@ Edges edges_of(const BodyMesh& mesh) {
 
 std::vector<glm::vec3> positions_of(std::span<const float> xyz) {
   std::vector<glm::vec3> positions;
+  positions.reserve(xyz.size() / 3);
   for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) positions.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
   return positions;
 }

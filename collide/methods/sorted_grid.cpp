@@ -5,7 +5,8 @@
 // Memory: 28 bytes a vertex, and what CountingSort takes.
 
 #include <algorithm>
-#include <bit>
+
+#include <glm/common.hpp>
 
 #include "collide/core/body_boxes.h"
 #include "collide/core/contact_search.h"
@@ -25,17 +26,17 @@ namespace {
 class TorusGrid {
  public:
   TorusGrid(const BodyBoxes& bodies, Index vertices, float cutoff) : inverse_(1 / (cutoff * (1 + 0x1p-20))) {
-    std::array<double, 3> cells_left{};
-    for (int axis = 0; axis < 3; ++axis) {
-      double lo = 0, hi = 0;
-      for (const Index body : bodies.live) {
-        const bool first = body == bodies.live.front();
-        lo = first ? bodies.box[body].lo[axis] : std::min<double>(lo, bodies.box[body].lo[axis]);
-        hi = first ? bodies.box[body].hi[axis] : std::max<double>(hi, bodies.box[body].hi[axis]);
-      }
-      cells_left[static_cast<std::size_t>(axis)] = (hi - lo) * inverse_ / 4;
+    glm::dvec3 lo(0), hi(0);
+    for (const Index body : bodies.live) {
+      const Aabb& box = bodies.box[body];
+      lo = body == bodies.live.front() ? glm::dvec3(box.lo) : glm::min(lo, glm::dvec3(box.lo));
+      hi = body == bodies.live.front() ? glm::dvec3(box.hi) : glm::max(hi, glm::dvec3(box.hi));
     }
-    const Index enough = vertices / 4;
+    std::array<double, 3> cells_left{};  // along each axis, in units of the cells that it has
+    for (int axis = 0; axis < 3; ++axis) {
+      cells_left[static_cast<std::size_t>(axis)] = (hi[axis] - lo[axis]) * inverse_ / 4;
+    }
+    const Index enough = vertices / 4;  // with more, half of the cells are empty, which no processor can guess
     for (int used = 6; used < 30 && (Index{1} << used) < enough; ++used) {
       const auto longest = static_cast<std::size_t>(std::ranges::max_element(cells_left) - cells_left.begin());
       if (cells_left[longest] <= 1) break;

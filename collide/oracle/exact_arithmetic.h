@@ -1,5 +1,6 @@
 #pragma once
-// Numbers for exact signs: a double with a bound of its error, rationals, and polynomials and vectors of either.
+// Numbers for exact signs: a double with a bound of its error, rationals and integers, and polynomials and vectors of
+// them.
 
 #include <array>
 #include <cmath>
@@ -11,6 +12,7 @@
 namespace collide::oracle {
 
 using Rational = mpq_class;
+using Integer = mpz_class;
 
 /// A real number in the interval value - error .. value + error (midpoint-radius interval arithmetic). Products of up
 /// to seven differences of floats neither overflow nor underflow, so that rounding is the only error.
@@ -45,6 +47,15 @@ inline std::optional<int> sign_of(const Bounded& x) {
 }
 inline std::optional<int> sign_of(const Rational& x) { return sgn(x); }
 
+template <class T>
+void add_product(T& sum, const T& a, const T& b) {
+  sum += a * b;
+}
+/// Without memory for the product.
+inline void add_product(Integer& sum, const Integer& a, const Integer& b) {
+  mpz_addmul(sum.get_mpz_t(), a.get_mpz_t(), b.get_mpz_t());
+}
+
 /// A polynomial of degree N on 0 <= t <= 1 in scaled Bernstein form: the sum of c[k] t^k (1 - t)^(N - k). In this form,
 /// a product is a plain convolution, and by Descartes' rule there are at most as many roots in (0, 1) as sign changes
 /// in c.
@@ -65,7 +76,7 @@ template <class T, std::size_t N, std::size_t M>
 Polynomial<T, N + M> operator*(const Polynomial<T, N>& a, const Polynomial<T, M>& b) {
   Polynomial<T, N + M> product;
   for (std::size_t i = 0; i <= N; ++i) {
-    for (std::size_t j = 0; j <= M; ++j) product.c[i + j] += a.c[i] * b.c[j];
+    for (std::size_t j = 0; j <= M; ++j) add_product(product.c[i + j], a.c[i], b.c[j]);
   }
   return product;
 }

@@ -5,8 +5,11 @@
 #include <cstddef>
 
 #include "collide/oracle/exact_arithmetic.h"
+#include "collide/oracle/moving_features.h"
 
 namespace collide::oracle {
+
+using Points = std::array<MovingPoint, 4>;  // p, a, b, c or p, q, u, v
 
 /// The relative motion of four points: three difference vectors.
 template <class T>
@@ -80,5 +83,30 @@ struct EdgeEdge {
     return {{{pu, pv}, {qu, qv}, {pu, qu}, {pv, qv}}};
   }
 };
+
+/// number(x) converts a coordinate to the type T.
+template <class Kind, class T, class ToNumber>
+FeatureMotion<T> motion_of(const Points& points, const ToNumber& number) {
+  FeatureMotion<T> motion;
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    const MovingPoint &to = points[Kind::vectors[k][0]], &from = points[Kind::vectors[k][1]];
+    const auto component = [&](glm::length_t axis) {
+      return Polynomial<T, 1>{
+          {T(number(to.from[axis]) - number(from.from[axis])), T(number(to.to[axis]) - number(from.to[axis]))}};
+    };
+    motion[k] = {component(0), component(1), component(2)};
+  }
+  return motion;
+}
+
+/// Returns the motion with f(component) in place of each component of its vectors.
+template <class T, class Function>
+Vector<T, 1> with_each(const Vector<T, 1>& v, const Function& f) {
+  return {f(v.x), f(v.y), f(v.z)};
+}
+template <class T, class Function>
+FeatureMotion<T> with_each(const FeatureMotion<T>& motion, const Function& f) {
+  return {with_each(motion[0], f), with_each(motion[1], f), with_each(motion[2], f)};
+}
 
 }  // namespace collide::oracle

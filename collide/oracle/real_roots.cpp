@@ -55,11 +55,11 @@ Coefficients second_half(Coefficients c) { return reversed(first_half(reversed(s
 Coefficients remainder(Coefficients a, const Coefficients& divisor) {
   const Integer lead = abs(divisor.back());
   while (a.size() >= divisor.size()) {
-    const Integer factor = sgn(divisor.back()) * a.back();
+    const Integer factor = -sgn(divisor.back()) * a.back();
     a.pop_back();
     for (Integer& x : a) x *= lead;
     const std::size_t shift = a.size() + 1 - divisor.size();
-    for (std::size_t k = 0; k + 1 < divisor.size(); ++k) a[k + shift] -= factor * divisor[k];
+    for (std::size_t k = 0; k + 1 < divisor.size(); ++k) add_product(a[k + shift], factor, divisor[k]);
     drop_leading_zeros(a);
   }
   return a;
@@ -117,7 +117,7 @@ int sign_at(const Coefficients& polynomial, std::uint64_t step, unsigned halving
   Integer value = 0, power = 1;
   for (const Integer& x : polynomial) {
     value *= rest;
-    value += x * power;
+    add_product(value, x, power);
     power *= step;
   }
   return sgn(value);
@@ -205,7 +205,7 @@ std::pair<double, double> enclosure_of(Root root) {
   // 52 binary places are those of a double below 1.
   const unsigned surplus = piece.halvings > digits ? piece.halvings - digits : 0;
   const Integer low = piece.start >> surplus;
-  const bool point = exact && low << surplus == piece.start;
+  const bool point = exact && (low << surplus) == piece.start;
   const auto time = [&](const Integer& x) {
     return std::ldexp(x.get_d(), -static_cast<int>(piece.halvings - surplus));
   };

@@ -9,11 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include <gmpxx.h>
+#include "collide/oracle/exact_arithmetic.h"
 
 namespace collide::oracle {
 
-using Integer = mpz_class;
 using Coefficients = std::vector<Integer>;
 
 /// A part of the time 0 .. 1: from start / 2^halvings to (start + 1) / 2^halvings.

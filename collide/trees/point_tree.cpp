@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <glm/common.hpp>
-
 namespace collide::trees {
 
 namespace {

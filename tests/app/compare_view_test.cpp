@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "app/ui/shortcuts.h"
 #include "tests/app/panel_rig.h"
@@ -17,8 +18,21 @@ bool wait_until(PanelRig& rig, const Condition& condition) {
   });
 }
 
-bool all_timed(const std::vector<compare::CompareRow>& rows) {
-  return std::ranges::count(rows, true, [](const compare::CompareRow& row) { return row.ms.has_value(); }) == 5;
+/// True if these methods were timed and no others. Brute force is the reference.
+bool only_timed(const std::vector<compare::CompareRow>& rows, const compare::MethodSet& methods) {
+  for (std::size_t m = 0; m < rows.size(); ++m)
+    if (rows[m].ms.has_value() != (methods[m] && collide::method_table()[m].key != "brute-force")) return false;
+  return true;
+}
+
+bool usual_timed(const std::vector<compare::CompareRow>& rows) { return only_timed(rows, compare::usual_methods()); }
+
+/// Expects rows of these methods and of no others.
+void expect_rows(const PanelRig& rig, const compare::MethodSet& methods) {
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    const std::string name(collide::method_table()[m].name);
+    EXPECT_EQ(rig.recorder.find("Drive " + name) != nullptr, methods[m]) << name;
+  }
 }
 
 TEST(CompareView, IsOffAtFirstAndSwitchedByPanelAndKey) {
@@ -40,6 +54,7 @@ TEST(CompareView, IsOffAtFirstAndSwitchedByPanelAndKey) {
 TEST(CompareView, MakesTheClickedMethodTheDriver) {
   PanelRig rig;
   rig.ui.lower = ui::LowerView::comparison;
+  rig.session.comparison.choice.methods = compare::all_methods();
   rig.frames(3);
   for (const collide::Method& method : collide::method_table()) {
     rig.click("Drive " + std::string(method.name));
@@ -47,18 +62,85 @@ TEST(CompareView, MakesTheClickedMethodTheDriver) {
   }
 }
 
-TEST(CompareView, RunsOnlyTheChosenMethods) {
+TEST(CompareView, ShowsAndMeasuresFewMethodsAtFirst) {
   PanelRig rig;
   rig.ui.lower = ui::LowerView::comparison;
-  ASSERT_TRUE(wait_until(rig, all_timed));
-  EXPECT_EQ(rig.recorder.find("Run Brute force"), nullptr);  // the reference always runs
-  rig.click("Run Bounding Box");
-  const std::size_t method = compare::method_index("bounding-box");
-  ASSERT_TRUE(wait_until(rig, [&](const auto& rows) { return !rows[method].ms; }));
-  EXPECT_FALSE(rig.session.comparison.report().rows[method].scored);
-  EXPECT_EQ(rig.session.comparison.method_ms()[method].size(), 0u);
-  rig.click("Run Bounding Box");
-  EXPECT_TRUE(wait_until(rig, all_timed));
+  ASSERT_TRUE(wait_until(rig, usual_timed));
+  expect_rows(rig, compare::usual_methods());
+  EXPECT_LE(std::ranges::count(compare::usual_methods(), true), 7);
+}
+
+TEST(CompareView, ShowsAndMeasuresTheMethodsAndGroupsThatAreChosen) {
+  PanelRig rig;
+  rig.ui.lower = ui::LowerView::comparison;
+  compare::MethodSet expected = compare::usual_methods();
+  const auto click = [&](std::string_view box, const auto& chosen) {
+    rig.click(box);
+    for (std::size_t m = 0; m < expected.size(); ++m)
+      if (const std::optional<bool> shown = chosen(collide::method_table()[m])) expected[m] = *shown;
+    EXPECT_EQ(rig.session.comparison.choice.methods, expected) << box;
+    expect_rows(rig, expected);
+    EXPECT_TRUE(wait_until(rig, [&](const auto& rows) { return only_timed(rows, expected); })) << box;
+  };
+  const auto all = [](const collide::Method&) { return std::optional(true); };
+  rig.frames(3);
+  rig.click("Shown methods");
+  click("Show Grid Hash",
+        [](const collide::Method& method) { return method.key == "grid-hash" ? std::optional(false) : std::nullopt; });
+  for (const collide::MethodGroupName& group : collide::method_groups)
+    click(group.name, [&](const collide::Method& method) {
+      return method.group == group.group ? std::optional(true) : std::nullopt;
+    });
+  EXPECT_EQ(expected, compare::all_methods());
+  click("Trees", [](const collide::Method& method) {
+    return method.group == collide::MethodGroup::trees ? std::optional(false) : std::nullopt;
+  });
+  click("All methods", all);
+  rig.press_escape();
+  EXPECT_EQ(rig.recorder.find("All methods"), nullptr);
+}
+
+TEST(CompareView, AlwaysShowsAndMeasuresTheDriver) {
+  PanelRig rig;
+  rig.ui.lower = ui::LowerView::comparison;
+  rig.session.comparison.choice.methods.assign(collide::method_table().size(), false);
+  rig.session.settings.set_method("octree");
+  compare::MethodSet driver(collide::method_table().size(), false);
+  driver[compare::method_index("octree")] = true;
+  ASSERT_TRUE(wait_until(rig, [&](const auto& rows) { return only_timed(rows, driver); }));
+  rig.frames(2);
+  expect_rows(rig, driver);
+}
+
+TEST(CompareView, HasRoomForFewAndForAllMethods) {
+  for (const compare::MethodSet& methods : {compare::usual_methods(), compare::all_methods()})
+    for (const glm::ivec2 size : {glm::ivec2(1000, 600), glm::ivec2(1280, 720), glm::ivec2(1920, 1080)}) {
+      PanelRig rig;
+      rig.ui.lower = ui::LowerView::comparison;
+      rig.session.comparison.choice.methods = methods;
+      rig.resize(size.x, size.y);
+      float end = rig.widget("Shown methods").max.y;
+      for (std::size_t m = 0; m < methods.size(); ++m) {
+        if (!methods[m]) continue;
+        const ui::WidgetRecorder::Widget row = rig.widget("Drive " + std::string(collide::method_table()[m].name));
+        EXPECT_GE(row.min.y, end);
+        EXPECT_LE(ImGui::CalcTextSize(collide::method_table()[m].name.data()).x, row.max.x - row.min.x);
+        end = row.max.y;
+      }
+      EXPECT_GE(rig.widget("Compare footing").min.y, end);
+      EXPECT_LE(rig.widget("Compare footing").max.y, static_cast<float>(size.y));
+    }
+}
+
+TEST(CompareView, ScrollsWhereTheMethodsHaveNoRoom) {
+  PanelRig rig;
+  rig.ui.lower = ui::LowerView::comparison;
+  rig.session.comparison.choice.methods = compare::all_methods();
+  rig.resize(900, 450);
+  EXPECT_FALSE(rig.recorder.find("No room"));
+  EXPECT_GE(rig.interface.scene_area().max.y, 200);
+  EXPECT_LE(rig.widget("Drive Grid Hash").max.y, 450);
+  EXPECT_GT(rig.widget("Drive Octree").max.y, 450);
 }
 
 TEST(CompareView, ShowsWhatTheChosenMethodMisses) {
@@ -85,7 +167,7 @@ TEST(CompareView, KeepsEverythingInPlaceWhileItMeasures) {
     rig.ui.lower = ui::LowerView::comparison;
     rig.frames(3);
     const auto before = rig.recorder.widgets;
-    ASSERT_TRUE(wait_until(rig, all_timed));
+    ASSERT_TRUE(wait_until(rig, usual_timed));
     rig.frames(2);
     rig.expect_in_place(before, "Coverage");  // whose sentence changes
   }

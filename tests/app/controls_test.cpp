@@ -167,18 +167,24 @@ TEST(SettingControls, FindNewContactsWhilePaused) {
   EXPECT_NE(simulation.revision(), revision);
 }
 
-TEST(SettingControls, GoThroughAllMethods) {
+TEST(SettingControls, GoThroughTheGivenMethods) {
   session::Simulation simulation(touching_pair(), 1);
   session::SettingControls controls(simulation);
-  const std::string first(simulation.world().method().key);
-  for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
-    controls.next_method();
-    simulation.advance(tick);
-    EXPECT_TRUE(simulation.notice.text().empty());
+  for (const compare::MethodSet& methods : {compare::all_methods(), compare::usual_methods()}) {
+    compare::MethodSet seen(methods.size(), false);
+    for (auto left = std::ranges::count(methods, true); left > 0; --left) {
+      controls.next_method(methods);
+      simulation.advance(tick);
+      EXPECT_TRUE(simulation.notice.text().empty());
+      seen[compare::method_index(simulation.world().method().key)] = true;
+    }
+    EXPECT_EQ(seen, methods);
   }
-  EXPECT_EQ(simulation.world().method().key, first);
+  controls.set_method("octree");
+  controls.next_method(compare::MethodSet(collide::method_table().size(), false));
+  EXPECT_EQ(simulation.world().method().key, "octree") << "there is no other";
   controls.set_method("no-such-method");
-  EXPECT_EQ(simulation.world().method().key, first);
+  EXPECT_EQ(simulation.world().method().key, "octree");
 }
 
 TEST(SettingControls, LeaveOutAMethodThatWouldTakeTooLong) {
@@ -196,7 +202,7 @@ TEST(SettingControls, LeaveOutAMethodThatWouldTakeTooLong) {
   EXPECT_EQ(simulation.world().method().key, first);
   EXPECT_NE(simulation.notice.text().find("too long to drive"), std::string::npos) << simulation.notice.text();
   for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
-    controls.next_method();
+    controls.next_method(compare::all_methods());
     EXPECT_NE(simulation.world().method().key, "brute-force");
   }
 }

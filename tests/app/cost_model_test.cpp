@@ -41,6 +41,37 @@ TEST(CostModel, PredictsAtLeastHalfOfTheTestsAndAtMostBruteForce) {
   }
 }
 
+TEST(CostModel, LetsSearchesByPlaceRunWhereEachBodyIsLarge) {
+  collide::Bodies one;
+  std::vector<float> x, y, z;
+  constexpr int side = 300;  // a sheet of 90,000 vertices
+  for (int i = 0; i < side * side; ++i) {
+    x.push_back(0.01f * static_cast<float>(i % side));
+    y.push_back(0);
+    z.push_back(0.01f * static_cast<float>(i / side));
+  }
+  one.add(std::make_shared<const collide::Shape>(static_cast<collide::Index>(x.size()),
+                                                 std::span<const std::array<collide::Index, 2>>()));
+  collide::Settings settings;
+  settings.tolerance = 0.009f;
+  const collide::Frame frame{x, y, z, &one};
+  compare::CostModel cost_model;
+  cost_model.begin(frame, settings, 1);
+  EXPECT_GT(cost_model.of(compare::method_index("bounding-box")).cost(), compare::Comparison::default_budget);
+  for (const collide::Method& method : collide::method_table()) {
+    if (method.group != collide::MethodGroup::sorted && method.group != collide::MethodGroup::trees) continue;
+    collide::Workers alone(1);
+    collide::Result result;
+    method.make()->detect(frame, settings, alone, result);
+    const std::uint64_t predicted = cost_model.of(compare::method_index(method.key)).cost();
+    EXPECT_LT(predicted, compare::Comparison::default_budget / 100) << method.key;
+    EXPECT_GT(4 * predicted, result.counters.pair_tests) << method.key;
+  }
+  settings.tolerance = 10;  // then all pairs are nearby
+  cost_model.begin(frame, settings, 1);
+  EXPECT_GT(cost_model.of(compare::method_index("sorted-grid")).cost(), compare::Comparison::default_budget);
+}
+
 TEST(CostModel, LearnsUntilSettingsOrWorldChange) {
   softbody::World world(touching_pair(), {});
   const std::size_t method = compare::method_index("grid-hash");

@@ -28,7 +28,7 @@ TEST(Tooltip, StandsAboveTheComparison) {
   PanelRig rig;
   rig.ui.lower = ui::LowerView::comparison;
   rig.frames(3);
-  const ui::WidgetRecorder::Widget head = rig.widget("Column Method"), row = rig.widget("Drive Grid Hash");
+  const ui::WidgetRecorder::Widget head = rig.widget("Column Time"), row = rig.widget("Drive Grid Hash");
   rig.move(0.5f * (row.min.x + row.max.x), 0.5f * (row.min.y + row.max.y));
   rig.frames(40);
   EXPECT_LE(rig.widget("Tooltip").max.y, head.min.y);
@@ -47,7 +47,7 @@ TEST(Tooltip, KeepsOffTheLightsAndTheComparison) {
       if (!rig.recorder.find("Tooltip")) continue;
       const ui::WidgetRecorder::Widget tip = rig.widget("Tooltip");
       for (const char* result :
-           {"Coverage", "Live recall", "Step light", "Column Method", "Drive Multi-Level SB, exact"}) {
+           {"Coverage", "Live recall", "Step light", "Column Time", "Drive Multi-Level SB, exact"}) {
         const ui::WidgetRecorder::Widget* shown = rig.recorder.find(result);
         if (!shown) continue;
         const bool apart = tip.max.x <= shown->min.x || tip.min.x >= shown->max.x || tip.max.y <= shown->min.y ||
@@ -105,10 +105,10 @@ TEST(Layout, LeavesTheSceneVisibleAboveTheComparisonAndTheSweep) {
       EXPECT_GE(scene.max.y, 200);
       const bool sweep = view == ui::LowerView::sweep;
       EXPECT_EQ(rig.recorder.find("Scatter") != nullptr, sweep);
-      EXPECT_EQ(rig.recorder.find("Column Method") != nullptr, !sweep);
+      EXPECT_EQ(rig.recorder.find("Column Time") != nullptr, !sweep);
       const float time_line = rig.widget("Time line").min.y;
       EXPECT_GE(time_line, scene.max.y);
-      EXPECT_LE(time_line, rig.widget(sweep ? "Sweep" : "Column Method").min.y);
+      EXPECT_LE(time_line, rig.widget(sweep ? "Sweep" : "Column Time").min.y);
       if (!sweep) continue;
       const ui::WidgetRecorder::Widget plot = rig.widget("Scatter");
       EXPECT_GE(plot.max.y - plot.min.y, 120) << size.x;

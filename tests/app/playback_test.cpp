@@ -26,8 +26,8 @@ class PlaybackTest : public testing::Test {
       const int first = 4 * body + 1;
       const double x = double(at) + 3 * body;
       text << "o body\nv " << x << " 0 0\nv " << x + 1 << " 0 0\nv " << x << " 1 0\nv " << x << " 0 1\n";
-      for (const auto& [a, b, c] : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
-        text << "f " << first + a << ' ' << first + b << ' ' << first + c << '\n';
+      constexpr std::array<std::array<int, 3>, 4> faces{{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+      for (const auto& [a, b, c] : faces) text << "f " << first + a << ' ' << first + b << ' ' << first + c << '\n';
     }
     return folder.write(name, text.str());
   }
@@ -50,6 +50,7 @@ TEST_F(PlaybackTest, GivesWhatTheFilesHold) {
   }
   EXPECT_EQ(playback.model(0), playback.model(2)) << "bodies of one mesh share a model";
   EXPECT_EQ(playback.model(0)->mesh.edges.size(), 6u);
+  EXPECT_TRUE(playback.model(0)->mesh.closed);
   EXPECT_EQ(playback.bounds()[0], glm::vec3(0, 0, 0)) << "of the first frame";
   EXPECT_EQ(playback.bounds()[1], glm::vec3(8, 1, 1)) << "of the last frame";
 }

@@ -13,7 +13,7 @@ using tests::TemporaryFolder;
 /// Returns preferences that all differ from the defaults. The structured binding does not compile if one is missing.
 window::Preferences changed() {
   window::Preferences p;
-  auto& [size, overlays, panel, lights, hash_table, story, lower, with_panel, slow_factor, sections] = p;
+  auto& [size, overlays, panel, lights, hash_table, story, lower, with_panel, slow_factor, sections, methods] = p;
   size = {900, 700};
   for (const render::OverlayRow& row : render::overlay_table) overlays.*row.shown = true;
   panel = lights = hash_table = story = false;
@@ -21,6 +21,7 @@ window::Preferences changed() {
   with_panel = true;
   slow_factor = 0.5;
   sections = {{"Detection", false}, {"A \"new\" one", true}};
+  methods.flip();
   return p;
 }
 
@@ -79,8 +80,8 @@ TEST(PreferencesFile, KnowsTheFirstStart) {
 
 TEST(PreferencesFile, IgnoresUnknownKeys) {
   const TemporaryFolder folder;
-  window::PreferencesFile preferences(
-      folder.write("preferences.toml", "width = 500\ncolour = \"red\"\n[show]\nghosts = true\n"));
+  window::PreferencesFile preferences(folder.write(
+      "preferences.toml", "width = 500\ncolour = \"red\"\n[show]\nghosts = true\n[methods]\noracle = true\n"));
   EXPECT_EQ(preferences.stored().size.x, 500);
   EXPECT_EQ(preferences.take_problem(), "");
 }

@@ -162,7 +162,7 @@ TEST_F(RecordedSession, ChecksItsSurfaces) {
 TEST_F(RecordedSession, IsSwept) {
   simulation.rewind_to(6);
   session::SweepWorker worker(compare::SweepLimits{.repetitions = 1});
-  worker.start(session.world());
+  worker.start(session.world(), compare::all_methods());
   session::SweepState state;
   ASSERT_TRUE(wait([&] {
     if (auto news = worker.take()) state = *news;
@@ -199,6 +199,17 @@ TEST_F(RecordedSession, IsResetAndComesBackByUndo) {
   simulation.undo();
   EXPECT_EQ(frame(), 6);
   EXPECT_EQ(session.why_no_solver(), "the motion is recorded");
+}
+
+TEST_F(RecordedSession, EndsTheGhostOfTheSceneBefore) {
+  Session other(touching_pair(), {}, 1);
+  other.choose_ghost(softbody::IntegratorChoice{});
+  ASSERT_TRUE(other.ghost().get());
+  const softbody::Scene scene = softbody::test::scene_of(balls);
+  other.scenes.enter(session::make_window_world(scene, {}, 1), scene, "balls");
+  EXPECT_FALSE(other.ghost().get());
+  other.advance(tick);
+  EXPECT_EQ(other.world().frame(), 1);
 }
 
 TEST_F(RecordedSession, RefusesBodiesAndChangesNothing) {

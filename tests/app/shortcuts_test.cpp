@@ -10,6 +10,12 @@
 namespace app {
 namespace {
 
+compare::MethodSet only(std::initializer_list<const char*> keys) {
+  compare::MethodSet methods(collide::method_table().size(), false);
+  for (const char* key : keys) methods[compare::method_index(key)] = true;
+  return methods;
+}
+
 TEST(Shortcuts, ActAsTheHelpSays) {
   Session session(touching_pair(), {}, 1);
   ui::UiState ui;
@@ -52,6 +58,16 @@ TEST(Shortcuts, ActAsTheHelpSays) {
   EXPECT_FALSE(tap('/')) << "only some keyboards have it on the key of ?";
 }
 
+TEST(Shortcuts, GoThroughTheShownMethods) {
+  Session session(touching_pair(), {}, 1);
+  ui::UiState ui;
+  session.comparison.choice.methods = only({"octree", "grid-hash"});
+  for (const char* key : {"octree", "grid-hash", "octree"}) {
+    ui::handle_key('M', false, session, ui);
+    EXPECT_EQ(session.world().method().key, key);
+  }
+}
+
 TEST(Shortcuts, SayWhatTheyDid) {
   Session session(touching_pair(), {}, 1);
   ui::UiState ui;
@@ -67,8 +83,9 @@ TEST(Shortcuts, SayWhatTheyDid) {
   softbody::Scene large = touching_pair();
   large.bodies.resize(1);
   large.bodies[0].mesh.subdivisions = 4;
-  large.bodies.resize(18, large.bodies[0]);  // in one place, so that no method is fast enough
+  large.bodies.resize(18, large.bodies[0]);
   Session refusing(large, {}, 1);
+  refusing.comparison.choice.methods = only({"brute-force"});
   ui::handle_key('M', false, refusing, ui);
   EXPECT_TRUE(refusing.simulation.notice.is_error()) << "a refusal is not hidden";
 }

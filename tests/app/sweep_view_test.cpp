@@ -50,7 +50,8 @@ TEST(SweepView, AddsPointsInsideThePlotDuringTheSweep) {
   }));
   const ui::SweepView& view = rig.interface.sweep_view();
   EXPECT_EQ(view.state().progress, 1.0);
-  EXPECT_EQ(view.plot().points().size(), compare::sweep_configurations(rig.session.world()).size());
+  EXPECT_EQ(view.plot().points().size(),
+            compare::sweep_configurations(rig.session.world(), compare::usual_methods()).size());
   const ui::WidgetRecorder::Widget plot = rig.widget("Scatter");
   bool missing = false;
   for (const ui::SweepPlot::Point& point : view.plot().points()) {
@@ -113,6 +114,7 @@ TEST(SweepView, SweepsItsFrameWhileItIsClosedAndTheWorldChanges) {
 
 TEST(SweepView, AppliesTheSettingsOfTheClickedPoint) {
   PanelRig rig;
+  rig.session.comparison.choice.methods = compare::all_methods();
   sweep(rig);
   ASSERT_TRUE(wait_until(rig, has_ended));
   const ui::SweepView& view = rig.interface.sweep_view();

@@ -28,7 +28,7 @@ TEST(SweepWorker, FindsWhatASweepOfTheSameFrameFinds) {
   constexpr compare::SweepLimits limits{.repetitions = 1};
   session::SweepWorker worker(limits);
   EXPECT_FALSE(worker.take());
-  worker.start(world);
+  worker.start(world, compare::all_methods());
   const session::SweepState state = end_of(worker);
   EXPECT_EQ(state.scene, "Touching pair");
   EXPECT_EQ(state.progress, 1.0);
@@ -49,7 +49,7 @@ TEST(SweepWorker, SweepsACopyOfTheFrameWhileTheWorldChanges) {
   auto world = std::make_unique<softbody::World>(touching_pair(), softbody::World::Options{});
   for (int i = 0; i < 3; ++i) world->step();
   const std::size_t true_contacts = world->detection().contacts.size();
-  worker.start(*world);
+  worker.start(*world, compare::all_methods());
   for (int i = 0; i < 10; ++i) world->step();
   world.reset();
   const session::SweepState state = end_of(worker);
@@ -61,7 +61,7 @@ TEST(SweepWorker, KeepsItsResultsWhenCancelledAndCanStartAgain) {
   const softbody::World world(touching_pair(), {});
   session::SweepWorker worker(compare::SweepLimits{.repetitions = 1'000'000});
   for (int i = 0; i < 2; ++i) {
-    worker.start(world);
+    worker.start(world, compare::all_methods());
     for (bool timed = false; !timed;) {
       if (const auto state = worker.take()) timed = state->progress > 2e-6;  // two rounds
       std::this_thread::sleep_for(1ms);
@@ -80,9 +80,9 @@ TEST(SweepWorker, KeepsItsResultsWhenCancelledAndCanStartAgain) {
 TEST(SweepWorker, IgnoresAStartWhileItRuns) {
   softbody::World world(touching_pair(), {});
   session::SweepWorker worker(compare::SweepLimits{.repetitions = 1'000'000});
-  worker.start(world);
+  worker.start(world, compare::all_methods());
   world.step();
-  worker.start(world);
+  worker.start(world, compare::all_methods());
   worker.cancel();
   EXPECT_EQ(end_of(worker).frame, 0);
 }
@@ -91,7 +91,7 @@ TEST(SweepWorker, CanBeDestroyedWhileItRuns) {
   const softbody::World world(touching_pair(), {});
   for (const bool under_way : {false, true}) {
     session::SweepWorker worker(compare::SweepLimits{.repetitions = 1'000'000});
-    worker.start(world);
+    worker.start(world, compare::all_methods());
     while (under_way && worker.take().value_or(session::SweepState{}).progress == 0) std::this_thread::sleep_for(1ms);
   }
 }

@@ -9,12 +9,15 @@ trap 'rm -rf "$work"' EXIT
 fail() { echo "moved: $1" >&2; exit 1; }
 
 # A project that is made in no time, built as the scripts build the program.
-mkdir -p "$work/first/app" "$work/first/assets/scenes"
+mkdir -p "$work/first/app/package" "$work/first/assets/scenes"
 cp "$sources/app/setup.sh" "$work/first/app"
+cp "$sources/app/package/link_data.cmake" "$work/first/app/package"
 cp "$sources/CMakePresets.json" "$work/first"
 cat >"$work/first/CMakeLists.txt" <<'END'
 cmake_minimum_required(VERSION 3.25)
 project(small NONE)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+include(app/package/link_data.cmake)
 file(WRITE ${CMAKE_BINARY_DIR}/built_for ${CMAKE_SOURCE_DIR})
 add_custom_target(small)
 END
@@ -28,7 +31,6 @@ lists() {
 }
 
 build_in "$work/first"
-mkdir "$work/first/build/release/bin"
 cp "$program" "$work/first/build/release/bin/sbcollide"
 cp "$sources/assets/scenes/A.toml" "$work/first/assets/scenes/scene-of-first.toml"
 lists "$work/first" scene-of-first

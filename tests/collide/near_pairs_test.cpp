@@ -60,8 +60,8 @@ TEST_P(NearPairs, AreThoseOfPlainLoops) {
     EXPECT_FALSE(within.empty());
 
     const Range b = runs.front();
-    const auto [x_lo, x_hi] = std::ranges::minmax(std::span(points.x).subspan(b.begin, b.size()));
-    const Aabb box{{x_lo, 0, 0}, {x_hi, 1, 1}};
+    const auto x = std::ranges::minmax(std::span(points.x).subspan(b.begin, b.size()));
+    const Aabb box{{x.min, 0, 0}, {x.max, 1, 1}};
     hits.clear();
     in_runs.clear();
     plain(b, in_runs);
@@ -69,7 +69,7 @@ TEST_P(NearPairs, AreThoseOfPlainLoops) {
     const Index tested = near_pairs(points, a, b, box, cutoff, tolerance2, hits);
     EXPECT_EQ(sorted(hits), sorted(in_runs));
     EXPECT_EQ(tested, std::count_if(points.x.begin() + a.begin, points.x.begin() + a.end,
-                                    [&](float x) { return x - x_hi <= cutoff && x_lo - x <= cutoff; }));
+                                    [&](float at) { return at - x.max <= cutoff && x.min - at <= cutoff; }));
   }
 }
 

@@ -1,4 +1,4 @@
-// The parts of documents that follow from the program:
+// The parts of documents that follow from the program, and the programs that they show:
 //
 //   test_documents --write
 //
@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -86,10 +87,18 @@ struct Part {
   }
 };
 
+/// Returns the part of a page that shows a program of app/package/examples.
+Part example(const char* page, const std::string& file) {
+  const std::string begin = "](../app/package/examples/" + file + "):\n\n```cpp\n";
+  return {page, begin, "```\n", begin + read((SBCOLLIDE_SOURCES "/app/package/examples/" + file).c_str())};
+}
+
 std::vector<Part> parts() {
   return {{SBCOLLIDE_SOURCES "/assets/scenes/README.md", head, "\n\n", table_of_keys()},
           {SBCOLLIDE_SOURCES "/collide/README.md", "### The paper's rivals\n", "## How the paper's method works\n",
-           descriptions_of_methods()}};
+           descriptions_of_methods()},
+          example(SBCOLLIDE_SOURCES "/collide/README.md", "find_contacts.cpp"),
+          example(SBCOLLIDE_SOURCES "/softbody/README.md", "drop_ball.cpp")};
 }
 
 TEST(Documents, HaveTheTextOfTheProgram) {

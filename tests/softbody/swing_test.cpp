@@ -51,7 +51,8 @@ TEST_P(Swing, GainsNoEnergyInSubstepsThatTheWorldChooses) {
           motion = std::max(motion, kinetic);
           // A swing that grows stiffer may get shorter steps, which conserve another energy, but only once.
           if (world.last_step().substeps > most) start = std::max(start, total), most = world.last_step().substeps;
-          ASSERT_LE(total, start + 0.1 * motion)
+          const double rounding = 1e-7 * std::abs(start);  // of positions, which hardly move in the smallest swing
+          ASSERT_LE(total, start + 0.1 * motion + rounding)
               << integrator << ", " << stiffness << " N/m, " << pressure << " Pa, frame " << frame;
         }
       }

@@ -116,8 +116,8 @@ Plot cost_against_bodies(const SceneResult& growth) {
     const bool dashed = method.uses_hash && c.settings.buckets == compare::sweep_buckets.back();
     Series series{std::string(method.name) + (method.uses_hash ? fmt::format(", {} buckets", buckets_of(c)) : ""),
                   colour(method),
-                  fmt::format("linespoints pointtype {} pointsize 0.7 linewidth 2 dashtype {}",
-                              static_cast<int>(method.marker), dashed ? 2 : 1)};
+                  fmt::format("linespoints pointtype {} pointsize 1.1 linewidth 1.5 dashtype {}", point_type(method),
+                              dashed ? 2 : 1)};
     for (const StateResult& state : growth.states)
       if (const compare::SweepRow& row = state.sweep.rows[i]; row.not_run.empty())
         series.points.push_back({static_cast<double>(state.bodies), row.times.median()});

@@ -1,7 +1,9 @@
 #pragma once
 // What `report detection` measures, and its table, page and plots.
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/compare/sweep.h"
@@ -57,6 +59,10 @@ inline constexpr std::array<std::string_view, 4> paper_scenes{"A", "B", "C", "D"
 inline constexpr int paper_level = 3;
 
 inline const collide::Method& method_of(const compare::Configuration& c) { return collide::method_table()[c.method]; }
+
+inline std::string_view group_name(const collide::Method& method) {
+  return std::ranges::find(collide::method_groups, method.group, &collide::MethodGroupName::group)->name;
+}
 
 // A setting as text; empty if the method does not use it.
 std::string levels_of(const compare::Configuration& c);

@@ -48,14 +48,20 @@ void LiveComparison::exchange(const softbody::World& world, std::uint64_t revisi
 /// A world at rest has nothing new for the recall, but times want to be taken until their median is worth something.
 bool LiveComparison::wants_report(std::uint64_t revision) const {
   if (offered_ != revision) return true;
-  const std::vector<bool> wanted = chosen();
+  const compare::MethodSet wanted = chosen();
   return (!wanted.empty() && wanted != offered_methods_) || (choice.on && offers_ < times_per_state);
 }
 
-/// Returns which methods run beside the driver; empty if none does.
-std::vector<bool> LiveComparison::chosen() const {
-  std::vector<bool> methods;
-  if (choice.on) methods = choice.methods;
+compare::MethodSet LiveComparison::shown_methods() const {
+  compare::MethodSet methods = choice.methods;
+  methods[driver_] = true;
+  return methods;
+}
+
+/// Returns which methods are timed, the driver too where it is shown; empty if none is.
+compare::MethodSet LiveComparison::chosen() const {
+  compare::MethodSet methods;
+  if (choice.on) methods = shown_methods();
   const auto add = [&](std::size_t method) {
     if (method == driver_) return;
     methods.resize(collide::method_table().size());

@@ -4,6 +4,7 @@
 #include "app/base/background_worker.h"
 #include "app/base/time_series.h"
 #include "app/compare/compare.h"
+#include "app/compare/method_set.h"
 #include "collide/methods.h"
 #include "softbody/world/world.h"
 
@@ -23,10 +24,10 @@ using CompareWorker = BackgroundWorker<CompareTask>;
 
 /// What to compare with the driving method, which is compared with the reference in any case.
 struct CompareChoice {
-  bool on = false;  // whether `methods` are compared
-  std::vector<bool> methods = std::vector<bool>(collide::method_table().size(), true);
-  bool with_paper = false;   // whether the paper's method is compared, too
-  bool with_misses = false;  // whether `misses_of` is compared, too
+  bool on = false;                                        // whether the shown methods are compared
+  compare::MethodSet methods = compare::usual_methods();  // that the user wants to see, in all views
+  bool with_paper = false;                                // whether the paper's method is compared, too
+  bool with_misses = false;                               // whether `misses_of` is compared, too
   std::size_t misses_of = compare::method_index(collide::paper_method);
 };
 
@@ -52,6 +53,8 @@ class LiveComparison {
   const compare::CompareReport& report() const { return report_; }
   /// Counts the reports, so that a new one is noticed.
   std::uint64_t reports() const { return reports_; }
+  /// Returns the methods to show side by side: those of the choice, and the driving one.
+  compare::MethodSet shown_methods() const;
   /// The index of the driving method in collide::method_table(), and its scored_row().
   std::size_t driver() const { return driver_; }
   const compare::CompareRow* driver_row() const { return scored_row(driver_); }
@@ -71,7 +74,7 @@ class LiveComparison {
 
  private:
   bool wants_report(std::uint64_t revision) const;
-  std::vector<bool> chosen() const;
+  compare::MethodSet chosen() const;
   void keep(compare::CompareReport report);
   void forget_times();
 
@@ -79,8 +82,8 @@ class LiveComparison {
   std::size_t driver_ = 0;
   compare::CompareReport report_;
   std::uint64_t reports_ = 0, offered_ = 0, first_wanted_ = 0;
-  int offers_ = 0;                     // of the state offered_, with the same methods
-  std::vector<bool> offered_methods_;  // empty: none but the driver
+  int offers_ = 0;                      // of the state offered_, with the same methods
+  compare::MethodSet offered_methods_;  // empty: none but the driver
   TimeSeries recall_;
   std::vector<TimeSeries> method_ms_ = std::vector<TimeSeries>(collide::method_table().size());
   CompareWorker worker_;

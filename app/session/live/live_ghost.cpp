@@ -16,6 +16,7 @@ std::string LiveGhost::choose(const softbody::World& world, const std::optional<
 std::string LiveGhost::restart(const softbody::World& world) try {
   ++revision_;
   distances_.clear();
+  if (!world.plan().has(softbody::Stage::integrate)) ghost_.reset();
   if (ghost_) ghost_->restart(world);
   return {};
 } catch (const std::exception& error) {

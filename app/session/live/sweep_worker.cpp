@@ -18,14 +18,14 @@ void rest(Clock::duration duration, const std::stop_token& stop) {
 
 }  // namespace
 
-void SweepWorker::start(const softbody::World& world) {
+void SweepWorker::start(const softbody::World& world, const compare::MethodSet& methods) {
   if (running_) return;
   SweepState state;
   try {
     state.scene = world.scene().name;
     state.frame = world.frame();
     state.running = true;
-    Job job{{}, world.bodies(), compare::sweep_configurations(world), state};
+    Job job{{}, world.bodies(), compare::sweep_configurations(world, methods), state};
     job.at.copy(world.positions());
     publish(SweepState(state));
     thread_ = std::jthread([this, job = std::move(job)](const std::stop_token& stop) mutable { run(stop, job); });

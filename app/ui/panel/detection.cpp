@@ -6,12 +6,11 @@
 #include <fmt/core.h>
 
 #include "app/ui/panel/panel.h"
-#include "app/ui/views/status.h"
+#include "app/ui/views/method_choice.h"
+#include "app/ui/widgets/method_mark.h"
 
 namespace app::ui {
 namespace {
-
-constexpr float promise_column = 200;  // design pixels: where the list of methods says which can miss contacts
 
 constexpr std::array<std::uint32_t, 10> bucket_presets{1, 101, 499, 997, 1001, 1009, 10007, 100003, 1000003, 1u << 24};
 
@@ -23,27 +22,13 @@ bool uses_surface_contact(const Session& session) {
 void draw_method(Widgets& w, Session& session) {
   const collide::Method& method = session.world().method();
   w.row_label("Method", w.px(label_column));
-  w.swatch(method.colour, ImGui::GetFrameHeight());
+  draw_method_mark(w, method, ImGui::GetFrameHeight());
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  std::string summary(method.summary);
-  if (uses_surface_contact(session)) summary += " With surface contact it does not move the bodies.";
-  summary += " M: next method.";
-  const std::string name(method.name);
-  if (!w.begin_combo("Method", name.c_str(), summary.c_str())) return;
-  std::string_view chosen = method.key;
-  for (const collide::Method& each : collide::method_table()) {
-    w.swatch(each.colour, ImGui::GetTextLineHeight());
-    ImGui::SameLine();
-    const std::string label(each.name), tooltip(each.summary);
-    if (w.combo_item(label.c_str(), each.key == method.key, tooltip.c_str())) chosen = each.key;
-    const StatusLight light = status_light(each);
-    ImGui::SameLine(w.px(promise_column));
-    w.dot(light.colour);
-    ImGui::TextDisabled("%s", light.label);
-  }
-  ImGui::EndCombo();
-  session.settings.set_method(chosen);
+  std::string tooltip(method.description);
+  if (uses_surface_contact(session)) tooltip += " With surface contact it does not move the bodies.";
+  tooltip += " M: next shown method.";
+  draw_method_choice(w, session, "Method", std::string(method.name).c_str(), tooltip.c_str());
 }
 
 void draw_contact_surface(Widgets& w, Session& session) {
@@ -60,6 +45,9 @@ void draw_contact_surface(Widgets& w, Session& session) {
   ImGui::EndCombo();
   session.settings.set_contact_surface(chosen);
 }
+
+/// Returns the format of lengths in a scene with this tolerance (m). A slider rounds its value to what it shows.
+const char* length_format(float usual) { return usual < 0.05f ? "%.3g m" : "%.3f m"; }
 
 bool draw_levels(Widgets& w, collide::Settings& settings, bool used) {
   ImGui::BeginDisabled(!used);
@@ -149,8 +137,7 @@ bool draw_cell_size(Widgets& w, collide::Settings& settings, bool& automatic, bo
   ImGui::BeginDisabled(automatic);
   float side = std::max({settings.cell_size.x, settings.cell_size.y, settings.cell_size.z});
   if (w.slider(
-          "Cell size", side, std::min(min_cell, usual / 5), std::max(max_cell, usual * 50),
-          usual < min_tolerance ? "%.3g m" : "%.3f m",
+          "Cell size", side, std::min(min_cell, usual / 5), std::max(max_cell, usual * 50), length_format(usual),
           "The side of a grid cell (§2.2). If it is smaller than a subdivided box, the paper's method skips cells.",
           true)) {
     settings.cell_size = glm::vec3(side);
@@ -182,7 +169,7 @@ void draw_detection(Widgets& w, Session& session, UiState& ui) {
   w.row_label("Tolerance", w.px(label_column));
   changed |= w.slider(
       "Tolerance", settings.tolerance, std::min(min_tolerance, usual / 20), std::max(max_tolerance, usual * 5),
-      usual < min_tolerance ? "%.3g m" : "%.3f m",
+      length_format(usual),
       !session.why_no_solver().empty() ? "Vertices closer than this are in contact (§2.3)."
       : uses_surface_contact(session)
           ? "Vertices closer than this are in contact (§2.3). With surface contact they do not push each other."

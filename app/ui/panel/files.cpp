@@ -9,16 +9,16 @@
 namespace app::ui {
 namespace {
 
-constexpr float narrow_column = 78, button_width = 62;  // design pixels
+constexpr float narrow_column = 78, file_button_width = 62;  // design pixels
 
 /// Draws a field with a button at its right. True if Enter is pressed or the button is clicked.
 bool field_with_button(Widgets& w, const char* label, std::string& value, const char* hint, const char* tooltip,
                        const char* button, const char* button_tooltip) {
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - w.px(button_width) - gap);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - w.px(file_button_width) - gap);
   const bool entered = w.text_field(label, value, hint, tooltip);
   ImGui::SameLine(0, gap);
-  return w.button(button, button_tooltip, w.px(button_width)) || entered;
+  return w.button(button, button_tooltip, w.px(file_button_width)) || entered;
 }
 
 /// Draws what is wrong with the field above, if anything is.
@@ -69,9 +69,9 @@ void draw_save_question(Widgets& w, Session& session, UiState& ui) {
   ImGui::TextWrapped("%s", question.c_str());
   w.register_item("Save question", nullptr);
   ImGui::SetCursorPosX(w.px(narrow_column));
-  if (w.button("Replace", "Writes the scene over the file.", w.px(button_width))) save(session, ui);
+  if (w.button("Replace", "Writes the scene over the file.", w.px(file_button_width))) save(session, ui);
   ImGui::SameLine();
-  if (w.button("Cancel", "The file stays as it is.", w.px(button_width))) ui.save_question.clear();
+  if (w.button("Cancel", "The file stays as it is.", w.px(file_button_width))) ui.save_question.clear();
 }
 
 void draw_save(Widgets& w, Session& session, UiState& ui, bool saved) {
@@ -147,7 +147,7 @@ void draw_picture_size(Widgets& w, session::Exporter& exporter) {
 void draw_recording(Widgets& w, session::Exporter& exporter) {
   w.row_label("Record", w.px(narrow_column));
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - w.px(button_width) - gap);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - w.px(file_button_width) - gap);
   ImGui::BeginDisabled(exporter.recording() || exporter.finishing());
   const auto text = [](std::string_view part) { return std::string(part); };
   const session::RecordingKind& now = session::recording_kinds[exporter.kind];
@@ -164,7 +164,7 @@ void draw_recording(Widgets& w, session::Exporter& exporter) {
   if (w.button(exporter.recording() ? "Stop###Record" : "Start###Record",
                "Every frame of the world from now on, until it is stopped. The world waits for the recording, so that "
                "no frame is lost.",
-               w.px(button_width)))
+               w.px(file_button_width)))
     exporter.toggle_recording();
   ImGui::EndDisabled();
 }

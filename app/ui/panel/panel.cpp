@@ -91,9 +91,9 @@ void draw_overlays(Widgets& w, Session& session, UiState& ui) {
     if (w.checkbox(label, shown, tooltip)) ui.toggle(view);
   };
   lower("Error vs run time###Error against run time", LowerView::sweep,
-        "Plots error against run time of all methods with many settings, on one frame (E).");
+        "Plots error against run time of the shown methods with many settings, on one frame (E).");
   lower("Compare methods", LowerView::comparison,
-        "Shows the cost and the misses of all methods side by side, on the same frame (V).");
+        "Shows the cost and the misses of methods side by side, on the same frame (V).");
   next_cell(i++);
   bool story = ui.story;
   if (w.checkbox("Paper vs exact###Story", story, "Counts and marks what the paper's method misses, and says why (W)."))

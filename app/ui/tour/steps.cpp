@@ -69,8 +69,9 @@ std::string text_of_miss(const TourContext& v) {
   return fmt::format(
       "The vertices are {:.3f} m apart, but {}. No cell has corners of both boxes, and no bucket has both boxes, "
       "so the pair is never compared.\n\n"
-      "The complete methods find this contact. Grid Hash looks into all cells within the tolerance. The exact method "
-      "uses no hash: boxes that are closer than the tolerance count as near.",
+      "The complete methods find this contact. Multi-Level SB, complete, puts each box, padded by half the tolerance, "
+      "into all cells that it overlaps. Grid Hash looks into all cells within the tolerance. The exact method uses no "
+      "hash: boxes that are closer than the tolerance count as near.",
       glm::distance(miss.at[0], miss.at[1]),
       miss.face ? "a cell face (dark blue) lies between their boxes"
                 : "a box is larger than a cell, and its corners skip a cell that both boxes reach over (dark blue)");

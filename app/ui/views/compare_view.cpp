@@ -7,13 +7,15 @@
 #include <fmt/core.h>
 
 #include "app/render/palette.h"
+#include "app/ui/views/method_choice.h"
+#include "app/ui/widgets/method_mark.h"
 
 namespace app::ui {
 namespace {
 
 constexpr std::size_t median_count = session::LiveComparison::times_per_state;  // measurements of a median
 
-enum ColumnIndex { run, name, time, recall, contacts, tests, hashes, precision, plot, misses, column_count };
+enum ColumnIndex { name, time, recall, contacts, tests, hashes, precision, plot, misses, column_count };
 
 struct Column {
   const char* label;
@@ -23,9 +25,7 @@ struct Column {
 };
 
 constexpr std::array<Column, column_count> columns{{
-    {"", 26, false, nullptr},
-    {"Method", 194, false,
-     "Click a name to let that method drive the bodies. The row of the driving method is shaded."},
+    {"Method", 220, false, nullptr},
     {"Time", 112, true, "Time to find all contacts from scratch on one core: median of the last 15 measurements (§3)."},
     {"Recall", 96, true,
      "Share of the true contacts that the method found. 1: none missed. The dot is the method's status light."},
@@ -107,20 +107,14 @@ struct Row {
   std::size_t index;
   const collide::Method& method;
   const compare::CompareRow* measured;  // nullptr before the first report
-  bool chosen, drives, is_reference;
+  bool begins_group;                    // of the methods
+  bool drives, is_reference;
 
   std::string label(const char* what) const { return std::string("###") + what + " " + std::string(method.name); }
   bool scored() const { return measured && measured->scored; }
 };
 
-void draw_switches(Widgets& w, Session& session, bool& show_misses, const Grid& grid, const Row& row) {
-  if (row.method.key != collide::reference_method) {
-    ImGui::SetCursorScreenPos({grid.left(run), grid.top()});
-    bool on = row.chosen;
-    if (w.checkbox(row.label("Run").c_str(), on, "Measures this method.")) {
-      session.comparison.choice.methods[row.index] = on;
-    }
-  }
+void draw_misses_switch(Widgets& w, Session& session, bool& show_misses, const Grid& grid, const Row& row) {
   ImGui::SetCursorScreenPos({grid.right(misses) - grid.height(), grid.top()});
   const bool shown = show_misses && session.comparison.choice.misses_of == row.index;
   if (w.radio(row.label("Misses of").c_str(), shown, "Shows the contacts that this method misses in the scene.")) {
@@ -132,10 +126,11 @@ void draw_switches(Widgets& w, Session& session, bool& show_misses, const Grid& 
 /// Returns true if the name was clicked.
 bool draw_name(Widgets& w, const Grid& grid, const Row& row) {
   ImGui::SetCursorScreenPos({grid.left(name), grid.top()});
-  w.swatch(row.method.colour, grid.height());
+  draw_method_mark(w, row.method, grid.height());
   const float left = ImGui::GetItemRectMax().x + w.px(6);
   ImGui::SetCursorScreenPos({left, grid.text_top()});
-  const std::string text = std::string(row.method.name) + row.label("Drive"), tooltip(row.method.summary);
+  const std::string text = std::string(row.method.name) + row.label("Drive"),
+                    tooltip = std::string(row.method.summary) + " Click to let it drive the bodies.";
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(row.scored() ? ImGuiCol_Text : ImGuiCol_TextDisabled));
   const bool clicked = ImGui::Selectable(text.c_str(), false, 0, {grid.right(name) - left, 0});
   ImGui::PopStyleColor();
@@ -185,7 +180,7 @@ void draw_score(Widgets& w, const Grid& grid, const Row& row) {
 
 /// Draws why the row has no score, beside its time if there is one.
 void draw_reason(const Session& session, const Grid& grid, const Row& row) {
-  std::string reason = row.chosen ? "measuring" : "off";
+  std::string reason = "measuring";
   if (row.measured && !row.measured->not_run.empty()) reason = row.measured->not_run;
   const bool timed = session.comparison.method_ms()[row.index].size() > 0;
   ImGui::GetWindowDrawList()->AddText({grid.left(timed ? recall : time), grid.text_top()},
@@ -194,6 +189,11 @@ void draw_reason(const Session& session, const Grid& grid, const Row& row) {
 
 void draw_row(Widgets& w, Session& session, bool& show_misses, Grid& grid, const Row& row, const Scale& scale) {
   grid.next_row();
+  if (row.begins_group) {
+    const float y = grid.top() - w.px(0.5f * row_gap);
+    ImGui::GetWindowDrawList()->AddLine({grid.left(name), y}, {grid.right(misses), y},
+                                        ImGui::GetColorU32(ImGuiCol_Border));
+  }
   if (row.drives) {
     ImGui::GetWindowDrawList()->AddRectFilled({grid.left(name) - w.px(4), grid.top()},
                                               {grid.right(misses) + w.px(4), grid.top() + grid.height()},
@@ -211,21 +211,24 @@ void draw_row(Widgets& w, Session& session, bool& show_misses, Grid& grid, const
     w.sparkline(row.label("Times of").c_str(), times, {0, scale.axis_end}, row.method.colour,
                 {"Time of the method on a frame.", "ms"}, grid.right(plot) - grid.left(plot));
   }
-  draw_switches(w, session, show_misses, grid, row);
-  ImGui::SetCursorScreenPos({grid.left(run), grid.top() + grid.height() + w.px(row_gap)});
+  draw_misses_switch(w, session, show_misses, grid, row);
+  ImGui::SetCursorScreenPos({grid.left(name), grid.top() + grid.height() + w.px(row_gap)});
   if (drive) session.settings.set_method(row.method.key);
 }
 
-void draw_header(Widgets& w, Grid& grid, bool& open) {
+void draw_header(Widgets& w, Session& session, Grid& grid, bool& open) {
   grid.next_row();
-  for (std::size_t i = 0; i < column_count; ++i) {
+  for (std::size_t i = time; i < column_count; ++i) {
     const auto at = static_cast<ColumnIndex>(i);
     grid.text(at, columns[i].label, true);
     grid.cell(w, at, (std::string("Column ") + columns[i].label).c_str(), columns[i].tooltip);
   }
-  ImGui::SetCursorScreenPos({grid.left(run), grid.top()});
+  ImGui::SetCursorScreenPos({grid.left(name), grid.top()});
   if (w.button("x###Close compare", "Closes the comparison (V).", grid.height())) open = false;
-  ImGui::SetCursorScreenPos({grid.left(run), grid.top() + grid.height() + w.px(row_gap)});
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(grid.right(name) - ImGui::GetCursorScreenPos().x);
+  draw_shown_methods(w, session);
+  ImGui::SetCursorScreenPos({grid.left(name), grid.top() + grid.height() + w.px(row_gap)});
 }
 
 std::string footer(const Session& session) {
@@ -239,16 +242,21 @@ std::string footer(const Session& session) {
 
 }  // namespace
 
-float compare_height(float width, float scale) {
+float compare_height(std::size_t methods, float width, float scale) {
   const float line = ImGui::GetFontSize() + (2 * frame_padding + row_gap) * scale;
   const bool scrolls = width - 2 * ImGui::GetStyle().WindowPadding.x < min_content_width() * scale;
-  return static_cast<float>(collide::method_table().size() + 1) * line + ImGui::GetFontSize() +
-         2 * window_padding * scale + (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
+  return static_cast<float>(methods + 1) * line + ImGui::GetFontSize() + 2 * window_padding * scale +
+         (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
 }
 
 void draw_compare(Widgets& w, Session& session, bool& show_misses, bool& open, const ScreenRect& area) {
   const ImGuiStyle& style = ImGui::GetStyle();
-  const float width = std::max(w.px(min_content_width()), area.max.x - area.min.x - 2 * style.WindowPadding.x);
+  const compare::MethodSet shown = session.comparison.shown_methods();
+  const auto rows = static_cast<std::size_t>(std::ranges::count(shown, true));
+  const float outer = area.max.x - area.min.x;
+  const bool scrolls = compare_height(rows, outer, w.px(1)) > area.max.y - area.min.y + 1;
+  const float width =
+      std::max(w.px(min_content_width()), outer - 2 * style.WindowPadding.x - (scrolls ? style.ScrollbarSize : 0));
   ImGui::SetNextWindowContentSize({width, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style.WindowPadding.x, w.px(window_padding)});
   begin_dock("Compare methods###Compare", area, false, ImGuiWindowFlags_HorizontalScrollbar);
@@ -257,15 +265,19 @@ void draw_compare(Widgets& w, Session& session, bool& show_misses, bool& open, c
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(2), w.px(frame_padding)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {w.px(6), w.px(2)});
   Grid grid(w, ImGui::GetCursorScreenPos().x, width);
-  draw_header(w, grid, open);
+  draw_header(w, session, grid, open);
   const Scale scale = common_scale(session);
   const compare::CompareReport& report = session.comparison.report();
   const std::size_t driver = session.comparison.driver();
-  for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
+  std::optional<collide::MethodGroup> group;  // of the row before
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (!shown[i]) continue;
+    const collide::Method& method = collide::method_table()[i];
     draw_row(w, session, show_misses, grid,
-             {i, collide::method_table()[i], report.rows.empty() ? nullptr : &report.rows[i],
-              session.comparison.choice.methods[i], i == driver, report.reference == i},
+             {i, method, report.rows.empty() ? nullptr : &report.rows[i], group && group != method.group, i == driver,
+              report.reference == i},
              scale);
+    group = method.group;
   }
   w.text_line(footer(session));
   w.register_item(

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "app/render/palette.h"
+#include "app/ui/widgets/method_mark.h"
 
 namespace app::ui {
 namespace {
@@ -29,7 +30,7 @@ std::string verdict(const session::LiveComparison& comparison, std::size_t metho
 void draw_method(Widgets& w, const session::LiveComparison& comparison, std::size_t method, const char* remark) {
   const collide::Method& its = collide::method_table()[method];
   const compare::CompareRow* row = comparison.scored_row(method);
-  w.swatch(its.colour, ImGui::GetTextLineHeight());
+  draw_method_mark(w, its, ImGui::GetTextLineHeight());
   ImGui::SameLine();
   const std::string text = verdict(comparison, method), name(its.name);
   const bool narrow =

@@ -5,12 +5,14 @@
 
 #include <fmt/core.h>
 
-#include "collide/methods.h"
+#include "app/ui/widgets/method_mark.h"
 
 namespace app::ui {
 namespace {
 
-constexpr float mark_radius = 4, lane_height = 6, pick_radius = 9, label_gap = 6, axis_overhang = 6;  // design pixels
+// In design pixels.
+constexpr float usual_radius = 4, mark_line = 1.5f, max_lane = 7, pick_radius = 9, label_gap = 6, axis_overhang = 6;
+constexpr float max_band = 0.4f;  // of the plot's height, for points without error
 constexpr glm::vec3 front_colour(0.15f), ring_colour(0.8f, 0.0f, 0.4f);
 constexpr glm::vec3 major_line_colour(0.84f), minor_line_colour(0.94f), band_colour(0.92f, 0.96f, 0.92f);
 
@@ -26,8 +28,8 @@ std::string power_of_ten(int exponent) { return fmt::format("{:g}", std::pow(10.
 
 int exponent_below(double value) { return static_cast<int>(std::floor(std::log10(value))); }
 
-std::size_t level_index(const compare::Configuration& c) {
-  if (!collide::method_table()[c.method].uses_levels) return 0;
+std::optional<std::size_t> level_index(const compare::Configuration& c) {
+  if (!collide::method_table()[c.method].uses_levels) return std::nullopt;
   return static_cast<std::size_t>(std::ranges::find(compare::sweep_levels, c.settings.levels) -
                                   compare::sweep_levels.begin());
 }
@@ -43,11 +45,12 @@ float SweepPlot::Axis::decade(int exponent) const {
   return start + (end - start) * static_cast<float>(exponent - first) / static_cast<float>(last - first);
 }
 
-void SweepPlot::set(const compare::SweepReport& report) {
+void SweepPlot::set(const compare::SweepReport& report, const compare::MethodSet& methods) {
   points_.clear();
+  methods_ = methods;
   for (std::size_t i = 0; i < report.rows.size() && report.reference; ++i) {
     const compare::SweepRow& row = report.rows[i];
-    if (row.times.ms.empty()) continue;
+    if (row.times.ms.empty() || !methods[row.configuration.method]) continue;
     const double ms = std::max(row.times.median(), 1e-6);  // a time may be below the clock's resolution
     points_.push_back({i, row.configuration.method, level_index(row.configuration), {ms, 1 - row.recall}});
   }
@@ -61,8 +64,9 @@ void SweepPlot::draw(const Widgets& w, ImVec2 min, ImVec2 max, const Emphasis& e
   draw_axes(w);
   for (const Point& point : points_) {
     const bool pale = emphasis.method && *emphasis.method != point.method;
-    draw_mark(point.at, w.px(mark_radius), point.level,
-              to_imgui(collide::method_table()[point.method].colour, pale ? 0.12f : 0.8f));
+    const collide::Method& method = collide::method_table()[point.method];
+    draw_marker(point.at, w.px(mark_radius(point.level)), method.marker, to_imgui(method.colour, pale ? 0.12f : 0.85f),
+                w.px(mark_line));
   }
   draw_front(w);
   for (const Point& point : points_) {
@@ -72,7 +76,11 @@ void SweepPlot::draw(const Widgets& w, ImVec2 min, ImVec2 max, const Emphasis& e
 }
 
 void SweepPlot::draw_ring(const Widgets& w, ImVec2 at) {
-  ImGui::GetWindowDrawList()->AddCircle(at, w.px(2 * mark_radius), to_imgui(ring_colour), 24, w.px(2));
+  ImGui::GetWindowDrawList()->AddCircle(at, w.px(2 * usual_radius), to_imgui(ring_colour), 24, w.px(2));
+}
+
+float SweepPlot::mark_radius(std::optional<std::size_t> level) {
+  return level ? 2.2f + 0.8f * static_cast<float>(*level) : usual_radius;
 }
 
 /// Fits the axes to whole decades, a few of them from the start, so that the axes rarely change while points come in.
@@ -86,12 +94,16 @@ void SweepPlot::place_points(const Widgets& w, ImVec2 min, ImVec2 max) {
   }
   const float label_width = ImGui::CalcTextSize(power_of_ten(std::min(min_error, -4)).c_str()).x;
   bottom_ = max.y - 2 * line - w.px(label_gap);
-  const float lanes = w.px(lane_height) * static_cast<float>(collide::method_table().size() + 2);
+  const float top = min.y + line + w.px(10);
+  // Each method has its own lane, so that points without error do not hide each other.
+  const float lanes = static_cast<float>(std::ranges::count(methods_, true) + 2);
+  const float lane_height = std::min(w.px(max_lane), max_band * (bottom_ - top) / lanes);
   time_ = {fastest, slowest, min.x + label_width + w.px(label_gap), max.x - w.px(12)};
-  error_ = {0, min_error, min.y + line + w.px(10), bottom_ - lanes};
+  error_ = {0, min_error, top, bottom_ - lanes * lane_height};
   for (Point& point : points_) {
-    // Each method has its own lane, so that points without error do not hide each other.
-    const float lane = error_.end + w.px(lane_height) * (static_cast<float>(point.method) + 1.5f);
+    const auto before =
+        std::count(methods_.begin(), methods_.begin() + static_cast<std::ptrdiff_t>(point.method), true);
+    const float lane = error_.end + lane_height * (static_cast<float>(before) + 1.5f);
     point.at = {time_.at(point.value.ms), point.value.error > 0 ? error_.at(point.value.error) : lane};
   }
 }
@@ -103,11 +115,9 @@ void SweepPlot::draw_axes(const Widgets& w) const {
   draw->AddRectFilled({time_.start, error_.end}, {time_.end, bottom_}, to_imgui(band_colour));
   draw_time_axis(w, top);
   draw_error_axis(w);
-  draw_grey_text({time_.end - w.px(6), bottom_ - ImGui::GetTextLineHeight() - w.px(2)}, 1,
-                 "none missed (one row per method)");
   draw->AddRect({time_.start, top}, {time_.end, bottom_}, ImGui::GetColorU32(ImGuiCol_Border));
   draw_grey_text({time_.start, top - ImGui::GetTextLineHeight() - w.px(3)}, 0,
-                 "Missed share of the true contacts (1 - recall)");
+                 "Missed share (1 - recall); shaded: none missed, a row per method");
 }
 
 void SweepPlot::draw_time_axis(const Widgets& w, float top) const {
@@ -145,7 +155,7 @@ void SweepPlot::draw_front(const Widgets& w) const {
   const ImU32 colour = to_imgui(front_colour);
   for (std::size_t i = 0; i < front_.size(); ++i) {
     const ImVec2 here = points_[front_[i]].at;
-    draw->AddCircle(here, w.px(mark_radius + 1.5f), colour, 16, w.px(1.5f));
+    draw->AddCircle(here, w.px(usual_radius + 1.5f), colour, 16, w.px(1.5f));
     if (i + 1 == front_.size()) break;
     const ImVec2 next = points_[front_[i + 1]].at;
     draw->AddLine(here, {next.x, here.y}, colour, w.px(1.5f));
@@ -163,18 +173,6 @@ const SweepPlot::Point* SweepPlot::hit_test(const Widgets& w, ImVec2 mouse) cons
     best = &point;
   }
   return best;
-}
-
-void SweepPlot::draw_mark(ImVec2 at, float r, std::size_t level, ImU32 colour) {
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  const float up = level == 3 ? r : -r;
-  if (level == 0)
-    draw->AddCircleFilled(at, r, colour, 16);
-  else if (level == 1)
-    draw->AddRectFilled({at.x - 0.9f * r, at.y - 0.9f * r}, {at.x + 0.9f * r, at.y + 0.9f * r}, colour);
-  else
-    draw->AddTriangleFilled({at.x, at.y + 1.1f * up}, {at.x - 1.1f * r, at.y - 0.8f * up},
-                            {at.x + 1.1f * r, at.y - 0.8f * up}, colour);
 }
 
 }  // namespace app::ui

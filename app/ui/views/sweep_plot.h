@@ -9,29 +9,30 @@ namespace app::ui {
 class SweepPlot {
  public:
   struct Point {
-    std::size_t row;          // of the report
-    std::size_t method;       // in collide::method_table()
-    std::size_t level;        // in sweep_levels; 0 for methods without levels
-    compare::Tradeoff value;  // median time
-    ImVec2 at{-1, -1};        // where it was drawn last
+    std::size_t row;                   // of the report
+    std::size_t method;                // in collide::method_table()
+    std::optional<std::size_t> level;  // in sweep_levels, of methods with levels
+    compare::Tradeoff value;           // median time
+    ImVec2 at{-1, -1};                 // where it was drawn last
   };
   struct Emphasis {
     std::optional<std::size_t> method;  // the points of all other methods are drawn faintly
-    std::optional<std::size_t> row;     // gets a series: the settings in use
+    std::optional<std::size_t> row;     // gets a ring: the settings in use
   };
 
-  /// Gathers the report's points. There are none if there are no true contacts to measure against.
-  void set(const compare::SweepReport& report);
+  /// Gathers the report's points of these methods. There are none without true contacts to measure against.
+  void set(const compare::SweepReport& report, const compare::MethodSet& methods);
   const std::vector<Point>& points() const { return points_; }
+  const compare::MethodSet& methods() const { return methods_; }
 
   /// Draws the plot into the rectangle.
   void draw(const Widgets& widgets, ImVec2 min, ImVec2 max, const Emphasis& emphasis);
   /// Returns the nearest drawn point within the pick radius, or nullptr.
   const Point* hit_test(const Widgets& widgets, ImVec2 mouse) const;
 
-  /// Draws the mark of a level: disc, square, triangle, or triangle upside down.
-  static void draw_mark(ImVec2 at, float radius, std::size_t level, ImU32 colour);
-  /// Draws the series around the mark of the settings in use.
+  /// Returns how large the mark of a level is, in design pixels: the higher the level, the larger.
+  static float mark_radius(std::optional<std::size_t> level);
+  /// Draws the ring around the mark of the settings in use.
   static void draw_ring(const Widgets& w, ImVec2 at);
 
  private:
@@ -49,6 +50,7 @@ class SweepPlot {
   void draw_front(const Widgets& widgets) const;
 
   std::vector<Point> points_;
+  compare::MethodSet methods_ = compare::usual_methods();
   std::vector<std::size_t> front_;  // indices of points_, ascending in time
   Axis time_{}, error_{};
   float bottom_ = 0;  // lower end of the band of points without error, for which a logarithmic axis has no place

@@ -5,6 +5,8 @@
 #include <fmt/core.h>
 
 #include "app/base/text.h"
+#include "app/ui/views/method_choice.h"
+#include "app/ui/widgets/method_mark.h"
 
 namespace app::ui {
 namespace {
@@ -104,13 +106,13 @@ std::string footer(const session::SweepState& state) {
   return text;
 }
 
-/// Draws a sample and its meaning, beside the previous entry, or on a new line if there is no room.
+/// Draws a sample and its meaning, `gap` design pixels beside the previous entry, or on a new line if there is no room.
 template <class Draw>
-void draw_legend_entry(Widgets& w, const std::string& text, const char* tip, bool first, const Draw& draw_sample) {
-  const float line = ImGui::GetTextLineHeight(), gap = w.px(14), inner = w.px(5);
+void draw_legend_entry(Widgets& w, const std::string& text, const char* tip, float gap, const Draw& draw_sample) {
+  const float line = ImGui::GetTextLineHeight(), inner = w.px(5);
   const float width = line + inner + ImGui::CalcTextSize(text.c_str()).x;
   const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-  if (!first && ImGui::GetItemRectMax().x + gap + width <= end) ImGui::SameLine(0, gap);
+  if (ImGui::GetItemRectMax().x + w.px(gap) + width <= end) ImGui::SameLine(0, w.px(gap));
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::Dummy({width, line});
   w.register_item(fmt::format("Legend {}", text).c_str(), tip);
@@ -134,13 +136,19 @@ void draw_progress(Widgets& w, const session::SweepState& state, float width) {
 
 }  // namespace
 
+float SweepView::preferred_height(std::size_t methods, float window) {
+  const float lanes = 9 * static_cast<float>(methods);  // and lines of the legend
+  return std::clamp(0.42f * window + lanes, min_height, 370 + lanes);
+}
+
 void SweepView::draw_button(Widgets& w, const Session& session) {
   constexpr const char* sweep_tooltip =
-      "Runs every method with all its levels, four bucket counts and five cell sizes on a copy of this frame. Pause "
-      "(Space) for the steadiest times.";
+      "Runs each shown method with all its levels, four bucket counts and five cell sizes on a copy of this frame. "
+      "Pause (Space) for the steadiest times.";
   const float width = w.px(130);
   if (!state_.running) {
-    if (w.button("Sweep this frame###Sweep", sweep_tooltip, width)) worker_.start(session.world());
+    if (w.button("Sweep this frame###Sweep", sweep_tooltip, width))
+      worker_.start(session.world(), session.comparison.shown_methods());
     return;
   }
   const bool cancelling = worker_.cancelling();
@@ -152,8 +160,11 @@ void SweepView::draw_button(Widgets& w, const Session& session) {
   ImGui::EndDisabled();
 }
 
-void SweepView::draw_controls(Widgets& w, const Session& session) {
+void SweepView::draw_controls(Widgets& w, Session& session) {
   draw_button(w, session);
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(w.px(150));
+  draw_shown_methods(w, session);
   ImGui::SameLine();
   draw_progress(w, state_, ImGui::GetContentRegionAvail().x - w.px(190));
   ImGui::SameLine();
@@ -162,26 +173,39 @@ void SweepView::draw_controls(Widgets& w, const Session& session) {
   w.register_item("Sweep counts", not_run_text(state_.report).c_str());
 }
 
-void SweepView::draw_legend(Widgets& w) {
+void SweepView::draw_legend(Widgets& w, const compare::MethodSet& shown) {
+  constexpr float gap = 12, group_gap = 28, new_line = 1e4f;
   hovered_method_.reset();
-  for (std::size_t m = 0; m < collide::method_table().size(); ++m) {
+  std::optional<collide::MethodGroup> group;  // of the entry before
+  bool levels = false;
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, w.px(3)});
+  for (std::size_t m = 0; m < shown.size(); ++m) {
+    if (!shown[m]) continue;
     const collide::Method& method = collide::method_table()[m];
-    draw_legend_entry(w, std::string(method.name), "Highlights the points of this method.", m == 0,
-                      [&](ImVec2 at) { SweepPlot::draw_mark(at, w.px(5), 0, to_imgui(method.colour)); });
+    draw_legend_entry(w, std::string(method.name), "Highlights the points of this method.",
+                      !group                  ? new_line
+                      : group == method.group ? gap
+                                              : group_gap,
+                      [&](ImVec2 at) { draw_marker(at, w.px(5), method.marker, to_imgui(method.colour), w.px(1.8f)); });
     if (ImGui::IsItemHovered()) hovered_method_ = m;
+    group = method.group;
+    levels |= method.uses_levels;
   }
-  for (std::size_t level = 0; level < compare::sweep_levels.size(); ++level) {
-    draw_legend_entry(
-        w, fmt::format("level {}", compare::sweep_levels[level]), "Points of this subdivision level (§2.1).", false,
-        [&](ImVec2 at) { SweepPlot::draw_mark(at, w.px(4), level, ImGui::GetColorU32(ImGuiCol_TextDisabled)); });
+  for (std::size_t level = 0; levels && level < compare::sweep_levels.size(); ++level) {
+    draw_legend_entry(w, fmt::format("level {}", compare::sweep_levels[level]),
+                      "Points of this subdivision level (§2.1).", level == 0 ? group_gap : gap, [&](ImVec2 at) {
+                        draw_marker(at, w.px(SweepPlot::mark_radius(level)), collide::Marker::disc,
+                                    ImGui::GetColorU32(ImGuiCol_TextDisabled), w.px(1));
+                      });
   }
-  draw_legend_entry(w, "Pareto front", "No other point is both faster and better.", false, [&](ImVec2 at) {
+  draw_legend_entry(w, "Pareto front", "No other point is both faster and better.", group_gap, [&](ImVec2 at) {
     const float half = w.px(7);
     ImGui::GetWindowDrawList()->AddLine({at.x - half, at.y}, {at.x + half, at.y}, ImGui::GetColorU32(ImGuiCol_Text),
                                         w.px(1.5f));
   });
-  draw_legend_entry(w, "in use", "The method and settings that drive the bodies now.", false,
+  draw_legend_entry(w, "in use", "The method and settings that drive the bodies now.", gap,
                     [&](ImVec2 at) { SweepPlot::draw_ring(w, at); });
+  ImGui::PopStyleVar();
 }
 
 void SweepView::draw_plot(Widgets& w, Session& session, float height) {
@@ -212,7 +236,7 @@ void SweepView::update() {
   auto state = worker_.take();
   if (!state) return;
   state_ = std::move(*state);
-  plot_.set(state_.report);
+  plot_.set(state_.report, plot_.methods());
 }
 
 void SweepView::draw(Widgets& w, Session& session, const ScreenRect& area, bool& open) {
@@ -222,7 +246,9 @@ void SweepView::draw(Widgets& w, Session& session, const ScreenRect& area, bool&
   if (w.button("x###Close sweep", "Closes the plot (E). A sweep continues.", ImGui::GetFrameHeight())) open = false;
   ImGui::SameLine();
   draw_controls(w, session);
-  draw_legend(w);
+  const compare::MethodSet shown = session.comparison.shown_methods();
+  if (shown != plot_.methods()) plot_.set(state_.report, shown);
+  draw_legend(w, shown);
   const ImGuiStyle& style = ImGui::GetStyle();
   draw_plot(w, session, ImGui::GetContentRegionAvail().y - ImGui::GetTextLineHeight() - style.ItemSpacing.y);
   draw_footer(w);

@@ -1,5 +1,5 @@
 #pragma once
-// The window "Error against run time": a sweep of every method over its settings on one frozen frame, with its
+// The window "Error against run time": a sweep of the shown methods over their settings on one frozen frame, with its
 // progress.
 
 #include "app/session/live/sweep_worker.h"
@@ -11,7 +11,9 @@ namespace app::ui {
 
 class SweepView {
  public:
-  static constexpr float min_height = 260, max_height = 420;  // of the area, in design pixels
+  /// Returns the height in design pixels for so many methods in a window of this height.
+  static float preferred_height(std::size_t methods, float window);
+  static constexpr float min_height = 250;
 
   /// Takes the sweep's progress. To be called in each frame, also if something covers the window.
   void update();
@@ -25,8 +27,8 @@ class SweepView {
 
  private:
   void draw_button(Widgets& widgets, const Session& session);
-  void draw_controls(Widgets& widgets, const Session& session);
-  void draw_legend(Widgets& widgets);
+  void draw_controls(Widgets& widgets, Session& session);
+  void draw_legend(Widgets& widgets, const compare::MethodSet& shown);
   void draw_plot(Widgets& widgets, Session& session, float height);
   void draw_footer(Widgets& widgets) const;
 

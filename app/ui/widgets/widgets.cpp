@@ -116,7 +116,7 @@ void Widgets::show_tooltip(const char* text) const {
   const float wrap = px(250);
   const ImVec2 pad = ImGui::GetStyle().WindowPadding, lines = ImGui::CalcTextSize(text, nullptr, false, wrap);
   const ImVec2 size{lines.x + 2 * pad.x, lines.y + 2 * pad.y};
-  const ImVec2 at = tooltip_position(size, px(6), px(80), mouse_.last_results);
+  const ImVec2 at = tooltip_position(size, px(6), std::max(px(80), size.y), mouse_.last_results);
   if (recorder_) recorder_->widgets.push_back({"Tooltip", at, {at.x + size.x, at.y + size.y}, true});
   ImGui::SetNextWindowPos(at);
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, usual_alpha_);  // the tooltip of a disabled widget is not faint

@@ -109,7 +109,8 @@ std::vector<Query> queries_of(const Motion& motion) {
     const collide::surface::BoxTree tree(motion.boxes_of(others));
     for (Index k = 0; k < features.size(); ++k) {
       tree.for_each_overlapping(boxes[k], [&](Index other) {
-        const auto &a = features[k], &b = others[other];
+        const auto& a = features[k];
+        const auto& b = others[other];
         if (std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) == a.end()) take(a, b);
       });
     }
