@@ -59,20 +59,15 @@ void CostModel::begin(const collide::Frame& frame, const collide::Settings& sett
     side_ += (glm::dvec3(boxes_.box[b].hi) - glm::dvec3(boxes_.box[b].lo)) / static_cast<double>(boxes_.live.size());
   }
   extent_ = boxes_.live.empty() ? glm::dvec3(0) : hi - lo;
-  // The exact method: about sixteen tests per vertex, but at least those that its cuts leave of all.
-  const auto cut = [&](std::uint64_t tests, std::uint64_t vertices) {
-    return std::max(16 * vertices, tests >> settings.levels);
-  };
   in_overlapping_boxes_ = exact_tests_ = 0;
-  for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_cutoff(settings.tolerance))) {
-    in_overlapping_boxes_ += std::uint64_t{bodies.size(a)} * bodies.size(b);
-    exact_tests_ += cut(std::uint64_t{bodies.size(a)} * bodies.size(b), bodies.size(a) + bodies.size(b));
-  }
+  const auto add = [&](std::uint64_t tests, std::uint64_t vertices) {
+    in_overlapping_boxes_ += tests;
+    exact_tests_ += std::max(16 * vertices, tests >> settings.levels);  // at least those that its cuts leave of all
+  };
+  for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_cutoff(settings.tolerance)))
+    add(std::uint64_t{bodies.size(a)} * bodies.size(b), bodies.size(a) + bodies.size(b));
   if (!settings.self_collision) return;
-  for (const collide::Index b : boxes_.live) {
-    in_overlapping_boxes_ += pairs_of(bodies.size(b));
-    exact_tests_ += cut(pairs_of(bodies.size(b)), bodies.size(b));
-  }
+  for (const collide::Index b : boxes_.live) add(pairs_of(bodies.size(b)), bodies.size(b));
 }
 
 WorkEstimate CostModel::of(std::size_t method) const {
