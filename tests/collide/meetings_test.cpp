@@ -241,10 +241,9 @@ TEST_P(MeetingsOf, DoNotDependOnHowTheQueryIsPut) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Coordinates, MeetingsOf,
-                         testing::Values(Sample{"SmallIntegers", small_integer, 1000},
-                                         Sample{"AnyReals", any_real, 150},
-                                         Sample{"OffByOneDigit", off_by_one_digit, 200},
-                                         Sample{"OfAnyMagnitude", of_any_magnitude, 60}),
+                         testing::Values(Sample{"SmallIntegers", small_integer, 500}, Sample{"AnyReals", any_real, 100},
+                                         Sample{"OffByOneDigit", off_by_one_digit, 100},
+                                         Sample{"OfAnyMagnitude", of_any_magnitude, 30}),
                          [](const auto& sample) { return sample.param.name; });
 
 /// Points that are at known places at a known time. All sums and products below are exact in double.

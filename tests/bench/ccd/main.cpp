@@ -140,7 +140,7 @@ std::vector<Query> queries_of(const Motion& motion) {
 
 void run(int argc, char** argv) {
   std::puts(
-      "| queries | number | that meet | false negatives | false positives | meets: mean, us | slowest | passes: mean, "
+      "| queries | number | that meet | false negatives | false positives | meets: mean, µs | slowest | passes: mean, "
       "us "
       "| slowest |");
   std::puts("|---|--:|--:|--:|--:|--:|--:|--:|--:|");
