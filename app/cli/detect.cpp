@@ -50,33 +50,42 @@ MethodRun run_one(const collide::Method& method, const Options& options, const S
 
 /// The sums over the frames that a method reached.
 struct Totals {
-  std::size_t contacts = 0, true_contacts = 0, found_true = 0;
+  std::size_t contacts = 0;
   std::uint64_t pair_tests = 0, hashes = 0;
   double ms = 0;  // of the frames' medians
-  double recall() const { return compare::share(found_true, true_contacts); }
-  double precision() const { return compare::share(found_true, contacts); }
+  struct Score {
+    double recall, precision;
+  };
+  std::optional<Score> score;  // over the frames whose true contacts are known
 };
 
 Totals totals_of(std::span<const DetectRow> rows) {
   Totals sum;
+  std::size_t judged = 0;  // contacts
+  std::optional<Found> found;
   for (const DetectRow& r : rows) {
     sum.contacts += r.contacts;
-    sum.true_contacts += r.true_contacts;
-    sum.found_true += r.found_true;
+    if (r.found) {
+      judged += r.contacts;
+      if (!found) found.emplace();
+      found->true_contacts += r.found->true_contacts;
+      found->of_them += r.found->of_them;
+    }
     sum.pair_tests += r.counters.pair_tests;
     sum.hashes += r.counters.hashes;
     sum.ms += r.times.median();
   }
+  if (found) sum.score = {compare::share(found->of_them, found->true_contacts), compare::share(found->of_them, judged)};
   return sum;
 }
 
 // ---- JSON ----
 
-/// Adds recall and precision over these frames.
+/// Adds recall and precision over these frames; null where the true contacts are not known.
 void add_score(Json& object, std::span<const DetectRow> rows) {
-  const Totals sum = totals_of(rows);
-  object["recall"] = sum.recall();
-  object["precision"] = sum.precision();
+  const auto score = totals_of(rows).score;
+  object["recall"] = score ? Json(score->recall) : Json(nullptr);
+  object["precision"] = score ? Json(score->precision) : Json(nullptr);
 }
 
 Json frames_json(const MethodRun& run, bool scored) {
@@ -160,8 +169,9 @@ void print_table(const Given& given, const MethodRuns& all) {
       given.task.frames.size(), all.reference ? all.reference->name : "not known");
   std::cout << fmt::format("{:28} {:>10} {:>8} {:>9} {:>12} {:>15} {:>14}\n", "method", "contacts", "recall",
                            "precision", "ms a frame", "pair tests", "hashes");
-  const auto share = [&](double value) -> std::string {
-    if (!all.reference) return "-";
+  const auto share = [](const Totals& sum, double Totals::Score::*part) -> std::string {
+    if (!sum.score) return "-";
+    const double value = (*sum.score).*part;
     return value < 1 ? fmt::format("{:.5f}", std::floor(1e5 * value) / 1e5) : "1";  // 1 only where nothing is wrong
   };
   for (const MethodRun& run : all.runs) {
@@ -171,8 +181,8 @@ void print_table(const Given& given, const MethodRuns& all) {
     }
     const Totals sum = totals_of(run.rows);
     std::cout << fmt::format("{:28} {:10} {:>8} {:>9} {:12.3f} {:15} {:14}\n", run.method->key, sum.contacts,
-                             share(sum.recall()), share(sum.precision()), sum.ms / static_cast<double>(run.rows.size()),
-                             sum.pair_tests, sum.hashes);
+                             share(sum, &Totals::Score::recall), share(sum, &Totals::Score::precision),
+                             sum.ms / static_cast<double>(run.rows.size()), sum.pair_tests, sum.hashes);
   }
 }
 

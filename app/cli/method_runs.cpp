@@ -31,7 +31,7 @@ struct Runner {
     const collide::Frame view = task.frames[frame].view();
     const double ms = time_ms([&] { detector->detect(view, task.settings, workers, result); });
     if (frame == run.rows.size())
-      run.rows.push_back({result.contacts.size(), result.self_contacts, result.counters, result.skipped, {}, 0, 0});
+      run.rows.push_back({result.contacts.size(), result.self_contacts, result.counters, result.skipped, {}, {}});
     run.rows[frame].times.ms.push_back(ms);
     work += compare::WorkEstimate{result.counters.pair_tests, result.counters.hashes}.cost();
   }
@@ -90,9 +90,8 @@ class SideBySide {
     if (repetition_ > 0) return;
     if (m == reference_) truth_ = result_.contacts;
     if (!truth_) return;
-    DetectRow& row = runner.run.rows[f];
-    row.true_contacts = truth_->size();
-    row.found_true = truth_->size() - compare::score(result_.contacts, *truth_).missed.size();
+    runner.run.rows[f].found = {truth_->size(),
+                                truth_->size() - compare::score(result_.contacts, *truth_).missed.size()};
   }
 
   /// Returns the work that the method will have done at the end if each frame from this one on takes as much as it.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,14 +25,19 @@ struct SequenceTask {
   const files::SequenceBodies& of() const { return *frames.front().of; }
 };
 
+/// What a method found of the true contacts of a frame.
+struct Found {
+  std::size_t true_contacts = 0, of_them = 0;
+};
+
 /// The figures of a method in one frame.
 struct DetectRow {
   std::size_t contacts = 0;
   std::uint64_t self_contacts = 0;
   collide::Counters counters;
   collide::Skipped skipped{};
-  Timings times;                                  // by repetition
-  std::size_t true_contacts = 0, found_true = 0;  // of the true contacts, those found; 0 where there is no reference
+  Timings times;               // by repetition
+  std::optional<Found> found;  // nothing where the true contacts are not known
 };
 
 struct MethodRun {
