@@ -2,6 +2,7 @@
 
 #include "app/ui/panel/panel.h"
 #include "app/ui/shortcuts.h"
+#include "app/window/overlay_request.h"
 #include "tests/app/panel_rig.h"
 #include "tests/softbody/recorded_bodies.h"
 
@@ -63,11 +64,14 @@ TEST_F(RecordedPanel, HasATimeLineOverAllFrames) {
   EXPECT_TRUE(rig.session.simulation.clock.paused);
 }
 
-TEST_F(RecordedPanel, TakesOverlaysOffThatTheSceneBeforeShowed) {
-  rig.ui.overlays.springs = rig.ui.overlays.contacts = true;
+TEST_F(RecordedPanel, DrawsNoOverlayThatNeedsASolverButKeepsTheChoice) {
+  rig.ui.overlays.springs = rig.ui.overlays.surface_contacts = rig.ui.overlays.contacts = true;
+  const render::Overlays chosen = rig.ui.overlays;
   rig.frames(1);
-  EXPECT_FALSE(rig.ui.overlays.springs);
-  EXPECT_TRUE(rig.ui.overlays.contacts);
+  const render::Overlays drawn = window::overlay_request(rig.session, rig.ui).shown;
+  EXPECT_FALSE(drawn.springs || drawn.surface_contacts);
+  EXPECT_TRUE(drawn.contacts);
+  EXPECT_EQ(rig.ui.overlays, chosen) << "for the next scene, and for the preferences";
 }
 
 TEST_F(RecordedPanel, TourFindsItsExampleInALaterFrame) {
