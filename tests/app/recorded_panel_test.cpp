@@ -23,10 +23,11 @@ class RecordedPanel : public testing::Test {
 };
 
 TEST_F(RecordedPanel, LeavesOutWhatNeedsASolverAndSaysSo) {
-  for (const char* label : {"Detection", "Show", "Numbers", "Export", "Contacts", "Left out", "Method", "Tolerance"})
+  for (const char* label :
+       {"Detection", "Show", "Numbers", "Files", "Export", "Contacts", "Left out", "Method", "Tolerance"})
     EXPECT_TRUE(shows(label)) << label;
-  for (const char* label : {"World", "Stability", "Files", "Springs", "Surface contacts", "Drop", "Throw", "Delete",
-                            "Solve", "Contact surface", "Step light", "Contacts with solids"})
+  for (const char* label : {"World", "Stability", "Springs", "Surface contacts", "Drop", "Throw", "Delete", "Solve",
+                            "Contact surface", "Step light", "Contacts with solids"})
     EXPECT_FALSE(shows(label)) << label;
   rig.session.bodies.select(1);
   rig.frames(2);
@@ -72,6 +73,20 @@ TEST_F(RecordedPanel, DrawsNoOverlayThatNeedsASolverButKeepsTheChoice) {
   EXPECT_FALSE(drawn.springs || drawn.surface_contacts);
   EXPECT_TRUE(drawn.contacts);
   EXPECT_EQ(rig.ui.overlays, chosen) << "for the next scene, and for the preferences";
+}
+
+TEST_F(RecordedPanel, OpensFilesAndGivesTheCommandThatPlaysTheRecording) {
+  for (const char* above : {"Numbers", "Show", "Detection"}) rig.click(above);
+  rig.click("Files");
+  rig.frames(2);
+  EXPECT_TRUE(shows("File to open") && shows("Load"));
+  for (const char* label : {"Size of meshes", "Weld distance", "Scene file", "Copy simulate"})
+    EXPECT_FALSE(shows(label)) << label;
+  rig.click("Copy");
+  const std::string command = ImGui::GetClipboardText();
+  EXPECT_NE(command.find(" --play 'ball 0.obj' --method "), std::string::npos) << command;
+  for (const char* option : {"--scene", "--contact-surface", "--integrator"})
+    EXPECT_EQ(command.find(option), std::string::npos) << command;
 }
 
 TEST_F(RecordedPanel, TourFindsItsExampleInALaterFrame) {
