@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <numeric>
-#include <set>
 
 #include "app/compare/heap.h"
 #include "app/compare/score.h"
-#include "softbody/model/body_model.h"
 
 namespace app::compare {
 namespace {
@@ -19,25 +17,6 @@ std::vector<Value> axis(bool used, const Values& values, Value otherwise) {
 }
 
 }  // namespace
-
-glm::vec3 automatic_cell_size(const softbody::World& world, int levels) {
-  if (const auto& recording = world.scene().recording)
-    return softbody::default_cell_size(*recording, levels, world.collision().tolerance);
-  collide::Bodies bodies;
-  std::vector<float> x, y, z;
-  std::set<const softbody::BodyModel*> seen;
-  for (collide::Index b = 0; b < world.bodies().count(); ++b) {
-    const softbody::BodyModel& model = world.model(b);
-    if (!seen.insert(&model).second) continue;
-    bodies.add(model.shape);
-    for (const glm::dvec3& v : model.start) {
-      x.push_back(static_cast<float>(v.x));
-      y.push_back(static_cast<float>(v.y));
-      z.push_back(static_cast<float>(v.z));
-    }
-  }
-  return collide::default_cell_size({x, y, z, &bodies}, levels, world.collision().tolerance);
-}
 
 std::vector<Configuration> sweep_configurations(const collide::Settings& settings,
                                                 const std::function<glm::vec3(int levels)>& automatic_cell_size,
@@ -63,7 +42,7 @@ std::vector<Configuration> sweep_configurations(const collide::Settings& setting
 
 std::vector<Configuration> sweep_configurations(const softbody::World& world, const MethodSet& methods) {
   return sweep_configurations(
-      world.collision(), [&](int levels) { return automatic_cell_size(world, levels); }, methods);
+      world.collision(), [&](int levels) { return world.default_cell_size(levels); }, methods);
 }
 
 Sweep::Sweep(const collide::Frame& frame, const std::vector<Configuration>& configurations, const SweepLimits& limits,

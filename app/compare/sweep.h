@@ -27,10 +27,6 @@ struct Configuration {
   double cell = 1;             // the cell size in units of the automatic one
 };
 
-/// Returns the automatic cell size of a level (§2.2). It depends on the rest shapes of the world's bodies, or on those
-/// of the first frame of a recording, not on the current ones.
-glm::vec3 automatic_cell_size(const softbody::World& world, int levels);
-
 /// Returns each of the methods with all combinations of the axes that it uses, in the order of the table. The other
 /// settings are those given, or the world's. automatic_cell_size: of a level.
 std::vector<Configuration> sweep_configurations(const collide::Settings& settings,

@@ -39,6 +39,7 @@ class FrameSequence {
   FrameSequence(std::vector<std::filesystem::path> files, const Options& options);
 
   std::size_t count() const { return files_.size(); }
+  BodiesBy by() const { return by_; }
   const std::filesystem::path& file(std::size_t frame) const { return files_[frame]; }
   /// Returns the bodies of the first file.
   const std::shared_ptr<const SequenceBodies>& bodies() const { return first_; }

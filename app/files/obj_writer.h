@@ -8,6 +8,8 @@
 
 namespace app::files {
 
+inline constexpr const char* rest_shape_name = "rest.obj";  // of the file at_rest() beside those of the frames
+
 /// Keeps the faces and the rest positions of a world's bodies, and combines them with the positions of frames.
 class ObjWriter {
  public:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -36,6 +37,8 @@ bool same_topology(const collide::Shape& a, const collide::Shape& b) {
   return a.shared_topology() == b.shared_topology() || a.topology() == b.topology();
 }
 
+std::size_t bytes_of(const softbody::RecordedFrame& frame) { return 3 * sizeof(float) * frame.x.size(); }
+
 /// Returns true if the model is that of all bodies with this shape and these triangles.
 bool suits(const softbody::BodyModel& model, const collide::Shape& shape,
            const std::vector<softbody::Triangle>& triangles) {
@@ -52,6 +55,10 @@ Playback::Playback(std::vector<std::filesystem::path> files, std::optional<Bodie
     throw softbody::SceneError(sequence_.file(0).string() + ": has no vertex; nothing can be played");
   bounds_.fill(glm::vec3(first->x[0], first->y[0], first->z[0]));
   include(*first);
+  command_words_ = {"--bodies",
+                    std::string(std::ranges::find(bodies_by_keys, sequence_.by(), &BodiesByKey::value)->key), "--play"};
+  for (std::size_t file = 0; file < sequence_.count(); ++file)
+    command_words_.push_back(std::filesystem::absolute(sequence_.file(file)).string());
   for (const int number : {(frame_count() - 1) / 2, frame_count() - 1}) {
     try {
       include(*frame(number));
@@ -82,7 +89,7 @@ std::shared_ptr<const softbody::RecordedFrame> Playback::frame(int number) {
     } catch (const std::runtime_error& error) {  // of the file
       throw softbody::SceneError(error.what());
     }
-    const std::size_t bytes = 3 * sizeof(float) * frame->x.size();
+    const std::size_t bytes = bytes_of(*frame);
     if (number == 0 || bytes <= free_bytes_) {
       free_bytes_ -= std::min(free_bytes_, bytes);
       kept_.emplace(number, frame);
@@ -107,8 +114,20 @@ void Playback::read_ahead(int number) {
   ahead_.emplace(Ahead{number, std::async(std::launch::async, read)});
 }
 
+void Playback::release() {
+  ahead_.reset();
+  for (auto next = std::next(kept_.begin()); next != kept_.end(); next = kept_.erase(next))
+    free_bytes_ += bytes_of(*next->second);
+}
+
 /// Makes models of bodies that no frame had before. Bodies of one mesh share a model.
 std::shared_ptr<const softbody::RecordedFrame> Playback::record(int number, SequenceFrame frame) {
+  for (const std::vector<float>* axis : {&frame.at.x, &frame.at.y, &frame.at.z})
+    for (const float at : *axis)
+      if (std::abs(at) > max_coordinate)
+        throw softbody::SceneError(fmt::format("{}: a coordinate of {:g}; they must lie within {:g} to be played",
+                                               sequence_.file(static_cast<std::size_t>(number)).string(), at,
+                                               max_coordinate));
   const SequenceBodies& of = *frame.of;
   std::uint32_t count = 0;
   for (std::size_t body = 0; body < of.meshes.count(); ++body) {
@@ -123,7 +142,7 @@ std::shared_ptr<const softbody::RecordedFrame> Playback::record(int number, Sequ
     } else if (!same_topology(*models_[count]->shape, *shape)) {
       throw softbody::SceneError(sequence_.file(static_cast<std::size_t>(number)).string() + ": body " +
                                  std::to_string(body) +
-                                 " is another one than in an earlier frame; give frames of the " + "same bodies");
+                                 " is another one than in an earlier frame; give frames of the same bodies");
     }
     ++count;
   }
@@ -156,9 +175,10 @@ softbody::Scene recorded_scene(const std::vector<std::filesystem::path>& files, 
   scene.look_at = fmt::format("{} recorded frames, from {} to {}. Nothing is simulated.", files.size(),
                               files.front().filename().string(), files.back().filename().string());
   scene.collision.tolerance = playback->usual_tolerance();
-  const auto [low, high] = playback->bounds();
-  scene.view.target = glm::dvec3(0.5f * (low + high));
-  scene.view.distance = std::max(double{glm::distance(low, high)}, 1e-4);
+  const auto bounds = playback->bounds();
+  const glm::dvec3 low(bounds[0]), high(bounds[1]);
+  scene.view.target = 0.5 * (low + high);
+  scene.view.distance = std::max(glm::distance(low, high), 1e-4);
   scene.recording = playback;
   return scene;
 }

@@ -14,9 +14,11 @@ namespace app::files {
 class Playback : public softbody::Recording {
  public:
   static constexpr std::size_t max_kept_bytes = std::size_t{512} << 20;  // of positions
+  static constexpr float max_coordinate = 1e15f;  // m; squares of distances must fit into a float
 
   /// Reads the first frame, and for bounds() one in the middle and the last. by: left out, the default of the first
-  /// file's format. Throws as FrameSequence does, and SceneError if the first frame cannot be read or has no vertex.
+  /// file's format. Throws as FrameSequence does, and SceneError if the first frame cannot be read, has no vertex or
+  /// one beyond max_coordinate.
   explicit Playback(std::vector<std::filesystem::path> files, std::optional<BodiesBy> by = {},
                     std::size_t kept_bytes = max_kept_bytes);
 
@@ -24,6 +26,8 @@ class Playback : public softbody::Recording {
   int frame_count() const override { return static_cast<int>(sequence_.count()); }
   std::shared_ptr<const softbody::RecordedFrame> frame(int number) override;
   const std::shared_ptr<const softbody::BodyModel>& model(std::uint32_t body) const override { return models_[body]; }
+  void release() override;
+  std::vector<std::string> command_words() const override { return command_words_; }
 
   /// Returns half the median length of the edges of the first frame, whatever the unit of the files is; without edges,
   /// a hundredth of the diagonal of bounds().
@@ -44,6 +48,7 @@ class Playback : public softbody::Recording {
   std::size_t free_bytes_;                                              // for more of them
   std::vector<std::shared_ptr<const softbody::BodyModel>> models_;
   std::array<glm::vec3, 2> bounds_{};
+  std::vector<std::string> command_words_;
   std::optional<Ahead> ahead_;  // last member: its thread ends before the others go
 };
 

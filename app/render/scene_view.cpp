@@ -185,8 +185,9 @@ double SceneView::radius(const softbody::MeshSource& source) {
 /// Returns a sphere around the scene as it is set up: the solids, and the places where bodies start.
 SceneView::Bounds SceneView::bounds(const softbody::Scene& scene) {
   if (scene.recording) {
-    const auto [low, high] = scene.recording->bounds();
-    return {0.5f * (low + high), 0.5f * glm::distance(low, high)};
+    const auto bounds = scene.recording->bounds();
+    const glm::dvec3 low(bounds[0]), high(bounds[1]);
+    return {glm::vec3(0.5 * (low + high)), static_cast<float>(0.5 * glm::distance(low, high))};
   }
   glm::dvec3 lo = scene.view.target, hi = scene.view.target;
   const auto include = [&](const glm::dvec3& centre, double reach) {

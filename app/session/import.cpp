@@ -6,11 +6,13 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 
 #include <fmt/core.h>
 #include <glm/vec3.hpp>
 
 #include "app/base/text.h"
+#include "app/files/obj_writer.h"
 #include "app/files/playback.h"
 #include "softbody/contact/keys.h"
 #include "softbody/forces/springs.h"
@@ -74,6 +76,9 @@ std::string ending_of(const std::filesystem::path& file) {
 }
 
 bool is_mesh(const std::filesystem::path& file) { return ending_of(file) == ".obj" || ending_of(file) == ".ply"; }
+
+/// Returns true for the file that an export of motion writes beside its frames.
+bool is_rest_shape(const std::filesystem::path& file) { return file.filename() == files::rest_shape_name; }
 
 }  // namespace
 
@@ -167,11 +172,12 @@ void Import::read(FileReader::Question question) {
 }
 
 void Import::drop(const std::vector<std::string>& files, Session& session) {
-  if (!files.empty()) frames_.reset();
-  if (files.size() > 1 && !busy() && std::ranges::all_of(files, is_mesh)) {
+  std::vector<std::string> frames;
+  if (!busy() && !frames_ && std::ranges::all_of(files, is_mesh))
+    std::ranges::remove_copy_if(files, std::back_inserter(frames), is_rest_shape);
+  if (frames.size() > 1) {
     together_ = files;
     // A file manager gives them in any order. Numbers count as numbers: 9 comes before 10.
-    std::vector<std::string> frames = files;
     std::ranges::sort(frames, [](const auto& a, const auto& b) { return strverscmp(a.c_str(), b.c_str()) < 0; });
     path = frames.front();
     is_dropped_ = true;
@@ -185,8 +191,9 @@ void Import::drop(const std::vector<std::string>& files, Session& session) {
 std::string Import::question() const {
   if (!frames_) return {};
   return fmt::format(
-      "{} files with the same vertices. Play them as the frames of a recording, or import each as a body?",
-      grouped(frames_->files.size()));
+      "{} files; those read so far, the first two and the last, fit together as frames. Play them as a recording, or "
+      "import each as a body?",
+      grouped(static_cast<std::size_t>(frames_->world.scene.recording->frame_count())));
 }
 
 void Import::play(Session& session) {
@@ -196,9 +203,13 @@ void Import::play(Session& session) {
 
 void Import::import_each(Session& session) {
   assert(frames_);
-  const std::vector<std::string> files = std::exchange(frames_, std::nullopt)->files;
-  dropped_.insert(dropped_.end(), files.begin(), files.end());
+  drop_first(std::exchange(frames_, std::nullopt)->files);
   update(session);
+}
+
+/// Queues files before those that wait already.
+void Import::drop_first(const std::vector<std::string>& files) {
+  dropped_.insert(dropped_.begin(), files.begin(), files.end());
 }
 
 void Import::update(Session& session) {
@@ -206,7 +217,7 @@ void Import::update(Session& session) {
     reading_ = false;
     take(session, std::move(*answer));
   }
-  if (reading_ || dropped_.empty()) return;
+  if (reading_ || frames_ || dropped_.empty()) return;
   path = dropped_.front();
   dropped_.erase(dropped_.begin());
   is_dropped_ = true;
@@ -220,7 +231,7 @@ void Import::take(Session& session, FileReader::Answer answer) {
       frames_.emplace(Frames{std::move(files), std::move(*world)});
       if (!session.why_no_solver().empty()) play(session);  // no body could join
     } else {                                                // they are no frames
-      dropped_ = std::move(files);
+      drop_first(files);
     }
     return;
   }

@@ -68,7 +68,8 @@ class Import {
   /// why a file is refused.
   void load(Session& session);
   /// Does the same with files that were dropped on the window, one after another. report() says why one is refused. If
-  /// they are meshes with the same vertices, question() asks first whether to play them.
+  /// they are meshes that fit together as frames, question() asks first whether to play them; the rest shape that an
+  /// export of motion writes beside them is no frame. Files that are dropped meanwhile wait for the answer.
   void drop(const std::vector<std::string>& files, Session& session);
   /// Takes what has been read. Call it once a frame.
   void update(Session& session);
@@ -79,7 +80,8 @@ class Import {
   void play(Session& session);
   void import_each(Session& session);
 
-  bool busy() const { return reading_ || !dropped_.empty(); }
+  /// Returns true while something is read; not while question() waits for the user.
+  bool busy() const { return reading_ || (!frames_ && !dropped_.empty()); }
   /// Returns what is being read, and for how long; empty unless busy().
   std::string progress() const;
   /// Returns why the file of `path` was refused; empty if it was not, or if `path` has changed since.
@@ -100,6 +102,7 @@ class Import {
   };
 
   void open(Session& session);
+  void drop_first(const std::vector<std::string>& files);
   void add(FileReport file_report);
   void refuse(const std::string& why);
   void read(FileReader::Question question);

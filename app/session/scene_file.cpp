@@ -69,7 +69,7 @@ std::string shell_word(const std::string& text) {
 
 namespace {
 
-/// Returns the options that make the scene `used`, with a space before each.
+/// Returns the options that make the scene `used`, with a space before each. Without a recording, `name` stands for it.
 std::string scene_options(const std::string& name, const softbody::Scene& used,
                           const softbody::IntegratorChoice& integrator) {
   const collide::Settings& c = used.collision;
@@ -77,7 +77,10 @@ std::string scene_options(const std::string& name, const softbody::Scene& used,
   const auto add = [&text](const char* option, const std::string& value) {
     text.append(1, ' ').append(option).append(1, ' ').append(shell_word(value));
   };
-  add("--scene", name);
+  if (const auto& recording = used.recording)
+    for (const std::string& word : recording->command_words()) text.append(1, ' ').append(shell_word(word));
+  else
+    add("--scene", name);
   add("--method", used.method);
   add("--levels", std::to_string(c.levels));
   add("--buckets", std::to_string(c.buckets));
@@ -85,11 +88,12 @@ std::string scene_options(const std::string& name, const softbody::Scene& used,
   if (c.primes != collide::default_primes) add("--primes", three(c.primes));
   add("--tolerance", softbody::toml_value(c.tolerance));
   text += c.self_collision ? " --self" : " --no-self";
+  add("--view", view_text(used.view));
+  if (used.recording) return text;  // nothing is simulated
   for (const softbody::ContactSurfaceInfo& info : softbody::contact_surfaces)
     if (info.value == used.contact_surface) add("--contact-surface", std::string(info.key));
   if (integrator.key != softbody::default_integrator) add("--integrator", integrator.key);
   if (integrator.substeps) add("--substeps", std::to_string(*integrator.substeps));
-  add("--view", view_text(used.view));
   return text;
 }
 

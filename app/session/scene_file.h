@@ -42,7 +42,8 @@ class SceneFile {
 std::string shell_word(const std::string& text);
 
 /// Return commands for a POSIX shell, with this executable and the settings of `used`: one opens the demo with the
-/// scene of that name, the other takes a picture of the frame without a window.
+/// scene of that name, or the recording, the other takes a picture of the frame without a window. No picture of a
+/// recording is taken without a window.
 std::string demo_command(const std::string& name, const softbody::Scene& used,
                          const softbody::IntegratorChoice& integrator);
 std::string simulate_command(const std::string& name, const softbody::Scene& used,

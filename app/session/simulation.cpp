@@ -201,6 +201,8 @@ KeptWorld Simulation::present(Change change) const {
 }
 
 void Simulation::leave_for(std::unique_ptr<World> world) {
+  const auto& left = world_->scene().recording;
+  if (left && left != world->scene().recording) left->release();  // undo may keep it for long
   world_ = std::move(world);
   clock.speed = 1;
   step_ms_ = world_->last_step().total_ms;

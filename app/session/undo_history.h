@@ -51,7 +51,7 @@ class UndoHistory {
   const KeptWorld& next(Way way) const;
   /// Takes next(way) out and keeps `present` to come back to; forgets as push() does.
   void turn(Way way, KeptWorld present);
-  /// Returns the memory of the snapshots in bytes.
+  /// Returns the memory of the snapshots in bytes. Recordings are not counted: Simulation frees what they have read.
   std::size_t bytes() const;
 
  private:

@@ -106,15 +106,8 @@ constexpr std::array mouse_table{
     MouseAction{"", "Meshes with the same vertices: plays them"},
 };
 
-}  // namespace
-
-std::span<const Shortcut> shortcuts() { return shortcut_table; }
-std::span<const MouseAction> mouse_actions() { return mouse_table; }
-
-namespace {
-
-/// Says so and returns true if something is left out because it needs a solver and there is none.
-bool is_left_out(Session& session, bool needs_solver, std::string_view what) {
+/// If there is no solver, but something needs one, says so and returns true.
+bool refuse_without_solver(Session& session, bool needs_solver, std::string_view what) {
   const std::string why = session.why_no_solver();
   if (!needs_solver || why.empty()) return false;
   session.simulation.notice.tell(std::string(what) + ": left out, " + why);
@@ -123,19 +116,23 @@ bool is_left_out(Session& session, bool needs_solver, std::string_view what) {
 
 }  // namespace
 
+std::span<const Shortcut> shortcuts() { return shortcut_table; }
+std::span<const MouseAction> mouse_actions() { return mouse_table; }
+
 bool handle_key(int key, bool repeat, Session& session, UiState& ui, int mods) {
   // Shift is ignored where no shortcut asks for it. With one of these a key means something else in every program.
   constexpr int other_mods = GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER;
   for (const render::OverlayRow& row : render::overlay_table) {
     if (key != row.shortcut || repeat || mods & other_mods) continue;
-    if (!is_left_out(session, row.needs_solver, row.label)) ui.overlays.*row.shown = !(ui.overlays.*row.shown);
+    if (!refuse_without_solver(session, row.needs_solver, row.label))
+      ui.overlays.*row.shown = !(ui.overlays.*row.shown);
     return true;
   }
   for (const Shortcut& shortcut : shortcut_table) {
     if (key != shortcut.key && (shortcut.other_key == 0 || key != shortcut.other_key)) continue;
     if ((mods & shortcut.mods) != shortcut.mods || (mods & ~shortcut.mods) & other_mods) continue;
     if (repeat && !shortcut.repeats) return false;
-    if (!is_left_out(session, shortcut.needs_solver, shortcut.text)) shortcut.act(session, ui);
+    if (!refuse_without_solver(session, shortcut.needs_solver, shortcut.text)) shortcut.act(session, ui);
     return true;
   }
   return false;

@@ -24,10 +24,10 @@ void draw_sidebar(Widgets& w, Session& session, UiState& ui, HashTableView& hash
     ImGui::Spacing();
     ImGui::Separator();
   };
-  if (has_legend(session, ui.overlays)) {
+  if (const render::Overlays shown = ui.drawn_overlays(session); has_legend(session, shown)) {
     separate();
     ImGui::PushTextWrapPos(0);
-    draw_legend(w, session, ui.overlays, !ui.hash_table);
+    draw_legend(w, session, shown, !ui.hash_table);
     ImGui::PopTextWrapPos();
   }
   if (ui.overlays.true_surfaces) {

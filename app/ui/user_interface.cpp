@@ -20,8 +20,6 @@ void UserInterface::draw(Session& session, UiState& ui, float scale, double seco
   ui.import.update(session);
   sweep_view_.update();
   ui.tour.update(session, &ui.view);
-  for (const render::OverlayRow& row : render::overlay_table)
-    if (row.needs_solver && !session.why_no_solver().empty()) ui.overlays.*row.shown = false;
   session.comparison.choice.on = ui.lower == LowerView::comparison;
   session.comparison.choice.with_paper = ui.marks_story();
   session.comparison.choice.with_misses = ui.overlays.missed;
@@ -67,7 +65,7 @@ void UserInterface::draw_over_scene(Widgets& widgets, Session& session, UiState&
     if (!both_fit) free.min.y = end;
   }
   free.min.y = draw_notices(widgets, session, layout_.no_room_message, free);
-  if (!layout_.sidebar) draw_floating_legend(widgets, session, ui.overlays, free);
+  if (!layout_.sidebar) draw_floating_legend(widgets, session, ui.drawn_overlays(session), free);
   draw_import_report(widgets, session, ui.import, free);
 }
 

@@ -18,7 +18,7 @@ const std::vector<collide::Contact>* shown_misses(const Session& session, const 
 
 render::OverlayRequest overlay_request(const Session& session, const ui::UiState& ui) {
   render::OverlayRequest request;
-  request.shown = ui.overlays;
+  request.shown = ui.drawn_overlays(session);
   request.missed = shown_misses(session, ui);
   request.shown.missed = request.missed != nullptr;
   request.bucket = session.inspector.bucket();

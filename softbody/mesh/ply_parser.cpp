@@ -139,6 +139,8 @@ class PlyParser : public MeshParser {
       property.use = name == "x" ? Use::x : name == "y" ? Use::y : name == "z" ? Use::z : Use::none;
     } else if (element.has_faces() && list && (name == "vertex_indices" || name == "vertex_index")) {
       property.use = Use::corners;
+      if (element.uses(Use::corners))
+        fail_at_line("a second list of the vertices of a face; keep one of vertex_indices and vertex_index");
       if (is_real(property.type)) fail_at_line("indices of vertices that are no whole numbers; use e.g. int");
     }
     element.properties.push_back(property);

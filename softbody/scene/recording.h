@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -30,6 +31,10 @@ class Recording {
   virtual std::shared_ptr<const RecordedFrame> frame(int number) = 0;
   /// Returns the model of a body, which is the same in all frames. Precondition: a frame with this body was read.
   virtual const std::shared_ptr<const BodyModel>& model(std::uint32_t body) const = 0;
+  /// Frees the memory of frames that can be read again.
+  virtual void release() {}
+  /// Returns the words by which a command line names the recording.
+  virtual std::vector<std::string> command_words() const = 0;
 };
 
 /// Returns the default cell size (§2.2) for the shapes that the bodies have in the first frame.

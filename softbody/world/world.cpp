@@ -18,14 +18,14 @@ double ms_since(Clock::time_point start) {
 }
 
 /// Returns the default cell size for the bodies at rest.
-glm::vec3 rest_cell_size(const BodyModelSet& models, const collide::Settings& settings) {
+glm::vec3 rest_cell_size(const BodyModelSet& models, int levels, float tolerance) {
   collide::Bodies bodies;
   Coordinates rest;
   for (const auto& p : models.all()) {
     bodies.add(p->shape);
     for (const glm::dvec3& v : p->start) rest.add(glm::vec3(v));
   }
-  return collide::default_cell_size(rest.frame(bodies), settings.levels, settings.tolerance);
+  return collide::default_cell_size(rest.frame(bodies), levels, tolerance);
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ World::Parts::Parts(Scene s, const Options& o)
   solver.set_plan(plan);
   check_sizes(models);
   set_integrator();
-  if (scene.default_cell_size) settings.cell_size = default_cell_size();
+  if (scene.default_cell_size) settings.cell_size = default_cell_size(settings.levels);
   if (scene.recording) {
     show(0);
   } else {
@@ -135,10 +135,9 @@ void World::Parts::play() {
   report.solve_ms = report.total_ms - report.detect_ms;
 }
 
-/// Returns the default cell size, which does not depend on the present shapes of the bodies.
-glm::vec3 World::Parts::default_cell_size() {
-  if (scene.recording) return softbody::default_cell_size(*scene.recording, settings.levels, settings.tolerance);
-  return rest_cell_size(models, settings);
+glm::vec3 World::Parts::default_cell_size(int levels) const {
+  if (scene.recording) return softbody::default_cell_size(*scene.recording, levels, settings.tolerance);
+  return rest_cell_size(models, levels, settings.tolerance);
 }
 
 void World::Parts::update_positions() { solver.write_positions(positions.resized(bodies.vertex_count())); }
@@ -209,6 +208,7 @@ void World::show_frame(int number) { parts_->show(number); }
 
 void World::set_particles(BodyId body, std::span<const Particle> particles) {
   Parts& s = *parts_;
+  s.require_solver();
   assert(particles.size() == s.bodies.size(body));
   s.book_change([&] { s.solver.state().set_particles(body, particles); });
   s.solver.state().memory(body).may_lie_in_solid = true;
@@ -222,6 +222,7 @@ int World::frame() const { return parts_->frame; }
 double World::frame_time() const { return parts_->frame_time; }
 const Plan& World::plan() const { return parts_->plan; }
 const collide::Settings& World::collision() const { return parts_->settings; }
+glm::vec3 World::default_cell_size(int levels) const { return parts_->default_cell_size(levels); }
 const collide::Method& World::method() const { return *parts_->method; }
 
 void World::set_method(std::string_view key) {
@@ -256,7 +257,7 @@ void World::set_collision(const collide::Settings& settings, bool default_cell_s
   s.settings = s.scene.collision = settings;
   s.scene.default_cell_size = default_cell_size;
   s.update_plan();  // self-collision decides whether a lone body needs detection
-  if (default_cell_size) s.settings.cell_size = s.default_cell_size();
+  if (default_cell_size) s.settings.cell_size = s.default_cell_size(settings.levels);
   s.wake_all();
   s.detect();
 }

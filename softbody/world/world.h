@@ -66,8 +66,9 @@ class World {
   /// Simulates one frame. Calls `after_substep` after each substep; it may read positions(), which are up to date, but
   /// nothing else, and must not change the world.
   void step(const std::function<void()>& after_substep = {});
-  /// Shows a frame of the scene's recording, which it must have, and detects. Throws as Recording::frame() does, and
-  /// then, like step(), changes nothing.
+  /// Shows a frame of the scene's recording, which it must have, and detects. step() does the same with the next frame.
+  /// Throws as Recording::frame() does, and then changes nothing. If it is the detector that throws, the frame is
+  /// shown, but detection() is not of it.
   void show_frame(int number);
   /// Returns everything that determines how the world continues.
   Snapshot snapshot() const;
@@ -76,7 +77,7 @@ class World {
   void restore(const Snapshot& snapshot);
 
   // Changes between frames. Each of them detects again if contacts may have changed. With a recording, bodies cannot be
-  // changed: those that throw SceneError refuse it, the others must not be called.
+  // changed: each throws SceneError, except that a hand may let go.
   /// Places the body's particles, wakes all bodies and detects. `particles`: finite, one for each vertex.
   void set_particles(BodyId body, std::span<const Particle> particles);
   /// Adds `count` bodies at the scene's dropper, or above its first body if it has none. Each appears above everything
@@ -113,6 +114,9 @@ class World {
 
   const Scene& scene() const;                  // with all changes
   const collide::Settings& collision() const;  // the scene's, with the cell size in use
+  /// Returns the default cell size (§2.2) with these levels. It depends on the rest shapes of the bodies, or on those
+  /// of the first frame of a recording, not on the present ones.
+  glm::vec3 default_cell_size(int levels) const;
   const collide::Method& method() const;
   const IntegratorChoice& integrator_choice() const;
   const Plan& plan() const;

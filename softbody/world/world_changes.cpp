@@ -20,9 +20,9 @@ void World::Parts::update_plan() {
   solver.set_plan(plan);
 }
 
-/// Throws SceneError if no body can join because the motion is recorded.
+/// Throws SceneError if bodies cannot be changed because the motion is recorded.
 void World::Parts::require_solver() const {
-  if (scene.recording) throw SceneError("no body can join: the motion is recorded");
+  if (scene.recording) throw SceneError("no body can join or change: the motion is recorded");
 }
 
 /// Throws SceneError if `number` more bodies would exceed max_particles.
@@ -170,7 +170,7 @@ void World::Parts::wake_near(BodyId body) {
 
 void World::remove(BodyId body) {
   Parts& s = *parts_;
-  assert(!s.scene.recording);
+  s.require_solver();
   s.wake_near(body);
   s.book_change([&] { s.solver.remove(body); });
   std::erase_if(s.added, [&](const AddedBody& one) { return one.body == body; });
@@ -185,7 +185,8 @@ void World::remove(BodyId body) {
 
 void World::grab(const std::optional<Grab>& grab) {
   Parts& s = *parts_;
-  assert(!grab || (grab->body < s.bodies.count() && !s.scene.recording));
+  if (grab) s.require_solver();
+  assert(!grab || grab->body < s.bodies.count());
   if (grab) s.solver.state().set_pinned(grab->body, false);
   s.solver.hand().take(grab);
   s.added_bodies.grabs = grab.has_value();

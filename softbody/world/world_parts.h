@@ -63,7 +63,7 @@ struct World::Parts : WorldValues {
   void update_positions();
   void detect();
   void wake_all();
-  glm::vec3 default_cell_size();
+  glm::vec3 default_cell_size(int levels) const;
   void set_integrator();
   void wake_near(BodyId body);
   void update_plan();

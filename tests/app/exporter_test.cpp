@@ -13,6 +13,7 @@
 #include "app/session/export/exporter.h"
 #include "softbody/model/body_model.h"
 #include "tests/app/scenes.h"
+#include "tests/softbody/recorded_bodies.h"
 #include "tests/temporary_folder.h"
 
 namespace app {
@@ -201,6 +202,19 @@ TEST_F(ExporterTest, ReportsAFolderThatCannotBeMade) {
   exporter.toggle_recording();
   EXPECT_FALSE(exporter.recording());
   EXPECT_TRUE(exporter.failed());
+}
+
+TEST_F(ExporterTest, EndsWhenTheRecordingThatPlaysBeginsAgain) {
+  const softbody::Scene balls = softbody::test::scene_of(std::make_shared<softbody::test::RecordedBalls>(4));
+  session.scenes.enter(session::make_window_world(balls, {}, 1), balls, "balls");
+  exporter.kind = index_of("motion");
+  exporter.toggle_recording();
+  for (int i = 0; i < 10'000 && exporter.recording(); ++i) frame();
+  EXPECT_FALSE(exporter.recording());
+  stop();
+  EXPECT_FALSE(exporter.failed()) << exporter.message();
+  EXPECT_EQ(names(folder.path()), std::set<std::string>{"motion_0001"});
+  EXPECT_EQ(names(folder.path() / "motion_0001").size(), 4u) << "frames 1 to 3 and the rest shape";
 }
 
 TEST_F(ExporterTest, WritesMotionThatReadsBackAsTheSameBodies) {

@@ -2,11 +2,16 @@
 
 #include "app/files/playback.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <fstream>
+#include <functional>
 #include <sstream>
 #include <thread>
 
@@ -72,13 +77,64 @@ TEST_F(PlaybackTest, ReadsAgainOnlyWhatDoesNotFitIntoItsMemory) {
   EXPECT_EQ(playback.frame(1)->x[0], 0.5f) << "others can be read nevertheless";
 }
 
+/// The second file becomes a pipe, which somebody opens for reading before its frame is asked for.
 TEST_F(PlaybackTest, ReadsTheNextFrameAheadOfTime) {
   const auto files = three();
   files::Playback playback(files, {}, 0);  // keeps none but the first
+  std::filesystem::rename(files[1], folder.path() / "text");
+  ASSERT_EQ(::mkfifo(files[1].c_str(), S_IRUSR | S_IWUSR), 0);
   playback.frame(0);
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // a few lines take no longer
-  std::filesystem::remove(files[1]);
+  int pipe = -1;
+  for (const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+       pipe < 0 && std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+    pipe = ::open(files[1].c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);  // fails while nobody reads
+  ASSERT_GE(pipe, 0);
+  std::ifstream in(folder.path() / "text");
+  const std::string text(std::istreambuf_iterator<char>(in), {});
+  EXPECT_EQ(::write(pipe, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+  ::close(pipe);
   EXPECT_EQ(playback.frame(1)->x[0], 0.5f);
+}
+
+TEST_F(PlaybackTest, ForgetsAllFramesButTheFirstWhenReleased) {
+  const auto files = three();
+  files::Playback playback(files, {}, 3 * sizeof(float) * (8 + 8));  // two frames
+  playback.frame(1);
+  playback.release();
+  EXPECT_EQ(playback.frame(2)->x[0], 1.0f);
+  playback.release();
+  for (const auto& file : files) std::filesystem::remove(file);
+  EXPECT_EQ(playback.frame(0)->x[0], 0.0f);
+  playback.release();  // of what may have been read ahead
+  EXPECT_THROW(playback.frame(1), softbody::SceneError);
+  write("1.obj", 2, 0.5f);
+  EXPECT_EQ(playback.frame(1)->x[0], 0.5f);
+  std::filesystem::remove(files[1]);
+  EXPECT_EQ(playback.frame(1)->x[0], 0.5f) << "there is room again";
+}
+
+TEST_F(PlaybackTest, RefusesCoordinatesWhoseSquaresWouldOverflow) {
+  const softbody::Scene large = files::recorded_scene({write("large.obj", 1, 9e14f)});
+  EXPECT_TRUE(std::isfinite(large.view.distance) && std::isfinite(large.view.target.x));
+  const auto far = write("far.obj", 1, 2e19f);
+  const auto expect_refusal = [&](const std::function<void()>& play) {
+    try {
+      play();
+      FAIL();
+    } catch (const softbody::SceneError& error) {
+      EXPECT_NE(std::string(error.what()).find("far.obj: a coordinate of 2e+19"), std::string::npos) << error.what();
+    }
+  };
+  expect_refusal([&] { files::recorded_scene({far}); });
+  files::Playback playback({write("0.obj", 1, 0), far});
+  expect_refusal([&] { playback.frame(1); });
+  EXPECT_TRUE(std::isfinite(playback.bounds()[1].x));
+}
+
+TEST_F(PlaybackTest, NamesItsFilesForACommandLine) {
+  const auto files = three();
+  EXPECT_EQ(files::Playback(files, files::BodiesBy::components).command_words(),
+            (std::vector<std::string>{"--bodies", "components", "--play", files[0], files[1], files[2]}));
 }
 
 TEST_F(PlaybackTest, SaysWhichFileIsBrokenAndGoesOn) {

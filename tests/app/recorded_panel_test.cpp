@@ -2,6 +2,7 @@
 
 #include "app/ui/panel/panel.h"
 #include "app/ui/shortcuts.h"
+#include "app/window/overlay_request.h"
 #include "tests/app/panel_rig.h"
 #include "tests/softbody/recorded_bodies.h"
 
@@ -22,10 +23,11 @@ class RecordedPanel : public testing::Test {
 };
 
 TEST_F(RecordedPanel, LeavesOutWhatNeedsASolverAndSaysSo) {
-  for (const char* label : {"Detection", "Show", "Numbers", "Export", "Contacts", "Left out", "Method", "Tolerance"})
+  for (const char* label :
+       {"Detection", "Show", "Numbers", "Files", "Export", "Contacts", "Left out", "Method", "Tolerance"})
     EXPECT_TRUE(shows(label)) << label;
-  for (const char* label : {"World", "Stability", "Files", "Springs", "Surface contacts", "Drop", "Throw", "Delete",
-                            "Solve", "Contact surface", "Step light", "Contacts with solids"})
+  for (const char* label : {"World", "Stability", "Springs", "Surface contacts", "Drop", "Throw", "Delete", "Solve",
+                            "Contact surface", "Step light", "Contacts with solids"})
     EXPECT_FALSE(shows(label)) << label;
   rig.session.bodies.select(1);
   rig.frames(2);
@@ -63,11 +65,28 @@ TEST_F(RecordedPanel, HasATimeLineOverAllFrames) {
   EXPECT_TRUE(rig.session.simulation.clock.paused);
 }
 
-TEST_F(RecordedPanel, TakesOverlaysOffThatTheSceneBeforeShowed) {
-  rig.ui.overlays.springs = rig.ui.overlays.contacts = true;
+TEST_F(RecordedPanel, DrawsNoOverlayThatNeedsASolverButKeepsTheChoice) {
+  rig.ui.overlays.springs = rig.ui.overlays.surface_contacts = rig.ui.overlays.contacts = true;
+  const render::Overlays chosen = rig.ui.overlays;
   rig.frames(1);
-  EXPECT_FALSE(rig.ui.overlays.springs);
-  EXPECT_TRUE(rig.ui.overlays.contacts);
+  const render::Overlays drawn = window::overlay_request(rig.session, rig.ui).shown;
+  EXPECT_FALSE(drawn.springs || drawn.surface_contacts);
+  EXPECT_TRUE(drawn.contacts);
+  EXPECT_EQ(rig.ui.overlays, chosen) << "for the next scene, and for the preferences";
+}
+
+TEST_F(RecordedPanel, OpensFilesAndGivesTheCommandThatPlaysTheRecording) {
+  for (const char* above : {"Numbers", "Show", "Detection"}) rig.click(above);
+  rig.click("Files");
+  rig.frames(2);
+  EXPECT_TRUE(shows("File to open") && shows("Load"));
+  for (const char* label : {"Size of meshes", "Weld distance", "Scene file", "Copy simulate"})
+    EXPECT_FALSE(shows(label)) << label;
+  rig.click("Copy");
+  const std::string command = ImGui::GetClipboardText();
+  EXPECT_NE(command.find(" --play 'ball 0.obj' --method "), std::string::npos) << command;
+  for (const char* option : {"--scene", "--contact-surface", "--integrator"})
+    EXPECT_EQ(command.find(option), std::string::npos) << command;
 }
 
 TEST_F(RecordedPanel, TourFindsItsExampleInALaterFrame) {

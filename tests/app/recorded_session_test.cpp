@@ -195,6 +195,7 @@ TEST_F(RecordedSession, IsResetAndComesBackByUndo) {
   const softbody::Scene pair = touching_pair();
   session.scenes.enter(session::make_window_world(pair, {}, 1), pair, "pair");
   EXPECT_EQ(session.why_no_solver(), "");
+  EXPECT_EQ(balls->releases, 1) << "undo keeps the recording, but not what it has read";
   EXPECT_EQ(simulation.clock.speed, 1);
   simulation.undo();
   EXPECT_EQ(frame(), 6);

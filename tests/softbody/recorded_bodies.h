@@ -35,7 +35,11 @@ class RecordedBalls : public Recording {
   }
   const std::shared_ptr<const BodyModel>& model(std::uint32_t) const override { return model_; }
 
+  void release() override { ++releases; }
+  std::vector<std::string> command_words() const override { return {"--play", "ball 0.obj"}; }
+
   std::optional<int> broken;
+  int releases = 0;
   std::vector<int> reads;  // numbers of the frames read so far
 
  private:

@@ -95,6 +95,8 @@ TEST_F(RecordedWorld, HasTheCellSizeOfItsFirstFrameWhateverItShows) {
   world.show_frame(6);
   world.set_collision(settings, true);
   EXPECT_EQ(world.collision().cell_size, at_start);
+  EXPECT_EQ(world.default_cell_size(settings.levels), at_start);
+  EXPECT_LT(world.default_cell_size(9).x, world.default_cell_size(0).x);
 }
 
 TEST_F(RecordedWorld, IsMeasuredWithoutForces) {
@@ -105,8 +107,15 @@ TEST_F(RecordedWorld, IsMeasuredWithoutForces) {
   EXPECT_TRUE(World(scene_of(std::make_shared<RecordedBalls>(1)), {}).all_at_rest());
 }
 
-TEST_F(RecordedWorld, RefusesBodiesThatWouldJoin) {
+TEST_F(RecordedWorld, RefusesEveryChangeOfBodies) {
+  const std::vector<Particle> particles(world.bodies().size(0));
   EXPECT_THROW(world.add(BodySource{}), SceneError);
+  EXPECT_THROW(world.drop(), SceneError);
+  EXPECT_THROW(world.throw_body({0, 0, 5}, {0, 0, -1}), SceneError);
+  EXPECT_THROW(world.remove(0), SceneError);
+  EXPECT_THROW(world.set_particles(0, particles), SceneError);
+  EXPECT_THROW(world.grab(Grab{.body = 0}), SceneError);
+  world.grab({});
   expect_frame(0);
 }
 

@@ -129,6 +129,8 @@ void Exporter::frame(Session& session, const Picture& picture) {
 void Exporter::record(const Session& session, const Picture& picture) {
   const softbody::World& world = session.world();
   if (world.frame() == recorded_frame_ || !recording_->has_room()) return;
+  // A recording that plays begins again: all of its frames are written.
+  if (world.scene().recording && world.frame() < recorded_frame_) return recording_->stop();
   recorded_frame_ = world.frame();
   RecordedFrame frame;
   frame.number = world.frame();

@@ -42,7 +42,7 @@ class MotionWriter : public FrameWriter {
   void begin(const RecordedFrame& frame) {
     if (bodies_) folder_ = new_folder(parent_, "motion");
     bodies_ = frame.bodies;
-    files::write_file(folder_ / "rest.obj", bodies_->at_rest());
+    files::write_file(folder_ / files::rest_shape_name, bodies_->at_rest());
   }
 
   fs::path parent_, folder_;

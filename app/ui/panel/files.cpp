@@ -30,7 +30,7 @@ void draw_problem(Widgets& w, const char* label, const std::string& problem) {
   w.register_item(label, nullptr);
 }
 
-void draw_import(Widgets& w, Session& session, session::Import& import) {
+void draw_open(Widgets& w, Session& session, session::Import& import) {
   w.row_label("Open", w.px(narrow_column));
   ImGui::BeginDisabled(import.busy());
   if (field_with_button(w, "File to open", import.path, "mesh.obj or scene.toml",
@@ -40,6 +40,10 @@ void draw_import(Widgets& w, Session& session, session::Import& import) {
     import.load(session);
   ImGui::EndDisabled();
   draw_problem(w, "Load problem", import.problem());
+}
+
+/// Draws how the next mesh is imported.
+void draw_mesh_settings(Widgets& w, session::Import& import) {
   w.row_label("Size", w.px(narrow_column));
   const float check = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("Z is up").x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - check - ImGui::GetStyle().ItemSpacing.x);
@@ -94,7 +98,9 @@ void draw_save(Widgets& w, Session& session, UiState& ui, bool saved) {
 /// Draws a button that copies a command to the clipboard. `purpose`: what the command does.
 void draw_copy_button(Widgets& w, Session& session, const char* name, const std::string& command, const char* purpose,
                       float width) {
-  if (!w.button(name, command.c_str(), width)) return;
+  constexpr std::size_t max_shown = 600;  // a recording has a name for each frame
+  const std::string shown = command.size() > max_shown ? command.substr(0, max_shown) + " ..." : command;
+  if (!w.button(name, shown.c_str(), width)) return;
   ImGui::SetClipboardText(command.c_str());
   session.simulation.notice.tell(std::string("Copied: the command that ") + purpose);
 }
@@ -113,8 +119,10 @@ void draw_command(Widgets& w, Session& session, const softbody::Scene& used, boo
       session::simulate_command(file.name(), used, session.world().integrator_choice(), frame + (just_added ? 1 : 0));
   if (!saved) demo = simulate = "The scene was changed: save it, so that a command can name it.";
   draw_copy_button(w, session, "Copy", demo, "opens this scene", width);
-  ImGui::SameLine();
-  draw_copy_button(w, session, "Copy simulate", simulate, "makes this picture", width);
+  if (!used.recording) {
+    ImGui::SameLine();
+    draw_copy_button(w, session, "Copy simulate", simulate, "makes this picture", width);
+  }
   ImGui::EndDisabled();
 }
 
@@ -180,11 +188,13 @@ void draw_message(Widgets& w, const session::Exporter& exporter) {
 }  // namespace
 
 void draw_files(Widgets& w, Session& session, UiState& ui) {
-  draw_import(w, session, ui.import);
+  const bool has_solver = session.why_no_solver().empty();
+  draw_open(w, session, ui.import);
+  if (has_solver) draw_mesh_settings(w, ui.import);
   softbody::Scene used = session.scenes.with_added_bodies();
   used.view = ui.view;
   const bool saved = session.simulation.loaded.file.reproduces(used);
-  draw_save(w, session, ui, saved);
+  if (has_solver) draw_save(w, session, ui, saved);
   draw_command(w, session, used, saved);
 }
 

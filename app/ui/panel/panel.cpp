@@ -129,7 +129,7 @@ constexpr std::array<Section, 8> sections{{
     {"World", false, true, draw_world},
     {"Numbers", true, false, draw_numbers},
     {"Stability", false, true, draw_stability},
-    {"Files", false, true, draw_files},
+    {"Files", false, false, draw_files},
     {"Export", false, false, draw_take_away},
     {"Stages of a step", false, false, draw_plan},
 }};

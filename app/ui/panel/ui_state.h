@@ -40,6 +40,13 @@ struct UiState {
   session::Exporter exporter;
   Tour tour;
 
+  /// Returns the overlays that are drawn: all that are asked for, but without a solver none that needs one.
+  render::Overlays drawn_overlays(const Session& session) const {
+    render::Overlays drawn = overlays;
+    for (const render::OverlayRow& row : render::overlay_table)
+      if (row.needs_solver && !session.why_no_solver().empty()) drawn.*row.shown = false;
+    return drawn;
+  }
   /// True if the scene marks what the paper's method misses.
   bool marks_story() const { return story && !clean && !tour.open(); }
   /// True if the card is on the screen. The views below the scene say the same.
