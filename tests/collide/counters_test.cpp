@@ -118,5 +118,23 @@ TEST(Counters, OfTheBoundingBoxMethodsFollowTheOverlap) {
   EXPECT_EQ(detect("grid-hash", state, settings).counters.buckets_used, 11u);
 }
 
+/// The sorted grid deals its cells to the axes by where most vertices are.
+TEST(Counters, OfTheSortedGridAreThoseOfThePileThoughABodyIsFarAway) {
+  const std::vector<glm::vec3> ball = icosphere(2, 0.2f).vertices;
+  std::mt19937 random(3);
+  State pile;
+  for (const glm::vec3& at : random_points(random, 60, -1, 1)) pile.add(moved(ball, at));
+  Settings settings;
+  settings.tolerance = 0.02f;
+  const std::uint64_t alone = detect("sorted-grid", pile, settings).counters.pair_tests;
+  for (int axis = 0; axis < 3; ++axis) {
+    State with_another = pile;
+    glm::vec3 far(0);
+    far[axis] = 1e6f;
+    with_another.add(moved({ball.front()}, far));
+    EXPECT_LT(detect("sorted-grid", with_another, settings).counters.pair_tests, alone + alone / 10) << axis;
+  }
+}
+
 }  // namespace
 }  // namespace collide::test
