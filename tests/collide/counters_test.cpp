@@ -80,6 +80,19 @@ TEST(Counters, OfTheCompleteMethodAreTheCellsOfPaddedBoxes) {
   EXPECT_EQ(detect("multi-level-sb-complete", cube(0), cells_of(0.999f)).coverage, Coverage::exact);
 }
 
+/// A box in 1000 cells, beside so many boxes in one cell that not all could be in 1000.
+TEST(Counters, OfTheCompleteMethodListALargeBoxAmongMany) {
+  State state;
+  for (int i = 0; i < 40'000; ++i) state.add({glm::vec3(0.5f + 10 * static_cast<float>(i), 0.5f, 0.5f)});
+  Settings settings = cells_of(1, 1'000'003);
+  settings.levels = 0;
+  const Counters without = detect("multi-level-sb-complete", state, settings).counters;
+  state.add({glm::vec3(-20.5f), glm::vec3(-11.5f)});
+  const Counters with = detect("multi-level-sb-complete", state, settings).counters;
+  EXPECT_EQ(with.hashes, without.hashes + 1000);
+  EXPECT_LT(with.pair_tests, without.pair_tests + 1000);
+}
+
 TEST(Counters, OfTheExactMethodHaveNoHashes) {
   const Counters counters = detect("multi-level-sb-exact", cube(1), cells_of(10)).counters;
   EXPECT_EQ(counters.hashes, 0u);
