@@ -123,7 +123,7 @@ class SortedGrid final : public Detector {
     if (begin.front() == begin.back()) return;
     const std::array beside{grid.row_beside(row, 1, 0), grid.row_beside(row, -1, 1), grid.row_beside(row, 0, 1),
                             grid.row_beside(row, 1, 1)};
-    std::array<Range, 13> runs;
+    std::array<Range, 9> runs;  // one of this row, and up to two of each of the four
     for (Index x = 0; x < width; ++x) {
       const Range own{begin[x], begin[x + 1]};
       if (own.size() == 0) continue;
