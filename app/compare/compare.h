@@ -19,8 +19,9 @@ namespace app::compare {
 std::size_t method_index(std::string_view key);
 
 /// Returns the method whose contacts count as the true ones: brute force if can_run(its index), else the first exact
-/// method that can run and shares little code with `beside`. A method with levels and one without share least. Returns
-/// nothing if there is none.
+/// method that can run and shares little code with `beside`: one of the two has levels, at most one has a hash, and the
+/// reference has not both, since the exact method shares its levels and the grids share its hash. Returns nothing if
+/// there is none.
 std::optional<std::size_t> choose_reference(const collide::Method& beside,
                                             const std::function<bool(std::size_t)>& can_run);
 

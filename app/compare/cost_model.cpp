@@ -10,6 +10,7 @@
 #include "app/base/text.h"
 #include "collide/core/cutoff.h"
 #include "collide/core/cuts.h"
+#include "collide/methods/cell_hash.h"
 
 namespace app::compare {
 namespace {
@@ -128,8 +129,8 @@ WorkEstimate CostModel::estimate_hashed(const collide::Method& method) const {
   const glm::dvec3 reach = method.uses_levels ? subdivided_box() + (complete ? padding : glm::dvec3(0)) : padding;
   const glm::dvec3 along = 1.0 + (method.uses_levels ? 1.0 : 2.0) * reach / cell;
   const double cells = method.uses_levels && !complete ? 8 : along.x * along.y * along.z;
-  const double too_many = std::max(64.0, vertices_ / 32);  // as in multi_level_sb.cpp and vertex_grid.cpp
-  if (cells > too_many && method.exact) return {all_, 0};
+  const double room = collide::methods::room_for_cells / (method.uses_levels ? boxes : 1);  // on average
+  if (cells > collide::methods::max_listed_cells(vertices_, room) && method.exact) return {all_, 0};
   const double entry_pairs = method.uses_levels ? cells * cells : cells;
   const double hashes = method.uses_levels ? boxes * cells : vertices_ * (1 + cells);
   const double aliased = static_cast<double>(all_) * entry_pairs / reachable_buckets();

@@ -108,12 +108,13 @@ void Sweep::find_reference() {
   }
 }
 
-/// Returns brute force if it is within the budget; else the exact configuration with the least predicted work. Those
-/// without subdivided boxes come first: they share the least code with the others.
+/// Returns brute force if it is within the budget; else the exact configuration with the least predicted work. Methods
+/// without levels and without a hash come first: they share the least code with the others.
 std::optional<Configuration> Sweep::choose_reference() {
   std::optional<std::size_t> best;
   const auto rank = [&](std::size_t i) {
-    return std::pair(collide::method_table()[report_.rows[i].configuration.method].uses_levels, predicted_[i]);
+    const collide::Method& method = collide::method_table()[report_.rows[i].configuration.method];
+    return std::pair(int{method.uses_levels} + int{method.uses_hash}, predicted_[i]);
   };
   for (std::size_t i = 0; i < report_.rows.size(); ++i) {
     const SweepRow& row = report_.rows[i];

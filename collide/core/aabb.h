@@ -17,7 +17,7 @@ struct Aabb {
 /// True unless the gap between the boxes exceeds the cutoff (m) along an axis. Rounding never hides a near pair:
 /// subtraction rounds monotonically, and the cutoff is a float itself.
 inline bool near(const Aabb& a, const Aabb& b, float cutoff) {
-  return (a.lo.x - b.hi.x <= cutoff) & (b.lo.x - a.hi.x <= cutoff) &  // without branches, which are hard to guess
+  return (a.lo.x - b.hi.x <= cutoff) & (b.lo.x - a.hi.x <= cutoff) &  // without mispredicted branches
          (a.lo.y - b.hi.y <= cutoff) & (b.lo.y - a.hi.y <= cutoff) &  //
          (a.lo.z - b.hi.z <= cutoff) & (b.lo.z - a.hi.z <= cutoff);
 }

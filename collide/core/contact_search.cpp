@@ -97,7 +97,8 @@ void ContactSearch::finish(Result& result) {
   }
 }
 
-/// By counting their first vertices, where there are enough contacts for the pass over all vertices.
+/// Sorts the contacts of all threads: by counting those of each first vertex, unless they are too few to be worth a
+/// pass over all vertices.
 void ContactSearch::sort_into(std::vector<Contact>& contacts) {
   const std::size_t vertices = frame_->bodies->vertex_count();
   contacts.clear();

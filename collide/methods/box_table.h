@@ -20,9 +20,8 @@ class BoxTable {
   void build(std::uint32_t buckets);
 
   /// Calls meet(run) for every run of consecutive boxes b >= least that `box` meets; ascending. Boxes meet if they
-  /// share a bucket or if one of them is everywhere. Each b
-  /// comes up once, however many buckets the two boxes share. least >= box. Call prepare_meetings() before, on one
-  /// thread.
+  /// share a bucket or if one of them is everywhere. Each b comes up once, however many buckets the two boxes share.
+  /// least >= box. Call prepare_meetings() before, on one thread.
   void prepare_meetings(int threads);
   template <class Meet>
   void for_each_run(int thread, Index box, Index least, const Meet& meet);

@@ -1,7 +1,5 @@
 #include "collide/methods/cell_hash.h"
 
-#include <algorithm>
-
 namespace collide::methods {
 
 void CellList::tidy() {

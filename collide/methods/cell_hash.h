@@ -2,6 +2,7 @@
 // The grid and the hash function of §2.2:
 //   index = (floor(x/length)*xprime + floor(y/height)*yprime + floor(z/width)*zprime) % bucketsize
 
+#include <algorithm>
 #include <utility>
 
 #include "collide/core/detector.h"
@@ -78,6 +79,17 @@ struct CellRange {
     }
   }
 };
+
+/// How many cells all boxes of a frame may fill lists with before only boxes in few cells are listed.
+inline constexpr double room_for_cells = 0x1p24;
+
+/// Returns the number of cells that are looked into, or listed, one by one for a vertex or a box. Where there are more,
+/// the test of all vertices takes less time: a cell takes as long as 32 tests. room: how many cells may be listed, for
+/// the sake of memory; a box up to two cells wide, in 27 cells at most, is always listed, so that the work of very many
+/// such boxes does not grow with their square.
+inline double max_listed_cells(double vertices, double room = room_for_cells) {
+  return std::min(std::max(64.0, vertices / 32), std::max(27.0, room));
+}
 
 /// Collects cells for drawing: the first DebugGeometry::debug_cell_limit of those added; ascending, without duplicates.
 class CellList {

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 
-#include "collide/core/body_boxes.h"
-#include "collide/core/cutoff.h"
 #include "collide/methods/detectors.h"
-#include "collide/trees/point_tree.h"
+#include "collide/methods/vertex_tree.h"
 
 namespace collide::methods {
 
@@ -27,7 +25,7 @@ float sampled_median(std::span<const Item> items, std::size_t axis) {
 /// Copies the items below a value to the front, and the others to the back. Returns how many are below.
 std::size_t divide(std::span<const Item> items, std::size_t axis, float value, Item* to) {
   std::size_t low = 0, high = items.size();
-  for (const Item& item : items) {  // to both places, of which one stays: no branch that could be guessed wrong
+  for (const Item& item : items) {  // to both places, of which one stays: no mispredicted branches
     to[low] = to[high - 1] = item;
     const bool below = item.at[axis] < value;
     low += below;
@@ -41,7 +39,7 @@ trees::Parts halve(std::span<const Item> items, const Aabb& box, Item* to) {
   if (!(box.hi[side] > box.lo[side])) return {};
   const auto axis = static_cast<std::size_t>(side);
   std::size_t low = divide(items, axis, sampled_median(items, axis), to);
-  if (std::min(low, items.size() - low) < items.size() / 8) {  // the sample misled: the median itself, by place
+  if (std::min(low, items.size() - low) < items.size() / 8) {  // the sample is poor: cut at the true median
     low = items.size() / 2;
     std::copy(items.begin(), items.end(), to);
     trees::part_at({to, items.size()}, low, axis);
@@ -52,26 +50,8 @@ trees::Parts halve(std::span<const Item> items, const Aabb& box, Item* to) {
   return parts;
 }
 
-class KdTree final : public Detector {
- public:
-  void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
-    bodies_.build(frame, result);
-    tree_.build(frame, bodies_.live, halve, leaf_size, workers);
-    search_.begin(frame, settings, tree_.points(), workers.threads());
-    tree_search_.run(tree_.nodes(), settings.self_collision, contact_cutoff(settings.tolerance), search_, workers);
-    search_.finish(result);
-  }
-
- private:
-  static constexpr Index leaf_size = 24;  // vertices
-  BodyBoxes bodies_;
-  trees::PointTree tree_;
-  trees::TreeSearch tree_search_;
-  ContactSearch search_;
-};
-
 }  // namespace
 
-std::unique_ptr<Detector> make_kd_tree() { return std::make_unique<KdTree>(); }
+std::unique_ptr<Detector> make_kd_tree() { return std::make_unique<VertexTree>(halve); }
 
 }  // namespace collide::methods

@@ -49,7 +49,7 @@ bool exceeds_cell(const Aabb& box, const glm::vec3& cell) {
 /// and share them.
 class CornerHash {
  public:
-  CornerHash(const Settings& settings, std::size_t, Index) : settings_(settings), hash_(settings) {}
+  CornerHash(const Settings& settings, Index) : settings_(settings), hash_(settings) {}
 
   void begin_body(const Aabb& body) {
     const std::array<Cuts, 3> cuts = cuts_of(body, settings_.levels);
@@ -95,32 +95,34 @@ class CornerHash {
 /// first cell of p's box is not behind the last one of q's, and the other way round.
 class OverlapHash {
  public:
-  OverlapHash(const Settings& settings, std::size_t boxes, Index vertices)
-      : hash_(settings),
-        half_(contact_cutoff(settings.tolerance) / 2.0),
-        max_cells_(std::min(std::max(64.0, vertices / 32.0),  // beyond, the test of all vertices takes less time
-                            std::max(8.0, 0x1p24 / static_cast<double>(boxes)))) {}
+  OverlapHash(const Settings& settings, Index vertices)
+      : hash_(settings), half_(contact_cutoff(settings.tolerance) / 2.0), vertices_(vertices) {}
 
   void begin_body(const Aabb&) {}
 
-  /// Returns no bucket for a box that overlaps too many cells to list them.
+  /// Returns no bucket for a box that overlaps too many cells to list them. Call it, or list_cells(), once for each
+  /// box.
   std::span<const std::uint32_t> buckets(const SubdividedBox& box) {
     buckets_.clear();
-    if (const CellRange cells = cells_of(box); cells.count() <= max_cells_) {
-      cells.for_each([&](const CellHash::Cell& cell) { buckets_.push_back(hash_.bucket(cell)); });
-    }
+    for_each_listed_cell(box, [&](const CellHash::Cell& cell) { buckets_.push_back(hash_.bucket(cell)); });
     return buckets_;
   }
 
   Coverage coverage() const { return Coverage::exact; }
 
-  void list_cells(const SubdividedBox& box, CellList& list) const {
-    const CellRange cells = cells_of(box);
-    if (cells.count() > max_cells_) return;
-    cells.for_each([&](const CellHash::Cell& cell) { list.add(cell, hash_); });
+  void list_cells(const SubdividedBox& box, CellList& list) {
+    for_each_listed_cell(box, [&](const CellHash::Cell& cell) { list.add(cell, hash_); });
   }
 
  private:
+  template <class Visit>
+  void for_each_listed_cell(const SubdividedBox& box, const Visit& visit) {
+    const CellRange cells = cells_of(box);
+    if (cells.count() > max_listed_cells(vertices_, room_)) return;
+    room_ -= cells.count();
+    cells.for_each(visit);
+  }
+
   CellRange cells_of(const SubdividedBox& box) const {
     const auto cell_at = [&](const glm::vec3& corner, double by) {
       return hash_.cell(corner.x + by, corner.y + by, corner.z + by);
@@ -129,7 +131,8 @@ class OverlapHash {
   }
 
   CellHash hash_;
-  double half_, max_cells_;
+  double half_, vertices_;
+  double room_ = room_for_cells;  // for the boxes to come
   std::vector<std::uint32_t> buckets_;
 };
 
@@ -156,7 +159,7 @@ class MultiLevelSb final : public Detector {
 
   DebugGeometry debug() const override {
     DebugGeometry geometry;
-    const Hashing hashing(settings_, subdivision_.boxes().size(), subdivision_.points().size());
+    Hashing hashing(settings_, subdivision_.points().size());
     CellList cells;
     for (const SubdividedBox& box : subdivision_.boxes()) {
       geometry.boxes.push_back({box.region.lo, box.region.hi, box.body});
@@ -170,7 +173,7 @@ class MultiLevelSb final : public Detector {
  private:
   void hash_boxes(Result& result) {
     const std::vector<SubdividedBox>& boxes = subdivision_.boxes();
-    Hashing hashing(settings_, boxes.size(), subdivision_.points().size());
+    Hashing hashing(settings_, subdivision_.points().size());
     table_.clear();
     end_of_body_.resize(bodies_.box.size());
     for (std::size_t next = 0; next < boxes.size();) {

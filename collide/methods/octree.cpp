@@ -3,10 +3,8 @@
 
 #include <algorithm>
 
-#include "collide/core/body_boxes.h"
-#include "collide/core/cutoff.h"
 #include "collide/methods/detectors.h"
-#include "collide/trees/point_tree.h"
+#include "collide/methods/vertex_tree.h"
 
 namespace collide::methods {
 
@@ -51,26 +49,8 @@ trees::Parts cut_into_octants(std::span<const Item> items, const Aabb& box, Item
   return parts;
 }
 
-class Octree final : public Detector {
- public:
-  void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
-    bodies_.build(frame, result);
-    tree_.build(frame, bodies_.live, cut_into_octants, leaf_size, workers);
-    search_.begin(frame, settings, tree_.points(), workers.threads());
-    tree_search_.run(tree_.nodes(), settings.self_collision, contact_cutoff(settings.tolerance), search_, workers);
-    search_.finish(result);
-  }
-
- private:
-  static constexpr Index leaf_size = 24;  // vertices
-  BodyBoxes bodies_;
-  trees::PointTree tree_;
-  trees::TreeSearch tree_search_;
-  ContactSearch search_;
-};
-
 }  // namespace
 
-std::unique_ptr<Detector> make_octree() { return std::make_unique<Octree>(); }
+std::unique_ptr<Detector> make_octree() { return std::make_unique<VertexTree>(cut_into_octants); }
 
 }  // namespace collide::methods

@@ -6,8 +6,6 @@
 
 #include <algorithm>
 
-#include <glm/common.hpp>
-
 #include "collide/core/body_boxes.h"
 #include "collide/core/contact_search.h"
 #include "collide/core/counting_sort.h"
@@ -25,18 +23,10 @@ namespace {
 /// are below 2^25. They differ by less than 1 - 2^-21, and each errs by less than 2^-26.
 class TorusGrid {
  public:
-  TorusGrid(const BodyBoxes& bodies, Index vertices, float cutoff) : inverse_(1 / (cutoff * (1 + 0x1p-20))) {
-    glm::dvec3 lo(0), hi(0);
-    for (const Index body : bodies.live) {
-      const Aabb& box = bodies.box[body];
-      lo = body == bodies.live.front() ? glm::dvec3(box.lo) : glm::min(lo, glm::dvec3(box.lo));
-      hi = body == bodies.live.front() ? glm::dvec3(box.hi) : glm::max(hi, glm::dvec3(box.hi));
-    }
-    std::array<double, 3> cells_left{};  // along each axis, in units of the cells that it has
-    for (int axis = 0; axis < 3; ++axis) {
-      cells_left[static_cast<std::size_t>(axis)] = (hi[axis] - lo[axis]) * inverse_ / 4;
-    }
-    const Index enough = vertices / 4;  // with more, half of the cells are empty, which no processor can guess
+  TorusGrid(const Frame& frame, const VertexList& vertices, float cutoff) : inverse_(1 / (cutoff * (1 + 0x1p-20))) {
+    std::array<double, 3> cells_left = spread(frame, vertices);  // along each axis, in units of the cells that it has
+    for (double& cells : cells_left) cells *= inverse_ / 4;
+    const Index enough = vertices.size() / 4;  // with more, half of the cells are empty: mispredicted branches
     for (int used = 6; used < 30 && (Index{1} << used) < enough; ++used) {
       const auto longest = static_cast<std::size_t>(std::ranges::max_element(cells_left) - cells_left.begin());
       if (cells_left[longest] <= 1) break;
@@ -53,13 +43,33 @@ class TorusGrid {
   Index cell(float x, float y, float z) const {
     return wrapped(0, index(x)) | (wrapped(1, index(y)) | wrapped(2, index(z)) << bits_[1]) << bits_[0];
   }
-  /// Returns the row next to another one: by dy and dz of -1 to 1.
+  /// Returns the row that lies dy rows along y and dz along z from another one. dy, dz: -1 to 1.
   Index row_beside(Index row, int dy, int dz) const {
     const std::int64_t y = wrapped(1, row), z = row >> bits_[1];
     return wrapped(1, y + dy) | wrapped(2, z + dz) << bits_[1];
   }
 
  private:
+  /// Returns how far (m) the vertices are spread along each axis: twice the distance between the quartiles of a sample.
+  /// So a few bodies far away take no cells from a pile.
+  static std::array<double, 3> spread(const Frame& frame, const VertexList& vertices) {
+    constexpr std::size_t sample_size = 256;
+    std::array<std::array<float, sample_size>, 3> sample;
+    if (vertices.size() == 0) return {};
+    for (std::size_t k = 0; k < sample_size; ++k) {
+      // Multiples of the golden section, modulo 1: evenly spread, and out of step with the order of any mesh.
+      const std::size_t number = (k * std::uint64_t{0x9E3779B9} % (std::uint64_t{1} << 32)) * vertices.size() >> 32;
+      vertices.for_each({number, number + 1}, [&](Index, Index vertex, Index) {
+        sample[0][k] = frame.x[vertex], sample[1][k] = frame.y[vertex], sample[2][k] = frame.z[vertex];
+      });
+    }
+    std::array<double, 3> spread{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::ranges::sort(sample[axis]);
+      spread[axis] = 2 * (double{sample[axis][sample_size * 3 / 4]} - double{sample[axis][sample_size / 4]});
+    }
+    return spread;
+  }
   std::int64_t index(float value) const {
     constexpr double limit = 0x1p62;
     const double quotient = std::clamp(value * inverse_, -limit, limit);
@@ -79,7 +89,7 @@ class SortedGrid final : public Detector {
   void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
     bodies_.build(frame, result);
     const VertexList vertices(*frame.bodies, bodies_.live);
-    const TorusGrid grid(bodies_, vertices.size(), contact_cutoff(settings.tolerance));
+    const TorusGrid grid(frame, vertices, contact_cutoff(settings.tolerance));
     sort_vertices(frame, vertices, grid, workers);
     search_.begin(frame, settings, points_, workers.threads());
     workers.run([&](int thread) {
@@ -113,7 +123,7 @@ class SortedGrid final : public Detector {
     if (begin.front() == begin.back()) return;
     const std::array beside{grid.row_beside(row, 1, 0), grid.row_beside(row, -1, 1), grid.row_beside(row, 0, 1),
                             grid.row_beside(row, 1, 1)};
-    std::array<Range, 13> runs;
+    std::array<Range, 9> runs;  // one of this row, and up to two of each of the four
     for (Index x = 0; x < width; ++x) {
       const Range own{begin[x], begin[x + 1]};
       if (own.size() == 0) continue;

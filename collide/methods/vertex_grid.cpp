@@ -47,8 +47,7 @@ void VertexGrid::hash_vertices(const Frame& frame, std::span<const Index> which)
 void VertexGrid::visit_cells(int thread, Index slot, double cutoff, const CellHash& hash) {
   const double x = points_.x[slot], y = points_.y[slot], z = points_.z[slot];
   const CellRange near{hash.cell(x - cutoff, y - cutoff, z - cutoff), hash.cell(x + cutoff, y + cutoff, z + cutoff)};
-  // To visit a cell takes about as long as to test 32 vertices. Where there are too many cells, test all that are left.
-  if (near.count() > std::max(64.0, points_.size() / 32.0)) {
+  if (near.count() > max_listed_cells(points_.size())) {  // test all vertices that are left
     search_.test(thread, {slot, slot + 1}, {slot + 1, points_.size()});
     return;
   }

@@ -7,20 +7,6 @@
 
 namespace collide::trees {
 
-namespace {
-
-Aabb bounds_of(const Points& points, Range slots) {
-  glm::vec3 lo(points.x[slots.begin], points.y[slots.begin], points.z[slots.begin]), hi = lo;
-  for (Index slot = slots.begin + 1; slot < slots.end; ++slot) {
-    const glm::vec3 p(points.x[slot], points.y[slot], points.z[slot]);
-    lo = glm::min(lo, p);
-    hi = glm::max(hi, p);
-  }
-  return {lo, hi};
-}
-
-}  // namespace
-
 void BodyTrees::update(const Frame& frame, std::span<const Index> which, Workers& workers) {
   if (!std::ranges::equal(which, which_) || frame.bodies->first != bodies_.first ||
       frame.bodies->shape != bodies_.shape || patterns_.empty()) {
@@ -97,7 +83,7 @@ void BodyTrees::Pattern::cut(std::span<Item> items, Index node, Index first_slot
     nodes[node] = {{}, first_slot, 0, size, false};
     return;
   }
-  const Aabb box = trees::bounds_of(items);
+  const Aabb box = bounds_of(items);
   const Index low = (size / 2 + patch_size - 1) / patch_size * patch_size;
   part_at(items, low, static_cast<std::size_t>(longest_axis(box.hi * 0.5f - box.lo * 0.5f)));
   const auto child = static_cast<Index>(nodes.size());
@@ -122,7 +108,9 @@ void BodyTrees::refit(const Frame& frame, std::size_t k) {
       points_.y[slot] = frame.y[points_.vertex[slot]];
       points_.z[slot] = frame.z[points_.vertex[slot]];
     }
-    node.box = bounds_of(points_, slots);
+    node.box = bounds_of(slots.begin, slots.end, [&](std::size_t slot) {
+      return glm::vec3(points_.x[slot], points_.y[slot], points_.z[slot]);
+    });
   }
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <glm/common.hpp>
+
 #include "collide/core/aabb.h"
 
 namespace collide::trees {
@@ -12,16 +14,20 @@ struct Item {
   Index number;             // of the vertex, among those of the tree
 };
 
-/// Returns the box of some items, of which there must be one.
-inline Aabb bounds_of(std::span<const Item> items) {
-  std::array<float, 3> lo = items.front().at, hi = lo;
-  for (const Item& item : items) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      lo[axis] = std::min(lo[axis], item.at[axis]);
-      hi[axis] = std::max(hi[axis], item.at[axis]);
-    }
+/// Returns the box of the points at(begin) .. at(end - 1), of which there must be one.
+template <class At>
+Aabb bounds_of(std::size_t begin, std::size_t end, const At& at) {
+  glm::vec3 lo = at(begin), hi = lo;
+  for (std::size_t k = begin + 1; k < end; ++k) {
+    const glm::vec3 p = at(k);
+    lo = glm::min(lo, p);
+    hi = glm::max(hi, p);
   }
-  return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}};
+  return {lo, hi};
+}
+inline Aabb bounds_of(std::span<const Item> items) {
+  return bounds_of(0, items.size(),
+                   [&](std::size_t k) { return glm::vec3(items[k].at[0], items[k].at[1], items[k].at[2]); });
 }
 
 /// Brings the items below the one that belongs to the place `middle` along the axis before it, and the others behind.

@@ -112,5 +112,27 @@ TEST(CostModel, PredictsManyHashesForTinyCells) {
   EXPECT_EQ(cost_model.of(compare::method_index("brute-force")).in_words(), "118,097 million pair tests");
 }
 
+TEST(CostModel, PredictsAllTestsWhereTheCompleteMethodCannotListAllCells) {
+  collide::Bodies points;
+  const auto point =
+      std::make_shared<const collide::Shape>(collide::Index{1}, std::span<const std::array<collide::Index, 2>>());
+  for (int i = 0; i < 500'000; ++i) points.add(point);
+  std::vector<float> x, zero(points.vertex_count(), 0.0f);
+  for (collide::Index i = 0; i < points.vertex_count(); ++i) x.push_back(static_cast<float>(i));
+  collide::Settings settings;
+  settings.levels = 0;
+  settings.buckets = 1'000'003;
+  settings.tolerance = 0.1f;
+  const auto predicted = [&](float cell_size) {
+    settings.cell_size = glm::vec3(cell_size);
+    compare::CostModel cost_model;
+    cost_model.begin({x, zero, zero, &points}, settings, 1);
+    return cost_model.of(compare::method_index("multi-level-sb-complete")).pair_tests;
+  };
+  const std::uint64_t all = compare::all_pair_tests(points, true);
+  EXPECT_EQ(predicted(0.1f / 2.5f), all) << "43 cells a box are too many";
+  EXPECT_LT(predicted(0.1f / 1.9f), all / 100) << "24 cells a box are not";
+}
+
 }  // namespace
 }  // namespace app

@@ -80,6 +80,19 @@ TEST(Counters, OfTheCompleteMethodAreTheCellsOfPaddedBoxes) {
   EXPECT_EQ(detect("multi-level-sb-complete", cube(0), cells_of(0.999f)).coverage, Coverage::exact);
 }
 
+/// A box in 1000 cells, beside so many boxes in one cell that not all could be in 1000.
+TEST(Counters, OfTheCompleteMethodListALargeBoxAmongMany) {
+  State state;
+  for (int i = 0; i < 40'000; ++i) state.add({glm::vec3(0.5f + 10 * static_cast<float>(i), 0.5f, 0.5f)});
+  Settings settings = cells_of(1, 1'000'003);
+  settings.levels = 0;
+  const Counters without = detect("multi-level-sb-complete", state, settings).counters;
+  state.add({glm::vec3(-20.5f), glm::vec3(-11.5f)});
+  const Counters with = detect("multi-level-sb-complete", state, settings).counters;
+  EXPECT_EQ(with.hashes, without.hashes + 1000);
+  EXPECT_LT(with.pair_tests, without.pair_tests + 1000);
+}
+
 TEST(Counters, OfTheExactMethodHaveNoHashes) {
   const Counters counters = detect("multi-level-sb-exact", cube(1), cells_of(10)).counters;
   EXPECT_EQ(counters.hashes, 0u);
@@ -116,6 +129,24 @@ TEST(Counters, OfTheBoundingBoxMethodsFollowTheOverlap) {
   EXPECT_EQ(detect("bounding-box-grid-hash", state, settings).counters.longest_bucket, 2u);
   EXPECT_EQ(detect("bounding-box-grid-hash", state, settings).counters.buckets_used, 9u);  // 2 and 2.05 share a cell
   EXPECT_EQ(detect("grid-hash", state, settings).counters.buckets_used, 11u);
+}
+
+/// The sorted grid deals its cells to the axes by where most vertices are.
+TEST(Counters, OfTheSortedGridAreThoseOfThePileThoughABodyIsFarAway) {
+  const std::vector<glm::vec3> ball = icosphere(2, 0.2f).vertices;
+  std::mt19937 random(3);
+  State pile;
+  for (const glm::vec3& at : random_points(random, 60, -1, 1)) pile.add(moved(ball, at));
+  Settings settings;
+  settings.tolerance = 0.02f;
+  const std::uint64_t alone = detect("sorted-grid", pile, settings).counters.pair_tests;
+  for (int axis = 0; axis < 3; ++axis) {
+    State with_another = pile;
+    glm::vec3 far(0);
+    far[axis] = 1e6f;
+    with_another.add(moved({ball.front()}, far));
+    EXPECT_LT(detect("sorted-grid", with_another, settings).counters.pair_tests, alone + alone / 10) << axis;
+  }
 }
 
 }  // namespace

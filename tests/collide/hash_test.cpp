@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 #include <vector>
@@ -87,6 +88,14 @@ TEST(CellRange, CountsAndVisitsItsCellsMinimumFirst) {
   EXPECT_EQ(visited.back(), range.hi);
   constexpr std::int64_t limit = std::int64_t{1} << 60;
   EXPECT_GT((CellRange{{-limit, -limit, -limit}, {limit, limit, limit}}.count()), 0x1p182);
+}
+
+TEST(CellRange, IsListedInAtLeast27CellsAndInMoreWhileThereIsRoom) {
+  for (const double vertices : {1.0, 1e4, 1e7, 4e9}) {
+    EXPECT_EQ(max_listed_cells(vertices, 0), 27);
+    EXPECT_EQ(max_listed_cells(vertices, 50), 50);
+    EXPECT_EQ(max_listed_cells(vertices), std::clamp(vertices / 32, 64.0, room_for_cells));
+  }
 }
 
 TEST(BucketTable, SortsEntriesAndKeepsTheirOrder) {

@@ -49,16 +49,34 @@ TEST(Methods, StandByGroupAndFewAreShown) {
   EXPECT_TRUE(find_method(default_method)->shown && find_method(paper_method)->shown);
 }
 
-/// What every description says.
-TEST(Methods, AreDescribedByUseCostAndUpdate) {
+/// Holds the words of the descriptions against the work after frames of other shapes, and of rest.
+TEST(Methods, SayWhetherTheyKeepAnythingBetweenFrames) {
+  const Ball ball = icosphere(2, 0.5f);
+  const auto shape = std::make_shared<const Shape>(162, ball.edges, ball.vertices);
+  State before, now;
+  for (int body = 0; body < 6; ++body) {
+    std::vector<glm::vec3> points = moved(ball.vertices, glm::vec3(0.7f * static_cast<float>(body), 0, 0));
+    now.add(shape, points);
+    std::rotate(points.begin(), points.begin() + 50, points.end());
+    before.add(shape, points);
+  }
+  Settings settings;
+  settings.tolerance = 0.08f;
   for (const Method& method : method_table()) {
-    EXPECT_NE(method.description.find("Choose it "), std::string_view::npos) << method.key;
-    EXPECT_NE(method.description.find("Cost: "), std::string_view::npos) << method.key;
-    const bool says = method.description.find("rebuilds") != std::string_view::npos ||
-                      method.description.find("refits") != std::string_view::npos ||
-                      method.description.find("from scratch") != std::string_view::npos ||
-                      method.description.find("builds nothing") != std::string_view::npos;
-    EXPECT_TRUE(says) << method.key;
+    const auto says = [&](std::string_view words) { return method.description.find(words) != std::string_view::npos; };
+    EXPECT_TRUE(says("Choose it ") && says("Cost: ") && (says("in every frame") || says("keeps nothing")))
+        << method.key;
+    const auto detector = method.make();
+    Workers alone(1);
+    Result result;
+    detector->detect(before.frame(), settings, alone, result);
+    for (int frame = 0; frame < 6; ++frame) detector->detect(now.frame(), settings, alone, result);
+    const std::uint64_t fresh = detect(method.key, now, settings).counters.pair_tests;
+    const bool keeps = says("once, ") || says("keep their contacts");
+    EXPECT_EQ(result.counters.pair_tests != fresh, keeps) << method.key;
+    detector->forget();
+    detector->detect(now.frame(), settings, alone, result);
+    EXPECT_EQ(result.counters.pair_tests, fresh) << method.key << " after forget()";
   }
 }
 
