@@ -144,7 +144,7 @@ TEST(Counters, OfTheSortedGridAreThoseOfThePileThoughABodyIsFarAway) {
     State with_another = pile;
     glm::vec3 far(0);
     far[axis] = 1e6f;
-    with_another.add(moved({ball.front()}, far));
+    with_another.add(moved(ball, far));
     EXPECT_LT(detect("sorted-grid", with_another, settings).counters.pair_tests, alone + alone / 10) << axis;
   }
 }
