@@ -63,7 +63,8 @@ void CostModel::begin(const collide::Frame& frame, const collide::Settings& sett
   in_overlapping_boxes_ = exact_tests_ = 0;
   const auto add = [&](std::uint64_t tests, std::uint64_t vertices) {
     in_overlapping_boxes_ += tests;
-    exact_tests_ += std::max(16 * vertices, tests >> settings.levels);  // at least those that its cuts leave of all
+    // At least those that its cuts leave of all, which are no more than large leaves have.
+    exact_tests_ += std::max(16 * vertices, std::min(tests >> settings.levels, 512 * vertices));
   };
   for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_cutoff(settings.tolerance)))
     add(std::uint64_t{bodies.size(a)} * bodies.size(b), bodies.size(a) + bodies.size(b));

@@ -16,7 +16,7 @@ class BodyPairSearch {
   struct Query {
     float tolerance;  // m
     bool self;        // also find contacts inside one body
-    int levels;       // maximum depth of the cuts in OverlapTree
+    int levels;       // depth of the cuts, see OverlapTree::begin()
     std::size_t max_contacts;
   };
 

@@ -47,7 +47,6 @@ void OverlapTree::begin(int levels, float cutoff, float tolerance2, std::size_t 
   levels_ = levels;
   cutoff_ = cutoff;
   tolerance2_ = tolerance2;
-  level_.resize(static_cast<std::size_t>(levels) + 1);
   leaves_.clear();
   pair_tests_ = 0;
 }
@@ -68,7 +67,7 @@ void OverlapTree::within(const VertexSet& set, Index body, std::vector<Contact>&
 
 void OverlapTree::cut_between(const VertexSet& a, const VertexSet& b, int depth) {
   const std::uint64_t tests = std::uint64_t{a.size} * b.size;
-  if (tests <= leaf_tests || depth == levels_) {
+  if (is_leaf(tests, leaf_tests, depth)) {
     if (tests == 0) return;
     pair_tests_ += tests;
     if (depth > 0) leaves_.push_back({bounds_of(a).lo, bounds_of(a).hi, body_});
@@ -94,7 +93,7 @@ void OverlapTree::cut_between(const VertexSet& a, const VertexSet& b, int depth)
 void OverlapTree::cut_within(const VertexSet& set, int depth) {
   const std::uint64_t tests = std::uint64_t{set.size} * (std::max<Index>(set.size, 1) - 1) / 2;
   // All pairs of one set cost less than a cut and the pairs across it, up to more of them than between two sets.
-  if (tests <= 4 * leaf_tests || depth == levels_) {
+  if (is_leaf(tests, 4 * leaf_tests, depth)) {
     if (tests == 0) return;
     pair_tests_ += tests;
     leaves_.push_back({bounds_of(set).lo, bounds_of(set).hi, body_});

@@ -12,8 +12,10 @@ class OverlapTree {
  public:
   /// Up to this many pairs are tested without a further cut: a cut reads both sides several times.
   static constexpr std::uint64_t leaf_tests = 16384;
+  /// More pairs than this are cut further, however deep: else large bodies would cost the square of their vertices.
+  static constexpr std::uint64_t max_leaf_tests = 32 * leaf_tests;
 
-  /// Starts a frame: clears the counters and the leaves. levels: maximum depth of the cuts. cutoff: m.
+  /// Starts a frame: clears the counters and the leaves. levels: depth of the cuts of all but large leaves. cutoff: m.
   void begin(int levels, float cutoff, float tolerance2, std::size_t max_contacts);
 
   /// Appends each contact between two sets of vertices, or within one set, once. The contacts are sorted only if there
@@ -28,10 +30,15 @@ class OverlapTree {
   const std::vector<DebugGeometry::Box>& leaf_boxes() const { return leaves_; }
 
  private:
+  static constexpr int max_depth = 48;  // of points that are next to each other in one corner of a large box
   struct Level {
     VertexSet near_a, near_b, low_a, low_b, up_a, up_b;  // of between()
     VertexSet low, up, low_edge, up_edge;                // of within()
   };
+  /// Returns true if so many pairs are tested without a further cut. few: pairs that cost less than a cut.
+  bool is_leaf(std::uint64_t tests, std::uint64_t few, int depth) const {
+    return tests <= few || depth == max_depth || (depth >= levels_ && tests <= max_leaf_tests);
+  }
   void cut_between(const VertexSet& a, const VertexSet& b, int depth);
   void cut_within(const VertexSet& set, int depth);
 
@@ -41,7 +48,7 @@ class OverlapTree {
   Index body_ = 0;
   Exclusion excluded_;
   std::vector<Contact>* contacts_ = nullptr;
-  std::vector<Level> level_;
+  std::vector<Level> level_ = std::vector<Level>(max_depth);
   Words words_;
   std::vector<DebugGeometry::Box> leaves_;
   std::uint64_t pair_tests_ = 0;

@@ -120,6 +120,34 @@ TEST(OverlapTree, SavesTests) {
   EXPECT_LT(tree.pair_tests(), std::uint64_t{a.size} * b.size / 2);
 }
 
+/// However few levels are asked for: else a large body would cost the square of its vertices.
+TEST(OverlapTree, CutsLargeSetsUntilTheirCostIsLinear) {
+  std::mt19937 random(72);
+  constexpr float tolerance = 0.02f;
+  std::uint64_t before = 0;
+  for (const int count : {4'000, 16'000, 64'000}) {
+    const float side = std::sqrt(static_cast<float>(count)) * tolerance;
+    std::vector<glm::vec3> sheet = random_points(random, static_cast<Index>(count), 0, side);
+    for (glm::vec3& p : sheet) p.z = 0;
+    const VertexSet set = picked(sheet, 0), above = picked(moved(sheet, glm::vec3(0, 0, tolerance / 2)), 100'000);
+    std::vector<Contact> contacts;
+    OverlapTree tree;
+    tree.begin(0, contact_cutoff(tolerance), tolerance * tolerance, no_limit);
+    tree.within(set, 0, contacts);
+    tree.between(set, above, 0, contacts);
+    if (before > 0) {
+      EXPECT_LT(tree.pair_tests(), 6 * before) << count;
+    } else {
+      std::vector<Contact> expected = between(set, set, tolerance * tolerance);
+      std::erase_if(expected, [](const Contact& pair) { return pair.a >= pair.b; });
+      for (const Contact& pair : between(set, above, tolerance * tolerance)) expected.push_back(pair);
+      for (Contact& pair : contacts) pair = {std::min(pair.a, pair.b), std::max(pair.a, pair.b)};
+      EXPECT_EQ(sorted(contacts), sorted(expected));
+    }
+    before = tree.pair_tests();
+  }
+}
+
 TEST(OverlapTree, StopsAtTheMost) {
   const VertexSet a = picked(std::vector<glm::vec3>(200, glm::vec3(1)), 0),
                   b = picked(std::vector<glm::vec3>(200, glm::vec3(1)), 200);
