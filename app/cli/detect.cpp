@@ -22,6 +22,20 @@ constexpr std::string_view all_methods = "all";  // in place of a method's key
 // All frames stay in memory, so that the times do not include reading.
 constexpr std::size_t max_positions = std::size_t{1} << 27;  // of all frames together: 1.5 GiB
 
+/// Returns what is to be said if the floats that hold the positions are far apart beside the tolerance; else nothing.
+std::string rounding_note(const SequenceTask& task, double tolerance) {
+  constexpr double spacing = 0x1p-23, small = 1.0 / 16;  // of neighbouring floats, relative; of the tolerance
+  double farthest = 0;
+  for (const files::SequenceFrame& frame : task.frames)
+    for (const auto& axis : {frame.view().x, frame.view().y, frame.view().z})
+      for (const float value : axis) farthest = std::max(farthest, std::abs(double{value}));
+  if (farthest * spacing <= small * tolerance) return {};
+  return fmt::format(
+      "coordinates of {:.3g} m are kept as floats, which are {:.2g} m apart there, beside a tolerance of "
+      "{:g} m: move the bodies near the origin",
+      farthest, farthest * spacing, tolerance);
+}
+
 /// Returns the task without its settings, and adds to `notes` what the authors of the files may have meant differently.
 SequenceTask read_sequence(const Options& options, std::vector<std::string>& notes) {
   const DetectOptions& d = options.detect;
@@ -34,6 +48,7 @@ SequenceTask read_sequence(const Options& options, std::vector<std::string>& not
   SequenceTask task{d.files, {}, {}, options.threads, d.repeat, d.reuse};
   for (std::size_t f = 0; f < sequence.count(); ++f) task.frames.push_back(sequence.read(f));
   std::ranges::copy(sequence.notes(), std::back_inserter(notes));
+  if (const std::string note = rounding_note(task, *options.detection.tolerance); !note.empty()) notes.push_back(note);
   return task;
 }
 

@@ -128,6 +128,17 @@ TEST_F(DetectBodies, ThatAreSingleFacesAreNoted) {
   EXPECT_EQ(one, json::array());
 }
 
+TEST_F(DetectBodies, FarFromTheOriginAreNoted) {
+  for (const auto& [x, noted] : {std::pair(1e4f, false), std::pair(1e6f, true)}) {
+    const std::string file = folder.write("a.ply", ply({{x, 0, 0}, {x, 1, 0}, {x, 0, 1}}, {{0, 1, 2}}));
+    const json warnings = detect({file, "--tolerance", "0.1"})["warnings"];
+    ASSERT_EQ(warnings.size(), noted ? 1u : 0u) << warnings;
+    if (noted) {
+      EXPECT_NE(warnings[0].get<std::string>().find("move the bodies near the origin"), std::string::npos) << warnings;
+    }
+  }
+}
+
 class DetectAll : public testing::Test {
  protected:
   /// Drops what differs from run to run.
