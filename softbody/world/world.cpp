@@ -121,14 +121,16 @@ void World::Parts::show(int number) {
     state.place(b, {&recorded->x[first], &recorded->y[first], &recorded->z[first]});
   }
   frame = number;
+  unreadable.reset();
   update_positions();
   detect();
 }
 
-/// Shows the next frame, and after the last one the first one.
+/// Shows the next frame, and after the last one the first one. If that cannot be read, the next call goes on behind it.
 void World::Parts::play() {
   const auto start = Clock::now();
-  show((frame + 1) % scene.recording->frame_count());
+  unreadable = (unreadable.value_or(frame) + 1) % scene.recording->frame_count();
+  show(*unreadable);
   report.time += frame_time;
   report.seconds = frame_time;
   report.total_ms = ms_since(start);

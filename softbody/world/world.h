@@ -66,9 +66,9 @@ class World {
   /// Simulates one frame. Calls `after_substep` after each substep; it may read positions(), which are up to date, but
   /// nothing else, and must not change the world.
   void step(const std::function<void()>& after_substep = {});
-  /// Shows a frame of the scene's recording, which it must have, and detects. step() does the same with the next frame.
-  /// Throws as Recording::frame() does, and then changes nothing. If it is the detector that throws, the frame is
-  /// shown, but detection() is not of it.
+  /// Shows a frame of the scene's recording, which it must have, and detects. step() does the same with the next frame,
+  /// and goes on behind one that it could not read. Throws as Recording::frame() does, and then shows what it did
+  /// before. If it is the detector that throws, the frame is shown, but detection() is not of it.
   void show_frame(int number);
   /// Returns everything that determines how the world continues.
   Snapshot snapshot() const;

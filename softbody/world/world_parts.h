@@ -36,6 +36,7 @@ struct WorldValues {
   int drops = 0;
   std::array<double, 2> drop_direction{1, 0};  // x and z
   int frame = 0;
+  std::optional<int> unreadable{};  // the frame of the recording that the last step could not show
   IntegratorChoice choice;
   const collide::Method* method;
   collide::Settings settings;
@@ -77,7 +78,7 @@ struct World::Parts : WorldValues {
   bool is_clear(const BodyModel& p, const glm::dvec3& position) const;
   double clear_height(const BodyModel& p, const glm::dvec3& position) const;
 
-  double frame_time;  // s
+  double frame_time;                // s
   collide::Workers workers;
   Plan plan;
   Solver solver;

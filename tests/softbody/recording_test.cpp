@@ -60,6 +60,13 @@ TEST_F(RecordedWorld, StaysAtItsFrameIfTheNextCannotBeRead) {
   world.show_frame(2);
   EXPECT_THROW(world.step(), SceneError);
   expect_frame(2);
+  world.step();
+  expect_frame(4);
+  world.show_frame(2);
+  EXPECT_THROW(world.step(), SceneError);
+  world.show_frame(1);
+  world.step();
+  expect_frame(2);
   EXPECT_THROW(world.show_frame(3), SceneError);
   expect_frame(2);
   world.show_frame(4);
