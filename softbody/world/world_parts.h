@@ -78,7 +78,7 @@ struct World::Parts : WorldValues {
   bool is_clear(const BodyModel& p, const glm::dvec3& position) const;
   double clear_height(const BodyModel& p, const glm::dvec3& position) const;
 
-  double frame_time;                // s
+  double frame_time;  // s
   collide::Workers workers;
   Plan plan;
   Solver solver;
