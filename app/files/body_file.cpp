@@ -130,7 +130,9 @@ BodiesBy default_bodies_by(const FileMesh& mesh) {
 
 BodyMeshes divide(const FileMesh& mesh, BodiesBy by, const std::filesystem::path& file,
                   std::vector<std::string>& notes) {
-  const auto [body_of, count] = partition_of(mesh, by, notes);
+  const Partition partition = partition_of(mesh, by, notes);
+  const std::vector<Index>& body_of = partition.body_of;
+  const std::size_t count = partition.count;
   if (mesh.weights > 0)
     notes.push_back(std::to_string(mesh.weights) +
                     " vertices have a weight other than 1, which is passed over: it is for curves only");

@@ -84,8 +84,9 @@ void AmbientOcclusion::find_pairs() {
     const auto end = std::ranges::upper_bound(begin, places_.end(), column, {}, &Place::column);
     for (auto a = begin; a != end; ++a) compare(*a, a + 1, end, range);
     for (const auto& [y, z] : {Column{0, 1}, Column{1, -1}, Column{1, 0}, Column{1, 1}}) {
-      auto [other, other_end] =
-          std::ranges::equal_range(end, places_.end(), Column{column[0] + y, column[1] + z}, {}, &Place::column);
+      const Column beside{column[0] + y, column[1] + z};
+      auto other = std::ranges::lower_bound(end, places_.end(), beside, {}, &Place::column);
+      const auto other_end = std::ranges::upper_bound(other, places_.end(), beside, {}, &Place::column);
       for (auto a = begin; a != end; ++a) {
         while (other != other_end && other->x < a->x - range) ++other;
         compare(*a, other, other_end, range);
