@@ -18,6 +18,10 @@ struct Substep {
   bool first;  // of its frame: forces kept from the frame before may be out of date
 };
 
+/// Shares of the longest stable step that are kept back. The stiffness of gas changes with the shape within a frame.
+/// The bound of pairs holds in any shape: where gas asks for nothing, half of the reserve will do.
+inline constexpr double gas_reserve = 0.2, gasless_reserve = 0.1;
+
 struct Integrator {
   std::string_view key;
   std::string_view name;
@@ -40,10 +44,8 @@ struct Integrator {
   bool conserves_energy = true;  // as steps get short; else it moves bodies to shapes of its own, by its steps
   bool conserves_spin = false;   // conserves a free body's angular momentum up to rounding; all conserve the linear one
 
-  /// Returns the share of the longest stable step that stable_rate() keeps back. It is there for gas, whose stiffness
-  /// changes with the shape within a frame. The bound of pairs holds in any shape: where gas asks for nothing, half of
-  /// the reserve will do.
-  double reserve() const { return implicit_volume ? 0.1 : 0.2; }
+  /// Returns the share of the longest stable step that stable_rate() keeps back.
+  double reserve() const { return implicit_volume ? gasless_reserve : gas_reserve; }
   bool stable_at_any_step() const { return std::isinf(stable_step(1, 0)); }
 };
 

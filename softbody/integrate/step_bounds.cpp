@@ -46,12 +46,11 @@ StepBound StepBounds::measure(const Batch& b, const Integrator& integrator) cons
                              ? 0
                              : PenaltyLaw<double>::stiffness_bound(p.material[contact::stiffness]) / p.particle_mass;
   const auto rate = [&](double stiffness) { return 1 / integrator.stable_step(stiffness + contact, force.damping); };
-  const double less_reserve = (1 - 0.2) / (1 - 0.1);  // see Integrator::reserve()
-  unsigned near = 0;                                  // bits: lanes
+  unsigned near = 0;  // bits: lanes
   for (const SolidArguments& solid : solids_.near(b)) near |= solid.near;
   const Extent motion = state_.extent(b, state_.v, state_.v);
   const double pace = 0.1 * p.radius;
-  return {less_reserve * rate(force.implicit_volume),
+  return {(1 - gas_reserve) / (1 - gasless_reserve) * rate(force.implicit_volume),
           rate(force.stiffness),
           max_of_moving(b, [&](std::size_t l) { return motion.diagonal(l); }) / pace,
           max_of_moving(b, [&](std::size_t l) { return near >> l & 1u ? motion.length(l) : 0; }) / pace,

@@ -3,6 +3,7 @@
 #include <limits>
 #include <thread>
 
+#include "tests/api/expect_error.h"
 #include "tests/api/recorded_bodies.h"
 
 namespace api::test {
@@ -16,16 +17,6 @@ constexpr std::array<std::array<sbcollide::Index, 3>, 1> corner{{{0, 1, 2}}};
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 std::vector<Contact> copy(std::span<const Contact> contacts) { return {contacts.begin(), contacts.end()}; }
-
-/// Fails the test unless work() throws an Error with this text.
-void expect_error(const std::string& text, const auto& work) {
-  try {
-    work();
-    ADD_FAILURE() << "no error: " << text;
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
-  }
-}
 
 TEST(ContactFinder, FindsWhatTheProgramFinds) {
   for (const auto& [scene, frame] : {std::pair("D", 90), std::pair("cloth", 120), std::pair("star", 120)}) {

@@ -4,6 +4,7 @@
 
 #include <sbcollide/softbody.h>
 
+#include "tests/api/expect_error.h"
 #include "tests/cli/process.h"
 
 namespace api::test {
@@ -23,16 +24,6 @@ World run(const Scene& scene, int frames, const WorldSettings& settings = {}) {
 }
 
 std::string scene_file(const std::string& key) { return SBCOLLIDE_SCENES "/" + key + ".toml"; }
-
-/// Fails the test unless work() throws an Error with this text.
-void expect_error(const std::string& text, const auto& work) {
-  try {
-    work();
-    ADD_FAILURE() << "no error: " << text;
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
-  }
-}
 
 // A tetrahedron of about 1 m, with one face turned inwards.
 constexpr std::array<float, 12> tetrahedron{5, 0, 0, 6, 0, 0, 5, 1, 0, 5, 0, 1};
