@@ -23,7 +23,7 @@ namespace softbody {
 namespace {
 
 constexpr Index absent = ~Index{0};
-constexpr int max_tries = 12;
+constexpr int max_tries = 8;
 
 /// The triangles of a mesh in a tree.
 class FaceTree {
@@ -191,8 +191,8 @@ class Coarsener {
     std::optional<Mesh> best;
     std::vector<Index> kept;
     std::size_t least = 0;
-    double roughness = 2e-3;
-    for (int i = 0; i < max_tries; ++i, roughness *= 0.75) {
+    double roughness = 1e-3;
+    for (int i = 0; i < max_tries; ++i, roughness /= 2) {
       auto [mesh, from] = simplified(vertices, roughness, static_cast<unsigned>(i));
       if (!has_same_form(mesh, from)) continue;
       const std::size_t crossings = crossings_of(mesh);
