@@ -108,6 +108,7 @@ softbody::MeshSource mesh_source(std::span<const float> xyz, std::span<const std
   if (imported->findings.closed && softbody::volume(mesh.vertices, mesh.triangles) < 1e-9 * extent * extent * extent)
     throw Error("mesh: is closed but holds no volume");
   softbody::connect_triangles(mesh);
+  softbody::add_coarse_mesh(*imported, 0);
   return {.kind = "file", .file = {}, .imported = std::move(imported)};
 }
 

@@ -63,7 +63,7 @@ Index World::first_vertex(Index body) const {
 
 std::span<const std::array<Index, 3>> World::triangles(Index body) const {
   impl_->require_body(body);
-  return impl_->world.model(body).mesh.triangles;
+  return impl_->world.model(body).shown().mesh.triangles;
 }
 
 Positions World::positions() const {
@@ -74,11 +74,21 @@ Positions World::positions() const {
 std::vector<Vector> World::velocities() const {
   const softbody::World& world = impl_->world;
   std::vector<Vector> all;
-  for (Index body = 0; body < bodies(); ++body)
+  for (Index body = 0; body < bodies(); ++body) {
+    const auto& fine = world.model(body).fine;
+    const auto velocity = [&](Index vertex) {
+      if (!fine) return world.particle(body, vertex).velocity;
+      const softbody::Embedding::Hold& hold = fine->embedding()[vertex];
+      glm::dvec3 sum(0.0);
+      for (int k = 0; k < 3; ++k)
+        sum += double{hold.weight[k]} * world.particle(body, hold.corner[std::size_t(k)]).velocity;
+      return sum;
+    };
     for (Index vertex = 0; vertex < world.bodies().size(body); ++vertex) {
-      const glm::dvec3 v = world.particle(body, vertex).velocity;
+      const glm::dvec3 v = velocity(vertex);
       all.push_back({v.x, v.y, v.z});
     }
+  }
   return all;
 }
 

@@ -74,8 +74,9 @@ class Importer {
     orient_faces();
     connect_triangles(mesh_);
     begin("making a coarse mesh to simulate");
-    std::optional<CoarseMesh> coarse = coarse_mesh();
-    return {std::move(mesh_), findings_, std::move(coarse)};
+    ImportedMesh imported{std::move(mesh_), findings_};
+    add_coarse_mesh(imported, file_.resolution);
+    return imported;
   }
 
  private:
@@ -178,19 +179,6 @@ class Importer {
       fail("is closed but holds no volume; leave out one of its sides, or give it thickness");
   }
 
-  std::optional<CoarseMesh> coarse_mesh() {
-    findings_.particles = mesh_.vertices.size();
-    const std::size_t most = file_.resolution > 0 ? file_.resolution : max_simulated_vertices;
-    if (mesh_.vertices.size() <= most) return {};
-    std::optional<CoarseMesh> coarse = coarsen(mesh_, file_.resolution > 0 ? file_.resolution : default_resolution);
-    findings_.too_fine = !coarse;
-    if (!coarse) return {};
-    findings_.particles = coarse->mesh.vertices.size();
-    findings_.distance = coarse->distance;
-    findings_.crossings = coarse->crossings;
-    return coarse;
-  }
-
   /// Returns what is wrong with the surface, with line and vertex numbers of the file.
   std::string reason(const SurfaceError& error) const {
     std::vector<std::size_t> faces;
@@ -236,6 +224,19 @@ class Importer {
 };
 
 }  // namespace
+
+void add_coarse_mesh(ImportedMesh& imported, std::size_t resolution) {
+  const std::size_t vertices = imported.mesh.vertices.size();
+  ImportFindings& findings = imported.findings;
+  findings.particles = vertices;
+  if (vertices <= (resolution > 0 ? resolution : max_simulated_vertices)) return;
+  imported.coarse = coarsen(imported.mesh, resolution > 0 ? resolution : default_resolution);
+  findings.too_fine = !imported.coarse;
+  if (!imported.coarse) return;
+  findings.particles = imported.coarse->mesh.vertices.size();
+  findings.distance = imported.coarse->distance;
+  findings.crossings = imported.coarse->crossings;
+}
 
 ImportedMesh import_mesh(const MeshFile& file, const std::function<void(std::string_view)>& begin_stage) {
   return Importer(file, begin_stage).run();

@@ -54,6 +54,10 @@ struct ImportedMesh {
   const Mesh& simulated() const { return coarse ? coarse->mesh : mesh; }
 };
 
+/// Adds the coarse mesh that is simulated in place of `mesh`, if that is too fine, and says so in the findings.
+/// resolution: as in MeshFile.
+void add_coarse_mesh(ImportedMesh& imported, std::size_t resolution);
+
 inline constexpr std::size_t max_imported_vertices = 100'000;                    // after welding
 inline constexpr std::uintmax_t max_mesh_file_size = std::uintmax_t{256} << 20;  // bytes
 
