@@ -289,7 +289,7 @@ TEST_F(FineBody, IsMovedByContactsOfItsCoarseSurface) {
     const collide::Frame at = world.positions();
     const float lowest = *std::ranges::min_element(at.y);
     EXPECT_NEAR(lowest, 0, distance + 0.02) << surface;
-    EXPECT_GT(glm::distance(motion(world, 0).centre, motion(world, 1).centre), 0.7) << surface;
+    EXPECT_GT(glm::distance(motion(world, 0).centre, motion(world, 1).centre), 0.6) << surface;
     EXPECT_LT(measure(world).max_speed, 2.0) << surface;
   }
 }

@@ -1,0 +1,110 @@
+#include "app/report/solver/coarse.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "app/base/timings.h"
+#include "app/files/scene_folder.h"
+#include "app/report/files.h"
+#include "softbody/model/body_model.h"
+#include "softbody/world/world.h"
+
+namespace app::report {
+namespace {
+
+constexpr int frames = 60, apart = 5;  // frames between two looks
+
+/// Returns the creature of the scene over a solid sphere, by contact of surfaces.
+softbody::Scene creature() {
+  softbody::Scene scene = softbody::find_scene("shapes", files::scene_folder());
+  const auto is_creature = [](const softbody::BodySource& body) { return body.mesh.file.path.stem() == "creature"; };
+  scene.bodies = {*std::ranges::find_if(scene.bodies, is_creature)};
+  scene.bodies[0].position = {0.05, 2.7, 0.1};
+  scene.captions.clear();
+  return scene;
+}
+
+/// The vertices that are shown, about their middle, at one look.
+struct Look {
+  glm::dvec3 middle{0.0};
+  std::vector<glm::dvec3> about;
+};
+
+Look look_at(const softbody::World& world) {
+  const collide::Frame at = world.positions();
+  Look look;
+  for (std::size_t v = 0; v < at.x.size(); ++v) look.about.emplace_back(at.x[v], at.y[v], at.z[v]);
+  for (const glm::dvec3& p : look.about) look.middle += p / double(look.about.size());
+  for (glm::dvec3& p : look.about) p -= look.middle;
+  return look;
+}
+
+struct Fall {
+  std::vector<Look> looks;
+  double seconds = 0;  // of the processor
+};
+
+Fall fall(const softbody::Scene& scene) {
+  softbody::World world(scene, {});
+  world.set_method("sorted-grid");
+  Fall done;
+  for (int frame = 1; frame <= frames; ++frame) {
+    const double start = thread_seconds();
+    world.step();
+    done.seconds += thread_seconds() - start - 1e-3 * world.last_step().detect_ms;
+    if (frame % apart == 0) done.looks.push_back(look_at(world));
+  }
+  return done;
+}
+
+double rms_distance(const Look& a, const Look& b) {
+  double squares = 0;
+  for (std::size_t v = 0; v < a.about.size(); ++v) {
+    const glm::dvec3 way = a.about[v] - b.about[v];
+    squares += glm::dot(way, way);
+  }
+  return std::sqrt(squares / double(a.about.size()));
+}
+
+}  // namespace
+
+CoarseResults measure_coarse(bool quick) {
+  softbody::Scene scene = creature();
+  softbody::MeshFile file = scene.bodies[0].mesh.file;
+  const std::size_t vertices = scene.bodies[0].mesh.vertex_count();
+  std::vector<std::size_t> resolutions{200, 400, 800, 1600, 3200, vertices};
+  if (quick) resolutions = {400, 800, 3200};
+  std::vector<softbody::Scene> scenes;
+  for (const std::size_t resolution : resolutions) {
+    file.resolution = resolution;
+    scene.bodies[0].mesh = softbody::MeshSource::from_file(file);
+    scenes.push_back(scene);
+  }
+  std::vector<Fall> falls(scenes.size());
+  std::vector<Timings> seconds(scenes.size());
+  const int repetitions = quick ? 1 : 3;
+  for (int r = 0; r < repetitions; ++r)
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      say("Coarse meshes", double(r * int(scenes.size()) + int(i)) / double(repetitions * int(scenes.size())));
+      falls[i] = fall(scenes[i]);
+      seconds[i].ms.push_back(1e3 * falls[i].seconds);
+    }
+  CoarseResults results{vertices, {}};
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const softbody::ImportedMesh& mesh = *scenes[i].bodies[0].mesh.imported;
+    const double radius = softbody::bounding_radius(mesh.mesh);
+    CoarseRun& run = results.runs.emplace_back(CoarseRun{mesh.findings.particles, 0, 0, 0, 0});
+    run.distance = mesh.findings.distance.value_or(0) / radius;
+    for (std::size_t k = 0; k < falls[i].looks.size(); ++k) {
+      const Look &here = falls[i].looks[k], &finest = falls.back().looks[k];
+      run.middle = std::max(run.middle, glm::distance(here.middle, finest.middle) / radius);
+      run.shape = std::max(run.shape, rms_distance(here, finest) / radius);
+    }
+    run.cost = seconds[i].median() / seconds.back().median();
+  }
+  return results;
+}
+
+}  // namespace app::report
