@@ -194,7 +194,7 @@ class Coarsener {
     double roughness = 1e-3;
     for (int i = 0; i < max_tries; ++i, roughness /= 2) {
       auto [mesh, from] = simplified(vertices, roughness, static_cast<unsigned>(i));
-      if (!has_same_form(mesh, from)) continue;
+      if (mesh.vertices.size() == at_.size() || !has_same_form(mesh, from)) continue;
       const std::size_t crossings = crossings_of(mesh);
       if (!best || crossings < least) best = std::move(mesh), kept = std::move(from), least = crossings;
       if (least == 0) break;
