@@ -5,7 +5,7 @@ root=$(CDPATH='' cd -- "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # What the program is built from and runs on (Debian 12 and 13, Ubuntu 24.04).
 program_packages=(g++ cmake ninja-build pkg-config libglfw3-dev libglew-dev libglm-dev libimgui-dev libgl-dev
   libegl-dev libgl1-mesa-dri libdecor-0-plugin-1-cairo libpng-dev libwebp-dev libhwy-dev libgmp-dev
-  libeigen3-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev fonts-inter gnuplot-nox)
+  libeigen3-dev libmeshoptimizer-dev libtomlplusplus-dev libcli11-dev libfmt-dev nlohmann-json3-dev fonts-inter gnuplot-nox)
 
 say() { printf '%s\n' "$*" >&2; }
 fail() { say "$*"; exit 2; }

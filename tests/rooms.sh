@@ -15,7 +15,7 @@ collide/surface: collide/core
 collide/oracle: collide/core collide/surface
 collide: collide/core collide/methods collide/exact
 collide/api: collide/api/sbcollide collide/core collide
-softbody/mesh:
+softbody/mesh: collide/core collide/surface collide/oracle
 softbody/model: collide/core collide/surface softbody/mesh softbody/contact softbody/forces
 softbody/state: softbody/mesh softbody/model
 softbody/contact: collide/core collide/surface softbody/mesh softbody/state softbody/model

@@ -25,4 +25,22 @@ struct DrawnPositions {
   }
 };
 
+/// The positions at which the meshes of a world are drawn: those that it shows, and those that it simulates.
+struct DrawnMeshes {
+  DrawnPositions shown, simulated;
+
+  /// From `before` to the present of the world, both of which must outlive this.
+  DrawnMeshes(const softbody::World& world, const WorldPositions& before, float part)
+      : shown(between(before.shown(), world.positions(), part)),
+        simulated(between(before.simulated(), world.simulated().positions, part)) {}
+  /// At the present of the world.
+  explicit DrawnMeshes(const softbody::World& world)
+      : shown{.now = world.positions()}, simulated{.now = world.simulated().positions} {}
+
+ private:
+  static DrawnPositions between(const Positions& before, const collide::Frame& now, float part) {
+    return {now, before.x, before.y, before.z, part};
+  }
+};
+
 }  // namespace app::compare

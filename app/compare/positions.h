@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "collide/core/frame.h"
+#include "softbody/world/world.h"
 
 namespace app::compare {
 
@@ -16,6 +17,23 @@ struct Positions {
     y.assign(frame.y.begin(), frame.y.end());
     z.assign(frame.z.begin(), frame.z.end());
   }
+};
+
+/// The positions of the meshes that a world shows, and of those that it simulates.
+class WorldPositions {
+ public:
+  void copy(const softbody::World& world) {
+    const collide::Frame shown = world.positions(), simulated = world.simulated().positions;
+    shown_.copy(shown);
+    same_ = simulated.x.data() == shown.x.data();
+    if (!same_) simulated_.copy(simulated);
+  }
+  const Positions& shown() const { return shown_; }
+  const Positions& simulated() const { return same_ ? shown_ : simulated_; }
+
+ private:
+  Positions shown_, simulated_;
+  bool same_ = true;  // simulated_ is not used
 };
 
 }  // namespace app::compare

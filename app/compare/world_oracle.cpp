@@ -19,11 +19,11 @@ collide::surface::Surfaces surfaces_of(const softbody::World& world) {
 }
 
 collide::oracle::Overlaps WorldOracle::overlaps(const softbody::World& world) {
-  return collide::oracle::find_overlaps(world.positions(), surfaces_of(world), workers_);
+  return collide::oracle::find_overlaps(world.simulated().positions, surfaces_of(world), workers_);
 }
 
 double WorldOracle::max_displacement(const softbody::World& world) const {
-  const collide::Frame now = world.positions();
+  const collide::Frame now = world.simulated().positions;
   assert(now.x.size() >= before_.x.size());
   double max2 = 0;
   for (std::size_t v = 0; v < before_.x.size(); ++v) {
@@ -34,14 +34,14 @@ double WorldOracle::max_displacement(const softbody::World& world) const {
 }
 
 std::vector<collide::oracle::Crossing> WorldOracle::crossings(const softbody::World& world) {
-  const collide::Frame now = world.positions(), before{before_.x, before_.y, before_.z, &bodies_};
+  const collide::Frame now = world.simulated().positions, before{before_.x, before_.y, before_.z, &bodies_};
   const std::size_t known = bodies_.vertex_count();  // new bodies come after them
   const collide::Frame after{now.x.first(known), now.y.first(known), now.z.first(known), &bodies_};
   std::vector<collide::oracle::Crossing> found;
   if (max_displacement(world) > 0) found = collide::oracle::find_crossings(before, after, surfaces_, workers_);
   std::swap(earlier_, before_);
   before_.copy(now);
-  bodies_ = world.bodies();
+  bodies_ = *now.bodies;
   surfaces_ = surfaces_of(world);
   return found;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Applies the surface oracle to a world in motion.
+// Applies the surface oracle to the simulated meshes of a world in motion.
 
 #include "app/compare/positions.h"
 #include "collide/core/workers.h"
@@ -8,7 +8,7 @@
 
 namespace app::compare {
 
-/// Returns the surface of each body, for the oracle.
+/// Returns the simulated surface of each body, for the oracle.
 collide::surface::Surfaces surfaces_of(const softbody::World& world);
 
 class WorldOracle {

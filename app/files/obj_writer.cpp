@@ -58,8 +58,8 @@ std::vector<const softbody::BodyModel*> models_of(const softbody::World& world) 
 
 ObjWriter::ObjWriter(const softbody::World& world) : models_(models_of(world)), first_{0} {
   for (const softbody::BodyModel* model : models_) {
-    faces_.push_back(faces_of(model->mesh, first_.back()));
-    for (const glm::dvec3& v : model->mesh.vertices) {
+    faces_.push_back(faces_of(model->shown().mesh, first_.back()));
+    for (const glm::dvec3& v : model->shown().mesh.vertices) {
       x_.push_back(static_cast<float>(v.x));
       y_.push_back(static_cast<float>(v.y));
       z_.push_back(static_cast<float>(v.z));

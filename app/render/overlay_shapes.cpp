@@ -107,16 +107,16 @@ void add_contact(Points positions, const collide::Contact& contact, const glm::v
   points.points.push_back({b, glm::vec4(colour, 1.0f)});
 }
 
-void add_contacts(const softbody::World& world, Points positions, engine::FrameData& frame) {
+void add_contacts(const softbody::World& world, const DrawnPoints& at, engine::FrameData& frame) {
   engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = half_hidden};
   engine::PointSet points{.points = {}, .diameter = 5.0f, .occluded_alpha = half_hidden};
   const auto body = world.vertex_body();
   for (const collide::Contact& contact : world.detection().contacts) {
     const bool inside = body[contact.a] == body[contact.b];
-    add_contact(positions, contact, inside ? contact_inside_colour : contact_between_colour, lines, points);
+    add_contact(at.shown, contact, inside ? contact_inside_colour : contact_between_colour, lines, points);
   }
   for (const softbody::SolidContactPoint& contact : softbody::solid_contacts(world)) {
-    points.points.push_back({positions[contact.vertex], glm::vec4(contact_solid_colour, 1.0f)});
+    points.points.push_back({at.simulated[contact.vertex], glm::vec4(contact_solid_colour, 1.0f)});
   }
   frame.lines.push_back(std::move(lines));
   frame.points.push_back(std::move(points));
@@ -134,13 +134,13 @@ void add_missed(const std::vector<collide::Contact>& missed, Points positions, e
 
 /// Adds both closest points, and the normal at the second one, half a mean edge long.
 void add_surface_contacts(const softbody::World& world, std::span<const softbody::SurfaceContactPoint> contacts,
-                          Points positions, engine::FrameData& frame) {
+                          Points particles, engine::FrameData& frame) {
   engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = half_hidden};
   engine::PointSet points{.points = {}, .diameter = 5.0f, .occluded_alpha = half_hidden};
   for (const softbody::SurfaceContactPoint& contact : contacts) {
     glm::vec3 first(0.0f), second(0.0f);
     for (std::size_t k = 0; k < contact.vertex.size(); ++k)
-      (contact.weight[k] > 0 ? first : second) += std::abs(contact.weight[k]) * positions[contact.vertex[k]];
+      (contact.weight[k] > 0 ? first : second) += std::abs(contact.weight[k]) * particles[contact.vertex[k]];
     const glm::vec4 colour(contact.a == contact.b ? contact_inside_colour : contact_between_colour, 1.0f);
     const float length = 0.5f * static_cast<float>(world.model(contact.a).mean_edge);
     lines.lines.push_back({second, second + length * contact.normal, colour});
@@ -170,32 +170,46 @@ void widen(const collide::surface::Surface& surface, std::span<float> marks) {
   for (std::size_t v = 0; v < marks.size(); ++v) marks[v] = std::max(marked[v], 2.5f * marks[v]);
 }
 
+/// Brings the marks of a body's particles, widened, to the vertices that are drawn.
+void spread(const softbody::BodyModel& model, std::span<float> particles, std::span<float> drawn) {
+  widen(*model.surface, particles);
+  if (!model.fine) {
+    std::ranges::copy(particles, drawn.begin());
+    return;
+  }
+  const softbody::Embedding& embedding = model.fine->embedding();
+  for (std::size_t v = 0; v < drawn.size(); ++v)
+    for (int k = 0; k < 3; ++k)
+      drawn[v] += embedding[v].weight[k] * particles[embedding[v].corner[static_cast<std::size_t>(k)]];
+}
+
 /// Marks the regions of the surfaces that are inside other bodies or pierce them, with a margin that is outside and so
 /// in sight. Adds the deepest vertex of each pair of bodies, joined to the surface that it passed.
-void add_marks(const softbody::World& world, std::span<const compare::SurfaceMark> marks, Points positions,
+void add_marks(const softbody::World& world, std::span<const compare::SurfaceMark> marks, Points particles,
                engine::FrameData& frame) {
   frame.mark_colour = contact_missed_colour;
   frame.marks.assign(frame.positions.size(), 0.0f);
-  const auto body_of = world.vertex_body();
+  const collide::Bodies& bodies = *world.simulated().positions.bodies;
+  std::vector<float> marked_particles(particles.size(), 0.0f);
   std::map<std::pair<softbody::BodyId, softbody::BodyId>, const compare::SurfaceMark*> deepest;
   std::set<softbody::BodyId> marked;
   for (const compare::SurfaceMark& mark : marks) {
-    assert(mark.vertex < positions.size());
-    const softbody::BodyId body = body_of[mark.vertex];
-    frame.marks[mark.vertex] = 1.0f;
+    assert(mark.vertex < particles.size());
+    const softbody::BodyId body = bodies.body_of(mark.vertex);
+    marked_particles[mark.vertex] = 1.0f;
     marked.insert(body);
     if (mark.piercing) continue;
     const compare::SurfaceMark*& deepest_here = deepest[std::minmax(body, softbody::BodyId{mark.body})];
     if (!deepest_here || glm::length(deepest_here->offset) < glm::length(mark.offset)) deepest_here = &mark;
   }
   for (const softbody::BodyId body : marked)
-    widen(*world.model(body).surface,
-          std::span(frame.marks).subspan(world.bodies().first[body], world.bodies().size(body)));
+    spread(world.model(body), std::span(marked_particles).subspan(bodies.first[body], bodies.size(body)),
+           std::span(frame.marks).subspan(world.bodies().first[body], world.bodies().size(body)));
   engine::LineSet lines{.lines = {}, .width = 1.5f, .occluded_alpha = half_hidden};
   engine::PointSet points{.points = {}, .diameter = 4.5f, .occluded_alpha = half_hidden};
   const glm::vec4 colour(contact_missed_colour, 1.0f);
   for (const auto& [pair, mark] : deepest) {
-    const glm::vec3 vertex = positions[mark->vertex];
+    const glm::vec3 vertex = particles[mark->vertex];
     lines.lines.push_back({vertex, vertex + mark->offset, colour});
     points.points.push_back({vertex, colour});
   }
@@ -234,13 +248,13 @@ bool is_near(const softbody::BodyModel& model, Points body, const Viewpoint& vie
   return edge * viewpoint.pixels_at_one_metre > min_edge * glm::distance(body.front(), viewpoint.eye);
 }
 
-void add_springs(const softbody::World& world, const Viewpoint& viewpoint, Points positions, engine::FrameData& frame) {
+void add_springs(const softbody::World& world, const Viewpoint& viewpoint, Points particles, engine::FrameData& frame) {
   engine::LineSet structural{.lines = {}, .width = 1.75f, .occluded_alpha = hidden};
   engine::LineSet others{.lines = {}, .width = 1.0f, .occluded_alpha = hidden};
-  const collide::Bodies& bodies = world.bodies();
+  const collide::Bodies& bodies = *world.simulated().positions.bodies;
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     const softbody::BodyModel& model = world.model(b);
-    const Points body = positions.subspan(bodies.first[b], bodies.size(b));
+    const Points body = particles.subspan(bodies.first[b], bodies.size(b));
     const std::vector<char> in_sight = vertices_in_sight(model, body, viewpoint.eye);
     add_springs(softbody::springs<softbody::StructuralSprings>(model), body, in_sight, 1.0f, structural);
     if (!is_near(model, body, viewpoint)) continue;
@@ -256,7 +270,7 @@ void add_springs(const softbody::World& world, const Viewpoint& viewpoint, Point
 void add_outline(const softbody::World& world, softbody::BodyId id, const glm::vec3& eye, Points positions,
                  const glm::vec3& colour, engine::LineSet& lines) {
   constexpr float outside = 0.08f;  // of the length of an edge
-  const collide::surface::Surface& surface = *world.model(id).surface;
+  const collide::surface::Surface& surface = *world.model(id).shown().surface;
   const Points body = positions.subspan(world.bodies().first[id], world.bodies().size(id));
   const auto normal_of = [&](collide::Index face) {  // twice as long as its area
     const auto& [a, b, c] = surface.triangles()[face];
@@ -294,11 +308,11 @@ void add_outlines(const softbody::World& world, const OverlayRequest& request, c
 }
 
 /// Adds the spring of the mouse: from the point that it holds to its target.
-void add_grab(const softbody::World& world, const softbody::Grab& grab, Points positions, engine::FrameData& frame) {
+void add_grab(const softbody::World& world, const softbody::Grab& grab, Points particles, engine::FrameData& frame) {
   glm::vec3 held(0.0f);
   for (int i = 0; i < 3; ++i)
     held += static_cast<float>(grab.weights[i]) *
-            positions[world.bodies().first[grab.body] + grab.corners[static_cast<std::size_t>(i)]];
+            particles[world.simulated().positions.bodies->first[grab.body] + grab.corners[static_cast<std::size_t>(i)]];
   const glm::vec4 colour(hand_colour, 1.0f);
   const glm::vec3 target(grab.target);
   frame.lines.push_back({.lines = {{held, target, colour}}, .width = 2.5f, .occluded_alpha = seen_through});
@@ -314,21 +328,22 @@ engine::Box cell_box(const compare::Cell& cell, const glm::vec3& size, const glm
 }
 
 void add_overlays(const softbody::World& world, const OverlayRequest& request, const Viewpoint& viewpoint,
-                  Points positions, engine::FrameData& frame) {
+                  const DrawnPoints& at, engine::FrameData& frame) {
+  const Points positions = at.shown, particles = at.simulated;
   assert(positions.size() == world.bodies().vertex_count());
   const Overlays& shown = request.shown;
-  if (shown.springs) add_springs(world, viewpoint, positions, frame);
+  if (shown.springs) add_springs(world, viewpoint, particles, frame);
   if (shown.body_boxes) add_body_boxes(world, positions, !shown.boxes, frame);
   if (request.debug && shown.cells) add_cells(request, world.collision().cell_size, frame);
   if (request.debug && shown.boxes) add_boxes(request, frame);
   if (request.debug && request.bucket) add_bucket(request, world.collision().cell_size, positions, frame);
   if (shown.areas) add_areas(request.areas, frame);
-  if (shown.contacts) add_contacts(world, positions, frame);
+  if (shown.contacts) add_contacts(world, at, frame);
   if (shown.missed && request.missed) add_missed(*request.missed, positions, frame);
-  if (shown.surface_contacts) add_surface_contacts(world, request.surface_contacts, positions, frame);
-  if (shown.true_surfaces) add_marks(world, request.marks, positions, frame);
+  if (shown.surface_contacts) add_surface_contacts(world, request.surface_contacts, particles, frame);
+  if (shown.true_surfaces) add_marks(world, request.marks, particles, frame);
   add_outlines(world, request, viewpoint.eye, positions, frame);
-  if (const auto& grab = world.grabbed()) add_grab(world, *grab, positions, frame);
+  if (const auto& grab = world.grabbed()) add_grab(world, *grab, particles, frame);
 }
 
 }  // namespace app::render

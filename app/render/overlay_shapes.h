@@ -14,8 +14,13 @@ struct Viewpoint {
   float pixels_at_one_metre;
 };
 
-/// Adds the requested overlays. positions: one for each vertex of the world.
+/// Where the vertices of a world are drawn: of the meshes that it shows, and of those that it simulates.
+struct DrawnPoints {
+  std::span<const glm::vec3> shown, simulated;
+};
+
+/// Adds the requested overlays.
 void add_overlays(const softbody::World& world, const OverlayRequest& request, const Viewpoint& viewpoint,
-                  std::span<const glm::vec3> positions, engine::FrameData& frame);
+                  const DrawnPoints& at, engine::FrameData& frame);
 
 }  // namespace app::render

@@ -40,6 +40,17 @@ float clear_of_solids(const engine::Ray& ray, const softbody::Scene& scene, floa
   return static_cast<float>(nearest);
 }
 
+/// Where a fine mesh is drawn, names the particles that hold its vertex nearest to the point.
+void hold_by_particles(Pick& pick, const softbody::BodyModel& model) {
+  if (!model.fine) return;
+  int nearest = 0;
+  for (const int k : {1, 2})
+    if (pick.weights[k] > pick.weights[nearest]) nearest = k;
+  const softbody::Embedding::Hold& hold = model.fine->embedding()[pick.corners[static_cast<std::size_t>(nearest)]];
+  pick.corners = hold.corner;
+  pick.weights = hold.weight;
+}
+
 }  // namespace
 
 BoundingSphere bounding_sphere(const softbody::World& world, softbody::BodyId body,
@@ -65,12 +76,13 @@ std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world,
   for (softbody::BodyId body = 0; body < world.bodies().count(); ++body) {
     if (!passes(ray, bounding_sphere(world, body, positions))) continue;
     const collide::Index first = world.bodies().first[body];
-    for (const softbody::Triangle& t : world.model(body).mesh.triangles) {
+    for (const softbody::Triangle& t : world.model(body).shown().mesh.triangles) {
       const auto hit = meet(ray, positions[first + t[0]], positions[first + t[1]], positions[first + t[2]]);
       if (!hit || (nearest && hit->distance >= nearest->distance)) continue;
       nearest = Pick{body, t, hit->weights, ray.origin + hit->distance * ray.direction, hit->distance};
     }
   }
+  if (nearest) hold_by_particles(*nearest, world.model(nearest->body));
   if (nearest && clear_of_solids(ray, world.scene(), nearest->distance) < nearest->distance) return std::nullopt;
   return nearest;
 }

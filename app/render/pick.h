@@ -10,10 +10,10 @@
 
 namespace app::render {
 
-/// A point on a triangle of a body.
+/// A point on the surface of a body.
 struct Pick {
   softbody::BodyId body;
-  softbody::Triangle corners;  // vertices of the body, counted from its first
+  softbody::Triangle corners;  // particles of the body, counted from its first, that hold the point
   glm::vec3 weights;           // barycentric, of the corners
   glm::vec3 point;             // m
   float distance;              // m, from the ray's origin

@@ -60,7 +60,7 @@ std::vector<engine::MeshDraw> SceneView::gather_bodies(const softbody::World& wo
   const softbody::BodyModel* last = nullptr;
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     const softbody::BodyModel& model = world.model(b);
-    meshes.push_back(&model == last ? meshes.back() : &upload(model.mesh));
+    meshes.push_back(&model == last ? meshes.back() : &upload(model.shown().mesh));
     last = &model;
     draws.push_back({meshes.back()->handle, first + bodies.first[b], bodies.size(b), {}});
   }
@@ -89,7 +89,7 @@ void SceneView::gather_ghost(const softbody::World& ghost, const compare::DrawnP
   };
   std::vector<engine::MeshDraw> draws = gather_bodies(ghost, first);
   for (softbody::BodyId b = 0; b < draws.size(); ++b) {
-    const auto radius = static_cast<float>(ghost.model(b).radius);
+    const auto radius = static_cast<float>(ghost.model(b).shown().radius);
     const bool overlaps = glm::distance(centre(draws[b].first_vertex - first, draws[b].vertex_count),
                                         centre(draws[b].first_vertex, draws[b].vertex_count)) < 2 * radius;
     draws[b].colour = ghost_colour;
@@ -135,7 +135,7 @@ void SceneView::gather_solids(const softbody::Scene& scene) {
 }
 
 void SceneView::draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
-                     const engine::Viewport& viewport, float pixel_scale, const compare::DrawnPositions& positions) {
+                     const engine::Viewport& viewport, float pixel_scale, const compare::DrawnMeshes& at) {
   frame_ = {};
   frame_.pixel_scale = pixel_scale;
   // The colours of overlays have meanings, so the bodies are dimmed. Missed contacts have marks of their own.
@@ -143,11 +143,13 @@ void SceneView::draw(const softbody::World& world, const OverlayRequest& overlay
   coloured.missed = false;
   const bool dimmed = coloured.any() || overlays.bucket;
   positions_.clear();
-  if (positions_.capacity() > 8 * positions.size()) {  // of a world that was left
+  if (positions_.capacity() > 8 * at.shown.size()) {  // of a world that was left
     positions_ = {};
     normals_ = {};
   }
-  gather_positions(positions);
+  gather_positions(at.shown);
+  particles_.clear();
+  for (std::size_t i = 0; i < at.simulated.size(); ++i) particles_.push_back(at.simulated[i]);
   frame_.meshes = gather_bodies(world, 0);
   for (softbody::BodyId b = 0; b < frame_.meshes.size(); ++b) {
     const glm::vec3 colour = body_colour(world.body(b).number);
@@ -167,7 +169,8 @@ void SceneView::draw(const softbody::World& world, const OverlayRequest& overlay
   frame_.bounds_radius = enclosing_radius(around.centre, around.radius, positions_);
 
   const float pixels = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
-  add_overlays(world, overlays, {camera.eye(), pixels / pixel_scale}, std::span(positions_).first(vertices), frame_);
+  add_overlays(world, overlays, {camera.eye(), pixels / pixel_scale},
+               {std::span(positions_).first(vertices), particles_}, frame_);
   if (overlays.highlight) {
     std::ranges::copy(overlays.highlight->boxes, std::back_inserter(frame_.boxes));
     std::ranges::copy(overlays.highlight->lines, std::back_inserter(frame_.lines));

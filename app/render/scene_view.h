@@ -41,11 +41,11 @@ class SceneView {
   explicit SceneView(const std::filesystem::path& shaders, int threads = 1) : renderer_(shaders), workers_(threads) {}
 
   void draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
-            const engine::Viewport& viewport, float pixel_scale, const compare::DrawnPositions& positions);
+            const engine::Viewport& viewport, float pixel_scale, const compare::DrawnMeshes& at);
   /// Draws each vertex at its present position.
   void draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
             const engine::Viewport& viewport, float pixel_scale) {
-    draw(world, overlays, camera, viewport, pixel_scale, compare::DrawnPositions{.now = world.positions()});
+    draw(world, overlays, camera, viewport, pixel_scale, compare::DrawnMeshes(world));
   }
 
   /// Draws the same data as the last draw() from another camera. The world is not read; labels and fading stay the
@@ -88,6 +88,7 @@ class SceneView {
   std::map<std::vector<softbody::Triangle>, UploadedMesh> meshes_;
   std::vector<std::pair<softbody::MeshSource, double>> radii_;  // m, of the meshes so far
   std::vector<glm::vec3> positions_, normals_;
+  std::vector<glm::vec3> particles_;  // of the simulated meshes
   engine::FrameData frame_;
 };
 

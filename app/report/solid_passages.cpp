@@ -23,7 +23,7 @@ constexpr float opposite = -0.2f;
 }  // namespace
 
 glm::dvec3 middle_of(const softbody::World& world, collide::Index body) {
-  const collide::Frame at = world.positions();
+  const collide::Frame at = world.simulated().positions;
   glm::dvec3 sum{0.0};
   for (collide::Index v = at.bodies->first[body]; v < at.bodies->first[body + 1]; ++v)
     sum += glm::dvec3(at.x[v], at.y[v], at.z[v]);

@@ -27,7 +27,7 @@ using softbody::Material;
 
 namespace {
 
-constexpr std::size_t many_vertices = 10'000;
+constexpr std::size_t many_particles = 3000;
 // In tolerances. A vertex above the centre of a regular face has a distance of edge / sqrt(3) to the corners.
 constexpr double finest_edge = 0.2, coarsest_edge = 1.732;
 
@@ -50,8 +50,7 @@ std::vector<std::string> lines_about(const FileReader::Mesh& read, const softbod
                   grouped(mesh.imported->mesh.vertices.size()), grouped(mesh.imported->mesh.triangles.size())),
       fmt::format("scaled from {:.4g} to {:.4g} m", f.file_extent, f.extent)};
   const std::string changed = softbody::remarks(f);
-  if (mesh.imported->mesh.vertices.size() > many_vertices)
-    lines.push_back("so many vertices that the world may run slower than real time");
+  if (f.particles > many_particles) lines.push_back("so many particles that the world may run slower than real time");
   if (world.scene().contact_surface == softbody::ContactSurface::vertices) {
     const double edge = read.model->mean_edge, tolerance = static_cast<double>(world.collision().tolerance);
     if (edge < finest_edge * tolerance)
@@ -83,19 +82,23 @@ bool is_rest_shape(const std::filesystem::path& file) { return file.filename() =
 }  // namespace
 
 FileReader::Answer FileReader::answer(const Question& question, const std::stop_token&) const {
+  const auto begin = [&](std::string_view stage) { question.progress->begin(stage); };
   try {
-    if (const auto* file = std::get_if<softbody::MeshFile>(&question)) {
-      Mesh read{softbody::MeshSource::from_file(*file), nullptr};
+    if (const auto* file = std::get_if<softbody::MeshFile>(&question.file)) {
+      Mesh read{softbody::MeshSource::from_file(*file, begin), nullptr};
+      begin("preparing the body");
       read.model = softbody::shared_body_model(read.mesh, imported_material(read.mesh.imported->findings.extent));
       return read;
     }
-    if (const auto* frames = std::get_if<FramesToRead>(&question)) {
+    if (const auto* frames = std::get_if<FramesToRead>(&question.file)) {
       softbody::Scene scene = files::recorded_scene(frames->files);
       for (const int number : {1, scene.recording->frame_count() - 1}) scene.recording->frame(number);
       return world_of(frames->files.front(), std::move(scene), frames->threads);
     }
-    const auto& [path, threads, presets] = std::get<SceneToRead>(question);
+    const auto& [path, threads, presets] = std::get<SceneToRead>(question.file);
     return world_of(path, softbody::load_scene(path, presets), threads);
+  } catch (const Cancelled&) {
+    return Cancelled{};
   } catch (const std::exception& error) {
     return std::string(error.what());
   }
@@ -130,8 +133,16 @@ std::string Import::progress() const {
   if (!reading_) return {};
   const auto seconds =
       std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - began_).count();
-  return "reading " + std::filesystem::path(path).filename().string() +
-         (seconds > 0 ? ": " + std::to_string(seconds) + " s so far" : "");
+  std::string text = progress_->cancelled ? "giving up " : "reading ";
+  text += std::filesystem::path(path).filename().string();
+  if (const std::string stage = progress_->stage(); !stage.empty()) text.append(": ").append(stage);
+  return text + (seconds > 0 ? ", " + std::to_string(seconds) + " s so far" : "");
+}
+
+void Import::cancel() {
+  dropped_.clear();
+  together_.clear();
+  if (reading_) progress_->cancelled = true;
 }
 
 void Import::add(FileReport file_report) {
@@ -162,13 +173,15 @@ void Import::open(Session& session) {
   if (!is_mesh(file)) return refuse(path + ": neither a mesh (.obj, .ply) nor a scene (.toml)");
   softbody::MeshFile mesh{.path = std::filesystem::absolute(file), .size = double{size}, .weld = weld};
   if (z_is_up) mesh.up = {0, 0, 1};
+  mesh.resolution = resolution;
   read(std::move(mesh));
 }
 
-void Import::read(FileReader::Question question) {
+void Import::read(decltype(FileReader::Question::file) file) {
   reading_ = true;
   began_ = std::chrono::steady_clock::now();
-  reader_.offer(std::move(question));
+  progress_ = std::make_shared<FileReader::Progress>();
+  reader_.offer({std::move(file), progress_});
 }
 
 void Import::drop(const std::vector<std::string>& files, Session& session) {
@@ -215,7 +228,7 @@ void Import::drop_first(const std::vector<std::string>& files) {
 void Import::update(Session& session) {
   if (auto answer = reader_.take()) {
     reading_ = false;
-    take(session, std::move(*answer));
+    if (!progress_->cancelled) take(session, std::move(*answer));
   }
   if (reading_ || frames_ || dropped_.empty()) return;
   path = dropped_.front();

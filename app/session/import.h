@@ -2,10 +2,13 @@
 // Imports the user's own meshes, scenes and recorded frames: named or dropped on the window, read beside the demo, and
 // reported on.
 
+#include <atomic>
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -17,6 +20,26 @@ namespace app::session {
 
 /// Reads a file and makes its body or world, which may take long. A task for BackgroundWorker.
 struct FileReader {
+  /// How far an answer has got; shared by the two threads.
+  class Progress {
+   public:
+    /// Throws Cancelled if the user does not want the answer any more.
+    void begin(std::string_view stage) {
+      if (cancelled) throw Cancelled{};
+      const std::scoped_lock lock(mutex_);
+      stage_ = stage;
+    }
+    std::string stage() const {
+      const std::scoped_lock lock(mutex_);
+      return stage_;
+    }
+    std::atomic<bool> cancelled = false;
+
+   private:
+    mutable std::mutex mutex_;  // guards the stage
+    std::string stage_;
+  };
+  struct Cancelled {};
   struct SceneToRead {
     std::filesystem::path path;
     int threads;  // of its world
@@ -35,8 +58,11 @@ struct FileReader {
     softbody::Scene scene;
     std::unique_ptr<softbody::World> world;
   };
-  using Question = std::variant<softbody::MeshFile, SceneToRead, FramesToRead>;
-  using Answer = std::variant<Mesh, World, std::string>;  // string: what failed
+  struct Question {
+    std::variant<softbody::MeshFile, SceneToRead, FramesToRead> file;
+    std::shared_ptr<Progress> progress;
+  };
+  using Answer = std::variant<Mesh, World, std::string, Cancelled>;  // string: what failed
   Answer answer(const Question& question, const std::stop_token& stop) const;
 };
 
@@ -63,6 +89,7 @@ class Import {
   float size = 1;                           // m, the largest extent that a mesh is scaled to
   double weld = softbody::MeshFile{}.weld;  // times the size, see softbody::MeshFile
   bool z_is_up = false;                     // in the file; else y is up
+  std::size_t resolution = 0;               // of particles, see softbody::MeshFile
 
   /// Begins to read the file of `path`. A scene then replaces the present one; a mesh is added to it. problem() says
   /// why a file is refused.
@@ -82,8 +109,10 @@ class Import {
 
   /// Returns true while something is read; not while question() waits for the user.
   bool busy() const { return reading_ || (!frames_ && !dropped_.empty()); }
-  /// Returns what is being read, and for how long; empty unless busy().
+  /// Returns what is being read, what is done with it, and for how long; empty unless busy().
   std::string progress() const;
+  /// Gives up what is being read, and all files that wait. busy() until the present stage is over.
+  void cancel();
   /// Returns why the file of `path` was refused; empty if it was not, or if `path` has changed since.
   std::string problem() const { return problem_.about(path); }
   /// Returns the reports since the last load(), in order: all refusals, and the last few of the others.
@@ -105,7 +134,7 @@ class Import {
   void drop_first(const std::vector<std::string>& files);
   void add(FileReport file_report);
   void refuse(const std::string& why);
-  void read(FileReader::Question question);
+  void read(decltype(FileReader::Question::file) file);
   void take(Session& session, FileReader::Answer answer);
   void enter(Session& session, FileReader::World answer);
   void join(Session& session, FileReader::Mesh read);
@@ -118,6 +147,7 @@ class Import {
   std::optional<Frames> frames_;       // what question() is about
   bool reading_ = false;
   std::chrono::steady_clock::time_point began_;
+  std::shared_ptr<FileReader::Progress> progress_;  // of what is read
   BackgroundWorker<FileReader> reader_;
 };
 

@@ -53,7 +53,7 @@ void Session::exchange() {
   const bool late = simulation.history.frame_ms.median(15) > late_ms;
   const int rests = late || simulation.step_ms() > 500 * world().frame_time() ? 10 : 2;
   comparison.exchange(world(), simulation.revision(), simulation.world_number(), rests);
-  surfaces.exchange(world(), simulation.before_last_step(), simulation.revision(), rests);
+  surfaces.exchange(world(), simulation.before_last_step().simulated(), simulation.revision(), rests);
   // With its first report of another world the comparison has let go of the one before; all others did so earlier.
   if (has_left_world_ && comparison.report().id != 0) {
     return_freed_memory();

@@ -46,7 +46,7 @@ Simulation::Simulation(softbody::Scene scene, int threads, std::string scene_nam
   world_ = make_window_world(scene, {}, threads_);
   loaded = {scene, SceneFile(name, scene), list_solids(scene)};
   stability_.restart(*world_);
-  before_last_step_.copy(world_->positions());
+  before_last_step_.copy(*world_);
 }
 
 void Simulation::advance(double elapsed, bool stands_still) {
@@ -60,7 +60,7 @@ void Simulation::advance_one(double elapsed, bool allowed) {
 }
 
 SimulationClock::Step Simulation::step() {
-  before_last_step_.copy(world_->positions());
+  before_last_step_.copy(*world_);
   const bool was_at_rest = world_->all_at_rest();
   const int frame = world_->frame();
   const std::size_t bodies = world_->bodies().count();
@@ -88,7 +88,7 @@ void Simulation::follow_recording(int frame, std::size_t bodies) {
   const bool is_last = world_->frame() + 1 == world_->scene().recording->frame_count();
   if (is_last && !loop) clock.paused = true;
   if (world_->frame() < frame) {  // it begins again, and nothing moved from the end to the start
-    before_last_step_.copy(world_->positions());
+    before_last_step_.copy(*world_);
     forget_later_steps();
   }
   if (world_->bodies().count() >= bodies) return;
@@ -106,9 +106,8 @@ float Simulation::between() const {
   return world_->all_at_rest() ? 1.0f : static_cast<float>(clock.fraction(world_->frame_time()));
 }
 
-compare::DrawnPositions Simulation::drawn_positions(bool whole_steps) const {
-  const compare::Positions& before = before_last_step_;
-  return {world_->positions(), before.x, before.y, before.z, whole_steps ? 1.0f : between()};
+compare::DrawnMeshes Simulation::drawn(bool whole_steps) const {
+  return {*world_, before_last_step_, whole_steps ? 1.0f : between()};
 }
 
 const std::string& Simulation::caption() const {
@@ -185,7 +184,7 @@ void Simulation::keep_drag() {
 
 /// What was found out about the world before is of no use.
 void Simulation::replace(bool new_scene) {
-  before_last_step_.copy(world_->positions());
+  before_last_step_.copy(*world_);
   clock.restart();
   end_drag();
   ++revision_;

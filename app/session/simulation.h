@@ -66,12 +66,12 @@ class Simulation {
   void advance_one(double elapsed, bool allowed);
   /// How long (ms) the last step took, the observer's work with it.
   double step_ms() const { return step_ms_; }
-  const compare::Positions& before_last_step() const { return before_last_step_; }
+  const compare::WorldPositions& before_last_step() const { return before_last_step_; }
   /// How far a picture is on the way from before_last_step() to the present, 0 .. 1: below 1 only in slow motion, which
   /// would jerk otherwise.
   float between() const;
   /// `whole_steps`: as if between() were 1.
-  compare::DrawnPositions drawn_positions(bool whole_steps = false) const;
+  compare::DrawnMeshes drawn(bool whole_steps = false) const;
   /// The scene's sentence for this moment. Empty if there is none, or the user changed bodies.
   const std::string& caption() const;
   /// Changes whenever positions or contacts may have changed: not with steps of a world at rest.
@@ -132,7 +132,7 @@ class Simulation {
   UndoHistory kept_;
   std::optional<KeptWorld> before_drag_;  // until keep_drag()
   bool as_scripted_ = true;
-  compare::Positions before_last_step_;
+  compare::WorldPositions before_last_step_;
   double step_ms_ = 0;
   StabilityMonitor stability_;
   std::uint64_t revision_ = 1, world_number_ = 0;

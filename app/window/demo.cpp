@@ -253,7 +253,7 @@ class Demo {
 
   void draw_world(const engine::Camera& camera, const engine::Viewport& whole, float scale) {
     graphics_->view.draw(session_.world(), overlay_request(session_, ui_), camera, whole, scale,
-                         session_.simulation.drawn_positions(shows_present_state(session_, ui_.overlays)));
+                         session_.simulation.drawn(shows_present_state(session_, ui_.overlays)));
   }
 
   /// Returns the size that the window would have on a screen of ordinary density.
@@ -319,7 +319,7 @@ class Demo {
   void handle_requests(const engine::Viewport& viewport) {
     if (std::exchange(ui_.throw_body, false)) {
       const engine::Ray ray = mouse_.ray(camera_, viewport.size);
-      const float distance = render::distance_to_scene(ray, session_.world(), session_.simulation.drawn_positions())
+      const float distance = render::distance_to_scene(ray, session_.world(), session_.simulation.drawn().shown)
                                  .value_or(camera_.orbit().distance);
       session_.bodies.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.origin + distance * ray.direction));
     }

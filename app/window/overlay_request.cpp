@@ -44,7 +44,7 @@ std::vector<render::SceneLabel> scene_labels(const Session& session, const ui::U
   if (const render::Highlight* highlight = ui.tour.highlight()) labels = highlight->labels;
   if (const auto* missed = shown_misses(session, ui))
     std::ranges::copy(render::miss_marks(session.world(), *missed,
-                                         session.simulation.drawn_positions(shows_present_state(session, ui.overlays))),
+                                         session.simulation.drawn(shows_present_state(session, ui.overlays)).shown),
                       std::back_inserter(labels));
   return labels;
 }

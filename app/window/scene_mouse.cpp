@@ -45,7 +45,7 @@ glm::dvec3 on_facing_plane(const engine::Ray& ray, const engine::Camera& camera,
 
 void focus_on(softbody::BodyId body, const Session& session, engine::Camera& camera, glm::ivec2 size) {
   const render::BoundingSphere sphere =
-      render::bounding_sphere(session.world(), body, session.simulation.drawn_positions());
+      render::bounding_sphere(session.world(), body, session.simulation.drawn().shown);
   camera.glide_to(sphere.centre, sphere.radius, size);
 }
 
@@ -75,7 +75,7 @@ void SceneMouse::update(const MouseInput& in, Session& session, engine::Camera& 
   orbited_ = {};
   const auto something_under = [&] {
     const engine::Ray under = camera.pick_ray(in.at, size);
-    return render::pick(under, session.world(), session.simulation.drawn_positions()) ||
+    return render::pick(under, session.world(), session.simulation.drawn().shown) ||
            pick_solid(under, session.settings.solids());
   };
   can_drag_ =
@@ -93,7 +93,7 @@ void SceneMouse::press(const MouseInput& in, Session& session, engine::Camera& c
   drag_length_ = 0;
   drag_ = Drag::orbit;
   const engine::Ray ray = camera.pick_ray(in.at, size);
-  const auto under = render::pick(ray, session.world(), session.simulation.drawn_positions());
+  const auto under = render::pick(ray, session.world(), session.simulation.drawn().shown);
   pressed_on_body_ = under.has_value();
   if (!under) {
     if (const auto solid = pick_solid(ray, session.settings.solids())) {

@@ -24,7 +24,7 @@ void give_material(BodyModel& p, const MeshSource& source, const Material& mater
 }  // namespace
 
 std::shared_ptr<BodyModel> make_unbalanced_body_model(const MeshSource& source, const Material& material) {
-  auto p = make_body_mesh(source.make());
+  auto p = make_body_mesh(source);
   give_material(*p, source, material);
   return p;
 }

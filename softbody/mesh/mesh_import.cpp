@@ -1,9 +1,11 @@
 #include "softbody/mesh/mesh_import.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <span>
 #include <utility>
 #include <vector>
@@ -40,28 +42,46 @@ glm::dmat3 to_y(const glm::dvec3& up) {
   return glm::dmat3(1.0) + cross + cross * cross / (1 + u.y);
 }
 
+std::string millimetres(double metres) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.2g mm", 1e3 * metres);
+  return text.data();
+}
+
 class Importer {
  public:
-  explicit Importer(const MeshFile& file) : file_(file), name_(file.path.string()) { require_sensible_file(); }
+  Importer(const MeshFile& file, const std::function<void(std::string_view)>& begin_stage)
+      : file_(file), name_(file.path.string()), begin_stage_(begin_stage) {
+    require_sensible_file();
+  }
 
   ImportedMesh run() {
+    begin("reading the file");
     mesh_file_ = read_file_mesh(file_.path);
     findings_.file_vertices = mesh_file_.x.size();
     findings_.file_faces = mesh_file_.faces.size();
     findings_.weights = mesh_file_.weights;
     if (mesh_file_.faces.empty()) fail("has no face; export it as a mesh of polygons, not as points or lines");
+    begin("closing seams");
     place();
     welded_to_ = weld(mesh_file_, position_, file_.weld * findings_.extent);
     for (Index v = 0; v < welded_to_.size(); ++v) findings_.welded_vertices += welded_to_[v] != v;
+    begin("cutting polygons into triangles");
     take_outlines();
     cut_polygons();
     compact();
+    begin("turning faces outwards");
     orient_faces();
     connect_triangles(mesh_);
-    return {std::move(mesh_), findings_};
+    begin("making a coarse mesh to simulate");
+    std::optional<CoarseMesh> coarse = coarse_mesh();
+    return {std::move(mesh_), findings_, std::move(coarse)};
   }
 
  private:
+  void begin(std::string_view stage) const {
+    if (begin_stage_) begin_stage_(stage);
+  }
   [[noreturn]] void fail(const std::string& what) const { throw MeshFileError(name_ + ": " + what); }
   [[noreturn]] void fail_at(std::size_t polygon, const std::string& what) const {
     throw MeshFileError(name_ + ":" + mesh_file_.place(outlines_.face[polygon]) + ": " + what);
@@ -158,6 +178,19 @@ class Importer {
       fail("is closed but holds no volume; leave out one of its sides, or give it thickness");
   }
 
+  std::optional<CoarseMesh> coarse_mesh() {
+    findings_.particles = mesh_.vertices.size();
+    const std::size_t most = file_.resolution > 0 ? file_.resolution : max_simulated_vertices;
+    if (mesh_.vertices.size() <= most) return {};
+    std::optional<CoarseMesh> coarse = coarsen(mesh_, file_.resolution > 0 ? file_.resolution : default_resolution);
+    findings_.too_fine = !coarse;
+    if (!coarse) return {};
+    findings_.particles = coarse->mesh.vertices.size();
+    findings_.distance = coarse->distance;
+    findings_.crossings = coarse->crossings;
+    return coarse;
+  }
+
   /// Returns what is wrong with the surface, with line and vertex numbers of the file.
   std::string reason(const SurfaceError& error) const {
     std::vector<std::size_t> faces;
@@ -191,6 +224,7 @@ class Importer {
 
   const MeshFile& file_;
   std::string name_;
+  const std::function<void(std::string_view)>& begin_stage_;
   FileMesh mesh_file_;
   std::vector<glm::dvec3> position_;  // of each vertex of the file
   std::vector<Index> welded_to_;      // vertex of the file
@@ -203,7 +237,9 @@ class Importer {
 
 }  // namespace
 
-ImportedMesh import_mesh(const MeshFile& file) { return Importer(file).run(); }
+ImportedMesh import_mesh(const MeshFile& file, const std::function<void(std::string_view)>& begin_stage) {
+  return Importer(file, begin_stage).run();
+}
 
 std::string remarks(const ImportFindings& f) {
   std::string text;
@@ -217,7 +253,13 @@ std::string remarks(const ImportFindings& f) {
   add(f.weights, " weights of vertices passed over");
   add(f.turned_faces, " faces turned");
   if (f.components > 1) add(f.components, " separate pieces, one body");
-  if (!f.closed) text.append(text.empty() ? "" : ", ").append("open, so that it holds no gas");
+  const auto say = [&text](const std::string& what) { text.append(text.empty() ? "" : ", ").append(what); };
+  if (!f.closed) say("open, so that it holds no gas");
+  if (f.distance)
+    say("simulated by " + std::to_string(f.particles) + " particles, whose surface is within " +
+        millimetres(*f.distance) + " of the mesh");
+  if (f.crossings > 0) say("the simulated surface crosses itself");
+  if (f.too_fine) say("no coarse mesh has its form, so all vertices are simulated");
   return text;
 }
 

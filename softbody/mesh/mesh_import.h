@@ -3,9 +3,12 @@
 // triangles, unused vertices are dropped, faces are turned outwards, and the surface is checked.
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 
-#include "softbody/mesh/mesh.h"
+#include "softbody/mesh/coarse_mesh.h"
 
 namespace softbody {
 
@@ -14,8 +17,14 @@ struct MeshFile {
   double size = 0;         // m, the mesh is scaled to this largest extent; 0: not scaled, the file is in metres
   double weld = 1e-6;      // seams no wider than this times the largest extent are closed (weld.h)
   glm::dvec3 up{0, 1, 0};  // the file's direction that becomes y, of any length but 0
+  /// About so many particles simulate the mesh if it has more vertices; 0: default_resolution of them, if it has more
+  /// than max_simulated_vertices.
+  std::size_t resolution = 0;
   bool operator==(const MeshFile&) const = default;
 };
+
+inline constexpr std::size_t max_simulated_vertices = 1000, default_resolution = 800;
+inline constexpr std::size_t min_resolution = 50;  // a leg or an ear needs some vertices
 
 /// What the import found in the file and what it changed.
 struct ImportFindings {
@@ -30,12 +39,19 @@ struct ImportFindings {
   bool closed = false;                            // the mesh encloses a volume
   double file_extent = 0;                         // largest extent before scaling
   double extent = 0;                              // m, after scaling
+  bool too_fine = false;                          // a coarse mesh was asked for, but none keeps the form of the mesh
+  std::size_t particles = 0;                      // vertices of the mesh that is simulated
+  std::optional<double> distance{};  // m, between that and the mesh, see coarsen(); none: they are the same
+  std::size_t crossings = 0;         // see CoarseMesh
   bool operator==(const ImportFindings&) const = default;
 };
 
 struct ImportedMesh {
   Mesh mesh;  // the middle of its bounding box is its origin
   ImportFindings findings;
+  std::optional<CoarseMesh> coarse{};  // is simulated in place of `mesh`
+
+  const Mesh& simulated() const { return coarse ? coarse->mesh : mesh; }
 };
 
 inline constexpr std::size_t max_imported_vertices = 100'000;                    // after welding
@@ -43,8 +59,8 @@ inline constexpr std::uintmax_t max_mesh_file_size = std::uintmax_t{256} << 20; 
 
 /// Imports all objects of the file as one mesh. Throws MeshFileError (file_mesh.h) if the file cannot be read, has no
 /// face or is too large, or if the surface has an edge with more than two faces, has one side only, or is closed
-/// without a volume.
-ImportedMesh import_mesh(const MeshFile& file);
+/// without a volume. begin_stage: called with what is done next, e.g. "reading the file". If it throws, so does this.
+ImportedMesh import_mesh(const MeshFile& file, const std::function<void(std::string_view)>& begin_stage = {});
 
 /// Returns one line for people, e.g. "12 vertices welded, 3 unused ones dropped; open; 2 components". It is empty for a
 /// closed mesh in one piece that was not changed.

@@ -2,17 +2,21 @@
 
 namespace softbody {
 
-MeshSource MeshSource::from_file(const MeshFile& file) {
+MeshSource MeshSource::from_file(const MeshFile& file, const std::function<void(std::string_view)>& begin_stage) {
   MeshSource source;
   source.kind = "file";
   source.file = file;
-  source.imported = std::make_shared<const ImportedMesh>(import_mesh(file));
+  source.imported = std::make_shared<const ImportedMesh>(import_mesh(file, begin_stage));
   return source;
 }
 
 Mesh MeshSource::make() const {
-  if (kind == "file") return imported->mesh;
+  if (kind == "file") return imported->simulated();
   return kind == "grid" ? quad_grid(columns, rows, width, depth) : icosphere(subdivisions, radius);
+}
+
+std::uint64_t MeshSource::particle_count() const {
+  return kind == "file" ? imported->simulated().vertices.size() : vertex_count();
 }
 
 std::uint64_t MeshSource::vertex_count() const {

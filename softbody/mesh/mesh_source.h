@@ -17,10 +17,13 @@ struct MeshSource {
   double width = 3, depth = 3;                     // m, grid
   MeshFile file{};                                 // file
   std::shared_ptr<const ImportedMesh> imported{};  // file: the imported mesh, shared by all its bodies
-  /// Imports the file. Throws MeshFileError.
-  static MeshSource from_file(const MeshFile& file);
+  /// Imports the file as import_mesh() does.
+  static MeshSource from_file(const MeshFile& file, const std::function<void(std::string_view)>& begin_stage = {});
+  /// Returns the mesh that is simulated.
   Mesh make() const;
-  std::uint64_t vertex_count() const;  // of the mesh, found without making it
+  // Found without making a mesh.
+  std::uint64_t particle_count() const;  // vertices of the mesh that is simulated
+  std::uint64_t vertex_count() const;    // of the one that is shown
   bool operator==(const MeshSource&) const = default;
 };
 

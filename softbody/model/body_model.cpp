@@ -22,6 +22,19 @@ bool nearly_closed(const Mesh& mesh) {
   return mesh.closed || glm::length(sum) < 0.1 * size;
 }
 
+BodyMesh body_mesh(Mesh mesh) {
+  BodyMesh made;
+  const std::vector<glm::vec3> rest(mesh.vertices.begin(), mesh.vertices.end());
+  const Index count = static_cast<Index>(rest.size());
+  made.radius = bounding_radius(mesh);
+  made.surface = std::make_shared<collide::surface::Surface>(count, mesh.triangles);
+  for (const auto& [i, j] : made.surface->edges()) made.mean_edge += glm::distance(rest[i], rest[j]);
+  made.mean_edge /= double(std::max<std::size_t>(1, made.surface->edges().size()));
+  made.shape = std::make_shared<collide::Shape>(count, mesh.edges, rest);
+  made.mesh = std::move(mesh);
+  return made;
+}
+
 }  // namespace
 
 void list_faces(BodyModel& p) {
@@ -40,19 +53,20 @@ void list_faces(BodyModel& p) {
 
 std::shared_ptr<BodyModel> make_body_mesh(Mesh mesh) {
   auto p = std::make_shared<BodyModel>();
-  p->mesh = std::move(mesh);
-  p->radius = bounding_radius(p->mesh);
+  static_cast<BodyMesh&>(*p) = body_mesh(std::move(mesh));
   list_faces(*p);
   for (Index i = 0; i < p->mesh.vertices.size(); ++i)
     p->largest_degree = std::max(p->largest_degree, double(p->faces_of(i).size()));
   p->rolls = nearly_closed(p->mesh);
   p->start = p->mesh.vertices;
   if (p->mesh.closed) p->start_volume = volume(p->start, p->mesh.triangles);
-  const std::vector<glm::vec3> rest(p->mesh.vertices.begin(), p->mesh.vertices.end());
-  p->surface = std::make_shared<collide::surface::Surface>(static_cast<Index>(rest.size()), p->mesh.triangles);
-  for (const auto& [i, j] : p->surface->edges()) p->mean_edge += glm::distance(rest[i], rest[j]);
-  p->mean_edge /= double(std::max<std::size_t>(1, p->surface->edges().size()));
-  p->shape = std::make_shared<collide::Shape>(static_cast<Index>(p->mesh.vertices.size()), p->mesh.edges, rest);
+  return p;
+}
+
+std::shared_ptr<BodyModel> make_body_mesh(const MeshSource& source) {
+  auto p = make_body_mesh(source.make());
+  if (source.imported && source.imported->coarse)
+    p->fine = std::make_shared<const FineMesh>(FineMesh{body_mesh(source.imported->mesh), source.imported});
   return p;
 }
 

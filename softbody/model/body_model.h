@@ -27,23 +27,37 @@ struct StoredEnergy {
   double total() const { return elastic + gas; }
 };
 
-struct BodyModel {
+/// A mesh with what detection and drawing need of it.
+struct BodyMesh {
   Mesh mesh;
-  Material material;
   std::shared_ptr<const collide::Shape> shape;               // for detectors
-  std::shared_ptr<const collide::surface::Surface> surface;  // for surface contact
+  std::shared_ptr<const collide::surface::Surface> surface;  // for surface contact and the oracle
   double mean_edge = 0;                                      // m, at rest
+  double radius = 0;                                         // m, bounding radius of the mesh
+};
+
+/// A fine mesh that rides on the mesh of a body model.
+struct FineMesh : BodyMesh {
+  std::shared_ptr<const ImportedMesh> imported;  // with the embedding
+  const Embedding& embedding() const { return imported->coarse->embedding; }
+};
+
+/// Its own mesh is the one that is simulated: each of its vertices is a particle.
+struct BodyModel : BodyMesh {
+  Material material;
+  std::shared_ptr<const FineMesh> fine;       // null if the body shows its own mesh
   std::vector<Index> first_face{0}, face;     // triangles at each vertex, one list after another, see faces_of()
   std::vector<Edge> opposite;                 // of each of these: the edge opposite the vertex, as the triangle turns
   bool rolls = false;                         // the mesh is closed, or has holes of less than a tenth of its area
   double particle_mass = 0;                   // kg
-  double radius = 0;                          // m, bounding radius of the mesh
   std::vector<glm::dvec3> start;              // starting shape: the equilibrium, or the mesh itself
   double start_volume = 0;                    // m^3, 0 for open meshes
   StoredEnergy start_energy;                  // in the starting shape: the least if that is the equilibrium
   double largest_degree = 0;                  // largest number of faces at one particle
   std::shared_ptr<const ModelForces> forces;  // what the forces need, see forces/model_forces.h
 
+  /// Returns the mesh that is drawn, and in which contacts are detected and compared.
+  const BodyMesh& shown() const { return fine ? *fine : static_cast<const BodyMesh&>(*this); }
   /// Returns the triangles at a vertex.
   std::span<const Index> faces_of(Index vertex) const {
     return std::span(face).subspan(first_face[vertex], first_face[vertex + 1] - first_face[vertex]);
@@ -59,5 +73,7 @@ void list_faces(BodyModel& model);
 
 /// Returns a body model that has its mesh, in the shape in which it starts, and no material yet.
 std::shared_ptr<BodyModel> make_body_mesh(Mesh mesh);
+/// Does the same for what a scene names, with the fine mesh if there is one.
+std::shared_ptr<BodyModel> make_body_mesh(const MeshSource& source);
 
 }  // namespace softbody

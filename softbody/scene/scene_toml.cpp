@@ -49,6 +49,10 @@ MeshSource read_mesh_file(Table& table, std::vector<MeshSource>& known) {
   file.size = table.number("size", file.size, min_body_size, max_body_size);
   file.weld = table.number("weld", file.weld, 0, 0.1);
   file.up = table.vector("up", file.up, -1, 1);
+  const int most = static_cast<int>(max_imported_vertices);
+  file.resolution = static_cast<std::size_t>(table.integer("resolution", 0, 0, most));
+  if (file.resolution > 0 && file.resolution < min_resolution)
+    table.fail("resolution", "must be 0 (automatic) or at least " + std::to_string(min_resolution));
   if (glm::length(file.up) < 0.1) table.fail("up", "must point somewhere, e.g. [0, 0, 1]");
   if (table.text("path", "").empty()) table.fail("path", "must name an OBJ or PLY file, relative to this one");
   for (const MeshSource& m : known)

@@ -89,7 +89,9 @@ TomlInline mesh(const MeshSource& m, const fs::path& folder) {
     return out.add("columns", m.columns).add("rows", m.rows).add("width", m.width).add("depth", m.depth);
   out.add("path", relative_path(m.file.path, folder));
   if (m.file.size > 0) out.add("size", m.file.size);
-  return out.add("weld", m.file.weld).add("up", m.file.up);
+  out.add("weld", m.file.weld).add("up", m.file.up);
+  if (m.file.resolution > 0) out.add("resolution", static_cast<int>(m.file.resolution));
+  return out;
 }
 
 void write_body(TomlLines& out, const BodySource& b, const Scene& scene, const fs::path& folder) {

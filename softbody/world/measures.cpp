@@ -99,7 +99,7 @@ std::vector<BodyMeasures> measure_bodies(const World& world) {
 const EnergyLedger& ledger(const World& world) { return world.state().ledger; }
 
 std::vector<BodyId> overlapping_bodies(const World& world) {
-  const collide::Frame now = world.positions();
+  const collide::Frame now = world.simulated().positions;
   const BodyId count = world.bodies().count();
   const auto placed = [&](BodyId id) {
     const BodyModel& p = world.model(id);
@@ -143,6 +143,7 @@ Measures total(std::span<const BodyMeasures> bodies) {
 
 std::vector<SolidContactPoint> solid_contacts(const World& world) {
   constexpr double rounding = 1e-4;  // m: where a particle rests on a solid it keeps its thickness only up to rounding
+  const collide::Frame at = world.simulated().positions;
   std::vector<SolidContactPoint> contacts;
   const std::vector<PlacedBox> boxes = boxes_of(world.state());
   for (BodyId body = 0; body < boxes.size(); ++body) {
@@ -150,9 +151,9 @@ std::vector<SolidContactPoint> solid_contacts(const World& world) {
     bool near = false;
     for_each_solid(world.scene(), [&](const auto& solid) { near = near || gap_before(solid, boxes[body]) < distance; });
     if (!near) continue;
-    for (Index i = 0; i < world.bodies().size(body); ++i) {
+    for (Index i = 0; i < at.bodies->size(body); ++i) {
       const SolidDepth d = solid_depth(world.scene(), world.particle(body, i).position);
-      if (d.depth > -distance) contacts.push_back({world.bodies().first[body] + i, d.normal});
+      if (d.depth > -distance) contacts.push_back({at.bodies->first[body] + i, d.normal});
     }
   }
   return contacts;

@@ -42,7 +42,7 @@ struct SolidDepth {
 SolidDepth solid_depth(const Scene& scene, const glm::dvec3& point);
 
 struct SolidContactPoint {
-  Index vertex;      // over the whole world
+  Index vertex;      // of the simulated meshes
   glm::vec3 normal;  // out of the solid
 };
 /// Returns the vertices that touch solids.

@@ -28,20 +28,10 @@ void World::restore(const Snapshot& snapshot) {
   s.set_integrator();  // without a check: the state may be one that a new scene would be refused for
   s.solver.restore(snapshot.values->solver);
   s.solver.hand().take(snapshot.grab);
-  s.detector = s.method->make();  // a new one: the old one caches another state
+  s.particles.detector = s.method->make();  // a new one: the old one caches another state
   s.count_vertices();
   s.update_positions();
   s.detect();
-}
-
-/// Counts bodies and their vertices anew from the solver's state.
-void World::Parts::count_vertices() {
-  bodies = {};
-  vertex_body.clear();
-  for (BodyId id = 0; id < solver.state().body_count(); ++id) {
-    bodies.add(solver.state().model(id).shape);
-    vertex_body.resize(bodies.vertex_count(), id);
-  }
 }
 
 }  // namespace softbody

@@ -22,8 +22,9 @@ glm::vec3 rest_cell_size(const BodyModelSet& models, int levels, float tolerance
   collide::Bodies bodies;
   Coordinates rest;
   for (const auto& p : models.all()) {
-    bodies.add(p->shape);
-    for (const glm::dvec3& v : p->start) rest.add(glm::vec3(v));
+    const std::vector<glm::dvec3>& shape = p->fine ? p->fine->mesh.vertices : p->start;
+    bodies.add(p->shown().shape);
+    for (const glm::dvec3& v : shape) rest.add(glm::vec3(v));
   }
   return collide::default_cell_size(rest.frame(bodies), levels, tolerance);
 }
@@ -45,11 +46,11 @@ World::Parts::Parts(Scene s, const Options& o)
       workers(o.threads),
       plan(make_plan(scene, models.all())),
       solver(scene, Crew(workers, o.min_shared_particles)),
-      sleep(scene.sleep),
-      detector(method->make()) {
+      sleep(scene.sleep) {
+  particles.detector = method->make();
   solver.steps().set_budget(o.budget);
   solver.set_max_candidates(o.max_candidates);
-  solver.set_vertices(bodies);
+  solver.set_vertices(particles.bodies);
   solver.set_plan(plan);
   check_sizes(models);
   set_integrator();
@@ -74,8 +75,8 @@ void World::Parts::set_integrator() {
 void World::Parts::check_sizes(const BodyModelSet& all) const {
   if (!choice.integrator().implicit) return;
   for (const auto& p : all.all())
-    if (const auto particles = p->mesh.vertices.size(); particles > max_implicit_particles)
-      throw SceneError("scene '" + scene.key + "': a body of " + std::to_string(particles) +
+    if (const auto count = p->mesh.vertices.size(); count > max_implicit_particles)
+      throw SceneError("scene '" + scene.key + "': a body of " + std::to_string(count) +
                        " vertices has too large a matrix for implicit steps (at most " +
                        std::to_string(max_implicit_particles) + " vertices); choose another integrator");
 }
@@ -83,8 +84,7 @@ void World::Parts::check_sizes(const BodyModelSet& all) const {
 BodyId World::Parts::add(const BodySource& source, const glm::dvec3& position) {
   const auto& model = models.of(source);
   const BodyId id = solver.state().add(model, position, source.velocity);
-  bodies.add(model->shape);
-  vertex_body.resize(bodies.vertex_count(), id);
+  add_meshes(*model);
   EnergyLedger& ledger = solver.state().ledger;
   ledger.book(WorkBy::user, measure(solver.state(), id, scene.gravity).conserved(ledger.staggering));
   return id;
@@ -97,10 +97,10 @@ void World::Parts::arrive() {
     arrived[i] = true;
     add(source, source.position);
     if (source.release <= frame) continue;
-    solver.state().set_pinned(bodies.count() - 1, true);
-    solver.state().memory(bodies.count() - 1).release = source.release;
+    solver.state().set_pinned(particles.bodies.count() - 1, true);
+    solver.state().memory(particles.bodies.count() - 1).release = source.release;
   }
-  for (BodyId b = 0; b < bodies.count(); ++b) {
+  for (BodyId b = 0; b < particles.bodies.count(); ++b) {
     const Body& body = solver.state().body(b);
     if (body.pinned && body.memory.release <= frame) solver.state().set_pinned(b, false);
   }
@@ -115,9 +115,9 @@ void World::Parts::show(int number) {
   for (BodyId b = before; b < recorded->body_count; ++b)
     state.add(scene.recording->model(b), glm::dvec3(0.0), glm::dvec3(0.0));
   if (recorded->body_count != before) count_vertices();
-  if (recorded->body_count < before) detector->forget();
+  if (recorded->body_count < before) particles.detector->forget();
   for (BodyId b = 0; b < recorded->body_count; ++b) {
-    const Index first = bodies.first[b];
+    const Index first = particles.bodies.first[b];
     state.place(b, {&recorded->x[first], &recorded->y[first], &recorded->z[first]});
   }
   frame = number;
@@ -142,19 +142,67 @@ glm::vec3 World::Parts::default_cell_size(int levels) const {
   return rest_cell_size(models, levels, settings.tolerance);
 }
 
-void World::Parts::update_positions() { solver.write_positions(positions.resized(bodies.vertex_count())); }
+/// Adds the meshes of a new body, which the solver's state has already.
+void World::Parts::add_meshes(const BodyModel& model) {
+  if (model.fine && !fine) return count_vertices();  // the first one: the bodies before it are shown as they are
+  particles.add(model.shape);
+  if (fine) fine->add(model.shown().shape);
+}
+
+/// Counts bodies and their vertices anew from the solver's state.
+void World::Parts::count_vertices() {
+  const State& state = solver.state();
+  particles.bodies = {}, particles.vertex_body.clear();
+  fine.reset();
+  for (BodyId id = 0; id < state.body_count(); ++id) {
+    particles.add(state.model(id).shape);
+    if (state.model(id).fine) fine.emplace();
+  }
+  if (!fine) return;
+  fine->detector = method->make();
+  for (BodyId id = 0; id < state.body_count(); ++id) fine->add(state.model(id).shown().shape);
+}
+
+void World::Parts::update_positions() {
+  solver.write_positions(particles.positions.resized(particles.bodies.vertex_count()));
+  place_fine_meshes();
+}
+
+/// Lets the meshes that are shown follow the particles.
+void World::Parts::place_fine_meshes() {
+  if (!fine) return;
+  const auto spans = [](Coordinates& of, const collide::Bodies& bodies, BodyId id) {
+    const auto part = [&](std::vector<float>& all) {
+      return std::span(all).subspan(bodies.first[id], bodies.size(id));
+    };
+    return std::array{part(of.x), part(of.y), part(of.z)};
+  };
+  fine->positions.resized(fine->bodies.vertex_count());
+  workers.run([&](int thread) {
+    for (BodyId id = BodyId(thread); id < particles.bodies.count(); id += BodyId(workers.threads())) {
+      const auto from = spans(particles.positions, particles.bodies, id);
+      const auto to = spans(fine->positions, fine->bodies, id);
+      if (const auto& mesh = solver.state().model(id).fine)
+        mesh->embedding().place({from[0], from[1], from[2]}, to[0], to[1], to[2]);
+      else
+        for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(from[k], to[k].begin());
+    }
+  });
+}
 
 void World::Parts::detect() {
   const auto start = Clock::now();
-  if (plan.has(Stage::detect))
-    detector->detect(positions.frame(bodies), settings, workers, result);
-  else
-    result = {};
+  for_each_meshes([&](DetectedMeshes& meshes) {
+    if (plan.has(Stage::detect))
+      meshes.detector->detect(meshes.frame(), settings, workers, meshes.result);
+    else
+      meshes.result = {};
+  });
   report.detect_ms = ms_since(start);
 }
 
 void World::Parts::wake_all() {
-  for (BodyId b = 0; b < bodies.count(); ++b)
+  for (BodyId b = 0; b < particles.bodies.count(); ++b)
     if (solver.state().body(b).asleep) solver.state().set_asleep(b, false);
 }
 
@@ -166,24 +214,27 @@ void World::step(const std::function<void()>& after_substep) {
   if (s.scene.recording) return s.play();
   const auto start = Clock::now();
   if (s.plan.has(Stage::arrive)) s.arrive();
+  DetectedMeshes& touching = s.particles;
   if (const auto& grab = grabbed()) s.solver.state().set_asleep(grab->body, false);  // a grabbed body stays awake
   ++s.frame;
-  if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.solver.state(), s.vertex_body, s.result.contacts);
+  if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.solver.state(), touching.vertex_body, touching.result.contacts);
   const float thickness = s.penalty_thickness;
   if (s.plan.has(stage_of<PenaltyContact>)) {
     s.penalty_thickness = std::min(s.settings.tolerance, s.penalty_thickness + float(0.05 * s.frame_time));  // 5 cm/s
-    s.solver.set_contacts({s.bodies, s.vertex_body, s.result.contacts}, s.penalty_thickness);
+    s.solver.set_contacts({touching.bodies, touching.vertex_body, touching.result.contacts}, s.penalty_thickness);
   }
   double looking_ms = 0;
   const auto look = [&] {
     const auto from = Clock::now();
-    const Field<float> places = s.positions.resized(s.bodies.vertex_count());
-    for (const Batch& b : s.solver.state().batches()) s.solver.state().write_positions(b, s.bodies.first, places);
+    const Field<float> places = touching.positions.resized(touching.bodies.vertex_count());
+    for (const Batch& b : s.solver.state().batches())
+      s.solver.state().write_positions(b, touching.bodies.first, places);
     after_substep();
     looking_ms += ms_since(from);
   };
   const FrameResult done = s.solver.advance(s.frame_time, after_substep ? look : std::function<void()>());
-  s.solver.finish_frame(done.seconds, s.positions.resized(s.bodies.vertex_count()));
+  s.solver.finish_frame(done.seconds, touching.positions.resized(touching.bodies.vertex_count()));
+  s.place_fine_meshes();
   s.report.time += done.seconds;
   s.report.seconds = done.seconds;
   const StepPlan& steps = s.solver.steps().plan();
@@ -201,7 +252,7 @@ void World::step(const std::function<void()>& after_substep) {
   const bool penalty_grows = s.plan.has(stage_of<PenaltyContact>) &&
                              s.penalty_thickness < s.settings.tolerance;  // nobody falls asleep meanwhile
   if (s.plan.has(Stage::sleep) && whole && !penalty_grows)
-    s.sleep.settle(s.solver.state(), s.vertex_body, s.result.contacts,
+    s.sleep.settle(s.solver.state(), touching.vertex_body, touching.result.contacts,
                    s.solver.surface_contact().candidates().interactions());
   s.report.total_ms = ms_since(start) - looking_ms;
 }
@@ -211,7 +262,7 @@ void World::show_frame(int number) { parts_->show(number); }
 void World::set_particles(BodyId body, std::span<const Particle> particles) {
   Parts& s = *parts_;
   s.require_solver();
-  assert(particles.size() == s.bodies.size(body));
+  assert(particles.size() == s.particles.bodies.size(body));
   s.book_change([&] { s.solver.state().set_particles(body, particles); });
   s.solver.state().memory(body).may_lie_in_solid = true;
   s.wake_all();
@@ -232,7 +283,7 @@ void World::set_method(std::string_view key) {
   const collide::Method* found = collide::find_method(key);
   assert(found);
   s.method = found;
-  s.detector = s.method->make();
+  s.for_each_meshes([&](DetectedMeshes& meshes) { meshes.detector = s.method->make(); });
   s.wake_all();
   s.detect();
 }
@@ -274,13 +325,14 @@ void World::set_contact_surface(ContactSurface surface) {
   s.wake_all();
 }
 
-const collide::Bodies& World::bodies() const { return parts_->bodies; }
-collide::Frame World::positions() const { return parts_->positions.frame(parts_->bodies); }
+const collide::Bodies& World::bodies() const { return parts_->shown().bodies; }
+collide::Frame World::positions() const { return parts_->shown().frame(); }
+SimulatedMeshes World::simulated() const { return {parts_->particles.frame(), parts_->particles.result.contacts}; }
 const BodyModel& World::model(BodyId body) const { return parts_->solver.state().model(body); }
 Particle World::particle(BodyId body, Index vertex) const { return parts_->solver.state().particle(body, vertex); }
-const collide::Result& World::detection() const { return parts_->result; }
-const collide::Detector& World::detector() const { return *parts_->detector; }
-std::span<const BodyId> World::vertex_body() const { return parts_->vertex_body; }
+const collide::Result& World::detection() const { return parts_->shown().result; }
+const collide::Detector& World::detector() const { return *parts_->shown().detector; }
+std::span<const BodyId> World::vertex_body() const { return parts_->shown().vertex_body; }
 const State& World::state() const { return parts_->solver.state(); }
 std::uint64_t World::state_hash() const { return parts_->solver.state().hash(); }
 const StepReport& World::last_step() const { return parts_->report; }
@@ -291,14 +343,14 @@ BodyState World::body(BodyId body) const {
 }
 
 std::vector<SurfaceContactPoint> World::surface_contacts() const {
-  return parts_->solver.surface_contact().contact_points(parts_->bodies);
+  return parts_->solver.surface_contact().contact_points(parts_->particles.bodies);
 }
 
 bool World::all_at_rest() const {
   const Parts& s = *parts_;
   if (s.scene.recording) return s.scene.recording->frame_count() == 1;
   if (std::find(s.arrived.begin(), s.arrived.end(), char(false)) != s.arrived.end()) return false;
-  for (BodyId b = 0; b < s.bodies.count(); ++b)
+  for (BodyId b = 0; b < s.particles.bodies.count(); ++b)
     if (!s.solver.state().body(b).asleep) return false;
   return true;
 }

@@ -48,6 +48,13 @@ struct AddedBody {
   BodySource source;  // with which a scene would add it in the same frame at the same place
 };
 
+/// The meshes that are simulated: a coarse one where a fine one rides on it. Their contacts move the bodies, and the
+/// oracle judges their surfaces. Valid until the next change of the world.
+struct SimulatedMeshes {
+  collide::Frame positions;
+  std::span<const collide::Contact> contacts;  // that the detector found between their vertices
+};
+
 class World {
  public:
   struct Options {
@@ -78,7 +85,8 @@ class World {
 
   // Changes between frames. Each of them detects again if contacts may have changed. With a recording, bodies cannot be
   // changed: each throws SceneError, except that a hand may let go.
-  /// Places the body's particles, wakes all bodies and detects. `particles`: finite, one for each vertex.
+  /// Places the body's particles, wakes all bodies and detects. `particles`: finite, one for each vertex of the mesh
+  /// that is simulated.
   void set_particles(BodyId body, std::span<const Particle> particles);
   /// Adds `count` bodies at the scene's dropper, or above its first body if it has none. Each appears above everything
   /// that is in the way; several are spread more widely than one. Returns the last of them. Throws SceneError, and then
@@ -123,10 +131,11 @@ class World {
   int frame() const;  // steps done; of a recording: its frame, from 0
   double frame_time() const;
 
-  // The current state.
+  // The current state, of the meshes that are shown (BodyModel::shown()).
   const collide::Bodies& bodies() const;
   std::span<const BodyId> vertex_body() const;  // the body of each vertex
   collide::Frame positions() const;             // in the world, valid until the next change
+  SimulatedMeshes simulated() const;
   Particle particle(BodyId body, Index vertex) const;
   BodyState body(BodyId body) const;
   const BodyModel& model(BodyId body) const;

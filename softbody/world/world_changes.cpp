@@ -27,11 +27,11 @@ void World::Parts::require_solver() const {
 
 /// Throws SceneError if `number` more bodies would exceed max_particles.
 void World::Parts::check_capacity(const BodyModel& p, std::size_t number) const {
-  const std::uint64_t particles = bodies.vertex_count() + std::uint64_t{number} * p.mesh.vertices.size();
-  if (particles <= max_particles) return;
+  const std::uint64_t vertices = shown().bodies.vertex_count() + std::uint64_t{number} * p.shown().mesh.vertices.size();
+  if (vertices <= max_particles) return;
   throw SceneError("scene '" + scene.key + "': there is no room for " + std::to_string(number) +
-                   " more bodies: " + std::to_string(particles) + " particles (at most " +
-                   std::to_string(max_particles) + "); take bodies out first");
+                   " more bodies: " + std::to_string(vertices) + " vertices (at most " + std::to_string(max_particles) +
+                   "); take bodies out first");
 }
 
 void World::Parts::bodies_added(std::size_t number) {
@@ -45,9 +45,10 @@ void World::Parts::bodies_added(std::size_t number) {
 double World::Parts::clear_height(const BodyModel& p, const glm::dvec3& position) const {
   double height = position.y;
   const double clear = 1.3 * p.radius + settings.tolerance;
-  for (Index i = 0; i < bodies.vertex_count(); ++i)
-    if (glm::length(glm::dvec2(positions.x[i] - position.x, positions.z[i] - position.z)) < clear)
-      height = std::max(height, positions.y[i] + clear);
+  const collide::Frame now = particles.frame();
+  for (Index i = 0; i < now.x.size(); ++i)
+    if (glm::length(glm::dvec2(now.x[i] - position.x, now.z[i] - position.z)) < clear)
+      height = std::max(height, now.y[i] + clear);
   return height;
 }
 
@@ -81,8 +82,9 @@ bool World::Parts::is_clear(const BodyModel& p, const glm::dvec3& position) cons
     lo = glm::min(lo, v), hi = glm::max(hi, v);
   }
   const glm::vec3 low(position + lo - double(settings.tolerance)), high(position + hi + double(settings.tolerance));
-  for (Index i = 0; i < bodies.vertex_count(); ++i) {
-    const glm::vec3 v(positions.x[i], positions.y[i], positions.z[i]);
+  const collide::Frame now = particles.frame();
+  for (Index i = 0; i < now.x.size(); ++i) {
+    const glm::vec3 v(now.x[i], now.y[i], now.z[i]);
     if (glm::all(glm::lessThan(low, v)) && glm::all(glm::lessThan(v, high))) return false;
   }
   return true;
@@ -132,7 +134,7 @@ BodyId World::drop(int count) {
   if (count > 1) dropper.spread = std::max(dropper.spread, 4 * s.models.of(dropper.body)->radius);
   for (int i = 0; i < count; ++i) s.drop(dropper);
   s.bodies_added(std::size_t(count));
-  return s.bodies.count() - 1;
+  return s.particles.bodies.count() - 1;
 }
 
 BodyId World::add(const BodySource& source) {
@@ -149,11 +151,13 @@ BodyId World::add(const BodySource& source) {
 
 /// Wakes the bodies near this one: they may rest on it, even if the detector reports no contact.
 void World::Parts::wake_near(BodyId body) {
+  const collide::Frame now = particles.frame();
+  const collide::Bodies& bodies = particles.bodies;
   const auto box = [&](BodyId b) {
     const Index first = bodies.first[b];
-    glm::vec3 lo(positions.x[first], positions.y[first], positions.z[first]), hi = lo;
+    glm::vec3 lo(now.x[first], now.y[first], now.z[first]), hi = lo;
     for (Index i = first; i < bodies.first[b + 1]; ++i) {
-      const glm::vec3 p(positions.x[i], positions.y[i], positions.z[i]);
+      const glm::vec3 p(now.x[i], now.y[i], now.z[i]);
       lo = glm::min(lo, p), hi = glm::max(hi, p);
     }
     return std::pair(lo, hi);
@@ -179,14 +183,14 @@ void World::remove(BodyId body) {
   s.added_bodies.grabs = s.solver.hand().grab().has_value();
   s.update_plan();
   s.update_positions();
-  s.detector->forget();
+  s.for_each_meshes([](DetectedMeshes& meshes) { meshes.detector->forget(); });
   s.detect();
 }
 
 void World::grab(const std::optional<Grab>& grab) {
   Parts& s = *parts_;
   if (grab) s.require_solver();
-  assert(!grab || grab->body < s.bodies.count());
+  assert(!grab || grab->body < s.particles.bodies.count());
   if (grab) s.solver.state().set_pinned(grab->body, false);
   s.solver.hand().take(grab);
   s.added_bodies.grabs = grab.has_value();
@@ -236,7 +240,8 @@ void World::set_solids(const Scene& from) {
   to.boxes = from.boxes;
   to.capsules = from.capsules;
   to.ground = from.ground;
-  for (BodyId b = 0; b < parts_->bodies.count(); ++b) parts_->solver.state().memory(b).may_lie_in_solid = true;
+  for (BodyId b = 0; b < parts_->particles.bodies.count(); ++b)
+    parts_->solver.state().memory(b).may_lie_in_solid = true;
   parts_->update_plan();
   parts_->wake_all();
 }

@@ -24,6 +24,21 @@ struct Coordinates {
   collide::Frame frame(const collide::Bodies& bodies) const { return {x, y, z, &bodies}; }
 };
 
+/// A mesh of each body, where it is now, and the contacts between them.
+struct DetectedMeshes {
+  collide::Bodies bodies;
+  std::vector<BodyId> vertex_body;
+  Coordinates positions;
+  std::unique_ptr<collide::Detector> detector;
+  collide::Result result;
+
+  void add(const std::shared_ptr<const collide::Shape>& shape) {
+    vertex_body.resize(vertex_body.size() + shape->vertex_count(), bodies.count());
+    bodies.add(shape);
+  }
+  collide::Frame frame() const { return positions.frame(bodies); }
+};
+
 /// What decides how a world goes on, beside its solver's state.
 struct WorldValues {
   WorldValues(Scene s, const IntegratorChoice& integrator);
@@ -60,8 +75,15 @@ struct World::Parts : WorldValues {
   void arrive();
   void show(int number);
   void play();
+  void add_meshes(const BodyModel& model);
   void count_vertices();
   void update_positions();
+  void place_fine_meshes();
+  const DetectedMeshes& shown() const { return fine ? *fine : particles; }
+  void for_each_meshes(const auto& change) {
+    change(particles);
+    if (fine) change(*fine);
+  }
   void detect();
   void wake_all();
   glm::vec3 default_cell_size(int levels) const;
@@ -83,12 +105,9 @@ struct World::Parts : WorldValues {
   Plan plan;
   Solver solver;
   Sleep sleep;
-  std::unique_ptr<collide::Detector> detector;
 
-  collide::Bodies bodies;
-  std::vector<BodyId> vertex_body;
-  Coordinates positions;
-  collide::Result result;
+  DetectedMeshes particles;            // the meshes that are simulated; their contacts act
+  std::optional<DetectedMeshes> fine;  // the meshes that are shown, if they are others
 };
 
 struct Snapshot::Values {

@@ -185,10 +185,37 @@ TEST_F(ImportTest, LetsTheWorldRunWhileItReadsAScene) {
   EXPECT_EQ(session.world().bodies().count(), 1u);
 }
 
+TEST_F(ImportTest, SimulatesAFineMeshByAsManyParticlesAsAskedFor) {
+  const auto file = folder.write("ball.obj", obj_of({.rows = 40, .columns = 60, .bump = 0.2}));
+  import.resolution = 300;
+  load(file);
+  EXPECT_NEAR(double(last().mesh.vertices.size()), 300, 15);
+  EXPECT_EQ(last().shown().mesh.vertices.size(), 39u * 60 + 2);
+  EXPECT_NE(report().find(" particles, whose surface is within "), std::string::npos) << report();
+  expect_finite_after(60);
+  import.resolution = 0;
+  load(file);
+  EXPECT_NEAR(double(last().mesh.vertices.size()), double(softbody::default_resolution), 40);
+}
+
+TEST_F(ImportTest, GivesUpWhatTheUserCancels) {
+  const std::string ball = folder.write("ball.obj", obj_of({.rows = 200, .columns = 400})).string();
+  import.drop({ball}, session);
+  import.drop({ball}, session);
+  import.cancel();
+  EXPECT_TRUE(import.progress().starts_with("giving up ball.obj")) << import.progress();
+  wait();
+  EXPECT_EQ(session.world().bodies().count(), 2u);
+  EXPECT_TRUE(import.report().empty()) << report();
+  load(folder.write("small.obj", obj_of({})));
+  EXPECT_EQ(session.world().bodies().count(), 3u) << "the next one is read";
+}
+
 TEST_F(ImportTest, MakesTheBodyBesideTheWindow) {
   session::FileReader reader;
   const softbody::MeshFile file{.path = folder.write("ball.obj", obj_of({})), .size = 1};
-  const session::FileReader::Answer answer = reader.answer(file, {});
+  const session::FileReader::Answer answer =
+      reader.answer({file, std::make_shared<session::FileReader::Progress>()}, {});
   const auto& mesh = std::get<session::FileReader::Mesh>(answer);
   EXPECT_EQ(softbody::shared_body_model(mesh.mesh, session::imported_material(mesh.mesh.imported->findings.extent)),
             mesh.model);

@@ -79,7 +79,7 @@ TEST_F(RecordedSession, GoesToAnyFrameAndPausesThere) {
   simulation.rewind_to(5);
   EXPECT_EQ(frame(), 5);
   EXPECT_TRUE(simulation.clock.paused);
-  EXPECT_TRUE(std::ranges::equal(simulation.before_last_step().x, session.world().positions().x));
+  EXPECT_TRUE(std::ranges::equal(simulation.before_last_step().shown().x, session.world().positions().x));
   simulation.clock.single_step();
   advance(1);
   EXPECT_EQ(frame(), 6);
@@ -112,7 +112,7 @@ TEST_F(RecordedSession, ForgetsReportsOnBodiesThatAreGone) {
   ASSERT_EQ(session.world().bodies().count(), RecordedBalls::few);
   EXPECT_NE(simulation.world_number(), world);
   EXPECT_FALSE(session.bodies.selected());
-  EXPECT_TRUE(std::ranges::equal(simulation.before_last_step().x, session.world().positions().x))
+  EXPECT_TRUE(std::ranges::equal(simulation.before_last_step().shown().x, session.world().positions().x))
       << "nothing moved from the last frame to the first";
 }
 

@@ -30,9 +30,11 @@ class SceneViewTest : public testing::Test {
 
   std::vector<std::uint8_t> picture(const render::OverlayRequest& request, compare::DrawnPositions positions = {}) {
     positions.now = session_.world().positions();
+    compare::DrawnMeshes at(session_.world());
+    at.shown = at.simulated = positions;
     target_.bind();
     const engine::Camera camera = view_.camera(session_.world().scene(), size);
-    view_.draw(session_.world(), request, camera, {{0, 0}, size}, 1.0f, positions);
+    view_.draw(session_.world(), request, camera, {{0, 0}, size}, 1.0f, at);
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     return target_.read().rgba;
   }
@@ -172,7 +174,7 @@ class AddOverlaysTest : public testing::Test {
   }
   void add(const std::vector<compare::SurfaceMark>& marks) {
     request_.marks = marks;
-    render::add_overlays(world_, request_, {glm::vec3(0, 3, 9), 500}, positions_, frame_);
+    render::add_overlays(world_, request_, {glm::vec3(0, 3, 9), 500}, {positions_, positions_}, frame_);
   }
 
   softbody::World world_{touching_pair(), {}};

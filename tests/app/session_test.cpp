@@ -127,7 +127,7 @@ TEST(Session, ForgetsWhatWasFoundOfBodiesThatAreDeleted) {
   session.bodies.select(0);
   session.bodies.remove_selected();
   EXPECT_EQ(session.comparison.missed(), nullptr);
-  EXPECT_EQ(session.simulation.before_last_step().x.size(), session.world().positions().x.size());
+  EXPECT_EQ(session.simulation.before_last_step().shown().x.size(), session.world().positions().x.size());
   for (int i = 0; i < 5; ++i) session.advance(tick);
 }
 

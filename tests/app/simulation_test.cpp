@@ -38,7 +38,7 @@ TEST(Simulation, InterpolatesSlowMotionBetweenTwoSteps) {
   const float height = simulation.world().positions().y[0];
   simulation.advance(tick);
   EXPECT_LT(simulation.between(), last);
-  EXPECT_EQ(simulation.before_last_step().y[0], height);
+  EXPECT_EQ(simulation.before_last_step().shown().y[0], height);
   simulation.clock.paused = true;
   EXPECT_EQ(simulation.between(), 1.0f);
 }
@@ -98,7 +98,7 @@ TEST(Simulation, GoesBackAndContinuesToTheBit) {
   EXPECT_TRUE(simulation.clock.paused);
   EXPECT_EQ(simulation.world().frame(), 30);
   EXPECT_GT(simulation.revision(), revision);
-  EXPECT_EQ(simulation.before_last_step().y[0], simulation.world().positions().y[0]);
+  EXPECT_EQ(simulation.before_last_step().shown().y[0], simulation.world().positions().y[0]);
   simulation.rewind_to(63);
   EXPECT_EQ(simulation.world().frame(), 63) << "the present was kept";
   EXPECT_EQ(simulation.world().state_hash(), there);

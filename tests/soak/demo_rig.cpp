@@ -29,7 +29,7 @@ void DemoRig::frame(bool draw) {
   if (draw)
     canvas_.update(input.display_size, true, ui.exporter.wants_shown_picture(), [this](const engine::Viewport& whole) {
       view_.draw(session.world(), app::window::overlay_request(session, ui), camera_, whole, 1,
-                 session.simulation.drawn_positions(app::window::shows_present_state(session, ui.overlays)));
+                 session.simulation.drawn(app::window::shows_present_state(session, ui.overlays)));
     });
   target_.bind();
   gui_.end_frame();

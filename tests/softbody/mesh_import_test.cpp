@@ -16,10 +16,15 @@
 namespace softbody::test {
 namespace {
 
-ImportedMesh read(const std::string& obj, MeshFile file = {}) {
+struct Read {
+  Mesh mesh;
+  ImportFindings findings;
+};
+Read read(const std::string& obj, MeshFile file = {}) {
   const TemporaryFolder folder;
   file.path = folder.write("a.obj", obj);
-  return import_mesh(file);
+  ImportedMesh imported = import_mesh(file);
+  return {std::move(imported.mesh), imported.findings};
 }
 
 std::string error_of(const std::string& obj, const MeshFile& file = {}) {
@@ -61,9 +66,13 @@ TEST(MeshImport, ACubeOfQuadsIsClosedAndTurnedOutwards) {
   EXPECT_EQ(mesh.edges.size(), 18u);
   EXPECT_TRUE(mesh.closed && mesh.shear_pairs.empty());
   EXPECT_NEAR(volume(mesh.vertices, mesh.triangles), 8, 1e-12);
-  EXPECT_EQ(found,
-            (ImportFindings{
-                .file_vertices = 8, .file_faces = 6, .components = 1, .closed = true, .file_extent = 2, .extent = 2}));
+  EXPECT_EQ(found, (ImportFindings{.file_vertices = 8,
+                                   .file_faces = 6,
+                                   .components = 1,
+                                   .closed = true,
+                                   .file_extent = 2,
+                                   .extent = 2,
+                                   .particles = 8}));
   EXPECT_EQ(remarks(found), "");
   for (const glm::dvec3& v : mesh.vertices) EXPECT_EQ(glm::abs(v), glm::dvec3(1)) << "its middle is the origin";
 }
@@ -354,7 +363,7 @@ std::string cube_ply(const std::string& format, const std::vector<std::uint8_t>&
 TEST(MeshImport, ReadsPlyAsItReadsObj) {
   const Mesh obj = read(cube_vertices + cube_faces).mesh;
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
-    const ImportedMesh ply = read(cube_ply(format));
+    const Read ply = read(cube_ply(format));
     EXPECT_EQ(ply.mesh.vertices, obj.vertices) << format;
     EXPECT_EQ(ply.mesh.triangles, obj.triangles) << format;
     EXPECT_TRUE(ply.findings.closed);

@@ -94,7 +94,7 @@ class Trial {
   void look_for_passages(double min_way) {
     if (oracle_.max_displacement(world_) < min_way) return;
     const std::vector<collide::oracle::Crossing> crossings = oracle_.crossings(world_);
-    const auto figures = collide::oracle::figures_of(world_.positions(), {}, crossings);
+    const auto figures = collide::oracle::figures_of(world_.simulated().positions, {}, crossings);
     result_.passed += passed(crossings);
     result_.crossed_vertices += figures.crossed_vertices;
     result_.edge_crossings += figures.edge_crossings;
@@ -130,9 +130,10 @@ class Trial {
     const softbody::Measures measures = softbody::measure(world_);
     result_.finite = result_.finite && measures.finite;
     result_.solid_depth = std::max(result_.solid_depth, measures.deepest_penetration);
+    const softbody::SimulatedMeshes simulated = world_.simulated();
     const collide::oracle::Overlaps overlaps = oracle_.overlaps(world_);
-    const auto figures = collide::oracle::figures_of(world_.positions(), overlaps);
-    const auto missed = collide::oracle::missed_by(world_.detection().contacts, world_.positions(),
+    const auto figures = collide::oracle::figures_of(simulated.positions, overlaps);
+    const auto missed = collide::oracle::missed_by(simulated.contacts, simulated.positions,
                                                    compare::surfaces_of(world_), overlaps);
     ++result_.looks;
     result_.penetrations += overlaps.penetrations.size();

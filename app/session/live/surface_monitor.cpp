@@ -11,10 +11,11 @@ compare::StepSnapshot copy_step(const softbody::World& world, const compare::Pos
   copy.id = revision;
   copy.frame = world.frame();
   copy.before = before;
-  copy.at.copy(world.positions());
-  copy.bodies = world.bodies();
+  const softbody::SimulatedMeshes simulated = world.simulated();
+  copy.at.copy(simulated.positions);
+  copy.bodies = *simulated.positions.bodies;
   copy.surfaces = compare::surfaces_of(world);
-  copy.contacts = world.detection().contacts;
+  copy.contacts.assign(simulated.contacts.begin(), simulated.contacts.end());
   return copy;
 }
 

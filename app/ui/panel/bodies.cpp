@@ -47,7 +47,12 @@ void draw_selected(Widgets& w, const softbody::World& world, softbody::BodyId id
   ImGui::Text("Body %u: %s vertices", id, grouped(world.bodies().size(id)).c_str());
   ImGui::SameLine();
   w.right_text(state_text(world, id));
-  w.register_item("Selected body", "The body that was clicked last. Bodies and vertices count from 0.");
+  const std::size_t particles = world.model(id).mesh.vertices.size();
+  w.register_item("Selected body",
+                  fmt::format("The body that was clicked last, simulated by {} particles. Bodies and vertices count "
+                              "from 0.",
+                              grouped(particles))
+                      .c_str());
   const std::string volume = m.closed ? fmt::format("{:.1f} %", 100 * m.volume_ratio) : "open";
   if (world.scene().recording) return w.figure("Volume", volume, "Of the volume in the first frame with this body.");
   const double speed = glm::length(m.momentum) / world.model(id).material[softbody::Material::mass];

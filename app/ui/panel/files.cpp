@@ -1,6 +1,7 @@
 // The panel's sections for import and export: meshes, scenes, the command line; pictures, recordings, curves.
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 #include "app/render/palette.h"
@@ -9,6 +10,7 @@
 namespace app::ui {
 namespace {
 
+constexpr int max_resolution = 3000;                         // particles: more are not simulated in real time
 constexpr float narrow_column = 78, file_button_width = 62;  // design pixels
 
 /// Draws a field with a button at its right. True if Enter is pressed or the button is clicked.
@@ -59,6 +61,21 @@ void draw_mesh_settings(Widgets& w, session::Import& import) {
                static_cast<float>(mm * session::Import::max_weld), "%.4f mm",
                "Vertices of the next mesh that are no further apart become one. Raise it if seams stay open.", true))
     import.weld = std::clamp(double{weld} / mm, session::Import::min_weld, session::Import::max_weld);
+  w.row_label("Particles", w.px(narrow_column));
+  bool automatic = import.resolution == 0;
+  if (w.checkbox("Auto###Auto resolution", automatic,
+                 "A mesh of more than 1,000 vertices is simulated by 800 particles; its vertices follow them."))
+    import.resolution = automatic ? 0 : softbody::default_resolution;
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  ImGui::BeginDisabled(automatic);
+  int resolution = static_cast<int>(automatic ? softbody::default_resolution : import.resolution);
+  if (w.slider(
+          "Particles of meshes", resolution, static_cast<int>(softbody::min_resolution), max_resolution, "%d",
+          "How many particles simulate the next mesh if it has more vertices. More of them follow finer folds, and "
+          "take longer."))
+    import.resolution = static_cast<std::size_t>(resolution);
+  ImGui::EndDisabled();
 }
 
 void save(Session& session, UiState& ui) {

@@ -50,8 +50,11 @@ void draw_import_report(Widgets& w, Session& session, session::Import& import, c
   if (import.busy()) {
     ImGui::TextWrapped("%s", import.progress().c_str());
     w.register_item("Import progress", nullptr);
+    if (w.button("Cancel###Cancel import", "Reads no further, and forgets the files that wait.", w.px(80)))
+      import.cancel();
   }
-  if ((asks || !import.report().empty()) && w.button("Close###Close import report", "Closes this report.", w.px(80)))
+  if ((asks || (!import.report().empty() && !import.busy())) &&
+      w.button("Close###Close import report", "Closes this report.", w.px(80)))
     import.dismiss_report();
   ImGui::End();
 }

@@ -1,8 +1,11 @@
 #include "app/ui/views/surface_view.h"
 
+#include <algorithm>
+
 #include <fmt/core.h>
 
 #include "app/render/palette.h"
+#include "softbody/model/body_model.h"
 
 namespace app::ui {
 namespace {
@@ -27,6 +30,18 @@ void draw_state(Widgets& w, const Session& session) {
   w.text_line(text);
   w.register_item("Checked frame",
                   "The frame that was checked. While bodies move, it is an earlier one. Solids are not checked.");
+}
+
+/// Draws how far what is seen is from what is checked.
+void draw_distance(Widgets& w, const softbody::World& world) {
+  double distance = 0;
+  for (softbody::BodyId id = 0; id < world.bodies().count(); ++id)
+    if (const auto& fine = world.model(id).fine)
+      distance = std::max(distance, fine->imported->findings.distance.value_or(0));
+  if (distance > 0)
+    w.figure("Fine meshes within", millimetres(distance),
+             "The surfaces of the simulated meshes are checked. At rest, the fine meshes that are drawn are no farther "
+             "from them than this.");
 }
 
 void draw_overlaps(Widgets& w, const collide::oracle::SurfaceFigures& figures) {
@@ -68,6 +83,7 @@ void draw_missed(Widgets& w, const Session& session) {
 
 void draw_true_surfaces(Widgets& w, const Session& session) {
   draw_state(w, session);
+  draw_distance(w, session.world());
   draw_overlaps(w, session.surfaces.report().figures);
   draw_missed(w, session);
   if (w.section("Passages", false)) draw_crossings(w, session.surfaces.report().figures, session.surfaces.sums());

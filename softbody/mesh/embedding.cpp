@@ -1,0 +1,73 @@
+#include "softbody/mesh/embedding.h"
+
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace softbody {
+namespace {
+
+/// Returns the right-handed orthonormal frame of a normal and a tangent, of any lengths; zero if they have none.
+glm::mat3 orthonormal(const glm::vec3& normal, const glm::vec3& tangent) {
+  const glm::vec3 side = glm::cross(normal, tangent);
+  const float n2 = glm::dot(normal, normal), s2 = glm::dot(side, side);
+  if (!(n2 > 0 && s2 > 0)) return glm::mat3(0.0f);
+  const glm::vec3 n = normal / std::sqrt(n2), s = side / std::sqrt(s2);
+  return {glm::cross(s, n), s, n};
+}
+
+std::vector<glm::vec3> normals(const std::vector<Triangle>& triangles, const ConstPoints& at) {
+  std::vector<glm::vec3> sum(at.x.size(), glm::vec3(0.0f));
+  for (const auto& [a, b, c] : triangles) {
+    const glm::vec3 area = glm::cross(at[b] - at[a], at[c] - at[a]);
+    sum[a] += area, sum[b] += area, sum[c] += area;
+  }
+  return sum;
+}
+
+}  // namespace
+
+Embedding::Embedding(const Mesh& coarse, std::vector<Hold> holds)
+    : holds_(std::move(holds)), triangles_(coarse.triangles), tangent_(coarse.vertices.size(), 0) {
+  std::vector<float> x, y, z;
+  for (const glm::dvec3& v : coarse.vertices)
+    x.push_back(static_cast<float>(v.x)), y.push_back(static_cast<float>(v.y)), z.push_back(static_cast<float>(v.z));
+  const ConstPoints at{x, y, z};
+  const std::vector<glm::vec3> normal = normals(triangles_, at);
+  // The neighbour that stands out least from the plane of the tangents, relative to its distance.
+  std::vector<float> steepest(tangent_.size(), INFINITY);
+  for (const Edge& edge : coarse.edges)
+    for (const auto& [from, to] : {std::pair(edge[0], edge[1]), std::pair(edge[1], edge[0])}) {
+      const glm::vec3 way = at[to] - at[from];
+      const float rise = std::abs(glm::dot(normal[from], way)) / glm::length(way);
+      if (rise < steepest[from]) steepest[from] = rise, tangent_[from] = to;
+    }
+  for (std::size_t i = 0; i < tangent_.size(); ++i)
+    rest_inverse_.push_back(glm::transpose(orthonormal(normal[i], at[tangent_[i]] - at[i])));
+}
+
+std::vector<Embedding::Frame> Embedding::frames(const ConstPoints& at) const {
+  const std::vector<glm::vec3> normal = normals(triangles_, at);
+  std::vector<Frame> frames(normal.size());
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    frames[i] = {at[i], orthonormal(normal[i], at[tangent_[i]] - at[i]) * rest_inverse_[i]};
+  return frames;
+}
+
+void Embedding::place(const ConstPoints& coarse, std::span<float> x, std::span<float> y, std::span<float> z) const {
+  assert(coarse.x.size() == tangent_.size() && x.size() == holds_.size());
+  const std::vector<Frame> frame = frames(coarse);
+  for (std::size_t i = 0; i < holds_.size(); ++i) {
+    const Hold& hold = holds_[i];
+    const Frame &a = frame[hold.corner[0]], &b = frame[hold.corner[1]], &c = frame[hold.corner[2]];
+    const glm::vec3 p = hold.weight.x * (a.origin + a.turn * hold.offset) +
+                        hold.weight.y * (b.origin + b.turn * hold.offset) +
+                        hold.weight.z * (c.origin + c.turn * hold.offset);
+    x[i] = p.x, y[i] = p.y, z[i] = p.z;
+  }
+}
+
+}  // namespace softbody
