@@ -13,7 +13,7 @@ void give_material(BodyModel& p, const MeshSource& source, const Material& mater
   p.particle_mass = material[Material::mass] / double(p.mesh.vertices.size());
   auto forces = std::make_shared<ModelForces>();
   for_each_force(Forces{}, [&]<class F>(Name<F>) {
-    if constexpr (requires { F::adapt(p.material, source); }) F::adapt(p.material, source);
+    if constexpr (requires { F::adapt(p.material, p.mesh); }) F::adapt(p.material, p.mesh);
     if constexpr (HasElements<F>) forces->of<F>() = F::make(p, source);
   });
   forces->set_bounds(p.mesh.vertices.size());

@@ -202,11 +202,10 @@ std::span<const PenaltyEnd> PenaltyContact::ends_of(const Batch& b) const {
   return std::span(ends_).subspan(first_end_[begin], first_end_[end] - first_end_[begin]);
 }
 
-/// The given stiffness is for the particles of the paper's sphere. If a body has more particles, more of them share a
-/// contact, so they share the stiffness, too.
-void PenaltyContact::adapt(Material& material, const MeshSource& source) {
-  constexpr double stated_for = 162;  // vertices
-  if (source.kind == "file") material[contact::stiffness] *= std::min(1.0, stated_for / double(source.vertex_count()));
+/// The given stiffness is for the particles of the mesh that it is stated for. If a body has more particles, more of
+/// them share a contact, so they share the stiffness, too.
+void PenaltyContact::adapt(Material& material, const Mesh& mesh) {
+  material[contact::stiffness] *= std::min(1.0, mesh.stated_for / double(mesh.vertices.size()));
 }
 
 void PenaltyContact::add(const ForceBatch& b) const {

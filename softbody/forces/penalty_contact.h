@@ -31,7 +31,7 @@ class PenaltyContact {
   static constexpr std::string_view key = "contact-response";
   static constexpr bool internal = false;
   static const char* why_not(const ForceFacts& facts) { return facts.why_no_vertex_contact; }
-  static void adapt(Material& material, const MeshSource& source);
+  static void adapt(Material& material, const Mesh& mesh);
 
   /// The largest share of a pair's relative velocity that a damper takes away in a substep, if the pair has the damped
   /// mass: that of its lighter particle, over the number of contacts there. All dampers on a particle together add no

@@ -10,30 +10,20 @@
 
 namespace softbody {
 
-/// A net of equal springs has the stiffness of a sheet, however fine the net is (Young's modulus times thickness =
-/// 2 k / sqrt(3)), so one stiffness in N/m fits every mesh. Where more than six springs meet (the number in a regular
-/// net), they share the stiffness of six, so that the middle of a fan needs no shorter steps than the rest.
-std::optional<Springs::Data> Springs::join(const BodyModel& p, const std::vector<Edge>& pairs, double stiffness,
-                                           double damping_ratio) {
+std::optional<Springs::Data> Springs::join(const BodyModel& p, const std::vector<Edge>& pairs,
+                                           const std::vector<double>& shares, double stiffness, double damping_ratio) {
   if (stiffness <= 0 || pairs.empty()) return {};
   assert(std::ranges::is_sorted(pairs) && std::ranges::all_of(pairs, [](const Edge& e) { return e[0] < e[1]; }));
+  assert(shares.empty() || shares.size() == pairs.size());
+  const double particle_mass = p.material[Material::mass] / p.mesh.stated_for;
+  const double damping = 2 * damping_ratio * std::sqrt(stiffness * particle_mass / 2);  // reduced mass m / 2
   Data data;
-  std::vector<int> meeting(p.mesh.vertices.size(), 0);
-  for (const auto& [i, j] : pairs) ++meeting[i], ++meeting[j];
-  for (const auto& [i, j] : pairs) {
-    const double own = stiffness * std::min(1.0, 6.0 / std::max(meeting[i], meeting[j]));
-    const double damping = 2 * damping_ratio * std::sqrt(own * p.particle_mass / 2);  // reduced mass m / 2
-    const double rest = glm::distance(p.mesh.vertices[i], p.mesh.vertices[j]);
-    data.add({i, j, rest, own, damping});
+  for (std::size_t s = 0; s < pairs.size(); ++s) {
+    const auto [i, j] = pairs[s];
+    const double share = shares.empty() ? 1 : shares[s];
+    data.add({i, j, glm::distance(p.mesh.vertices[i], p.mesh.vertices[j]), share * stiffness, share * damping});
   }
   return data;
-}
-
-/// Springs of very fine meshes from files become softer, so that a frame takes no more substeps than with the finest
-/// mesh that has full springs.
-double Springs::share(const MeshSource& source) {
-  constexpr double finest = 2000;  // vertices
-  return source.kind == "file" ? std::min(1.0, finest / double(source.vertex_count())) : 1;
 }
 
 template <class Kind>

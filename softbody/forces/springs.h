@@ -33,8 +33,10 @@ struct SpringOf {
 };
 using Spring = SpringOf<double>;
 
-/// The limits of a material's springs. Damping is stated as a share of the critical damping of a spring between its two
-/// particles: c = 2 zeta sqrt(k m / 2).
+/// The limits of a material's springs. Stiffness and damping are stated as for the mesh of Mesh::stated_for vertices,
+/// damping as a share of the critical damping of a spring k between two particles m of it: c = 2 zeta sqrt(k m / 2).
+/// Each spring has the same share of both (Mesh::edge_shares), so that meshes of all resolutions stretch, bend and come
+/// to rest alike.
 inline constexpr Key::Limits spring_stiffness{0, 1e9}, spring_damping_ratio{0, 10};
 
 /// What the three kinds of springs share.
@@ -46,22 +48,21 @@ struct Springs {
   using Data = ElementList<SpringOf>;
 
  protected:
-  static std::optional<Data> join(const BodyModel& model, const std::vector<Edge>& pairs, double stiffness,
-                                  double damping_ratio);
-  static double share(const MeshSource& source);  // of the stiffness
+  /// shares: of each pair, or of none if all are 1.
+  static std::optional<Data> join(const BodyModel& model, const std::vector<Edge>& pairs,
+                                  const std::vector<double>& shares, double stiffness, double damping_ratio);
 };
 
 /// Springs that join these pairs of a mesh's vertices, with the values of the keys of their kind.
-template <class Kind, std::vector<Edge> Mesh::*pairs>
+template <class Kind, std::vector<Edge> Mesh::*pairs, std::vector<double> Mesh::*shares>
 struct SpringsAlong : Springs {
   static std::optional<Data> make(const BodyModel& m, const MeshSource&) {
-    return join(m, m.mesh.*pairs, m.material[Kind::stiffness], m.material[Kind::damping_ratio]);
+    return join(m, m.mesh.*pairs, m.mesh.*shares, m.material[Kind::stiffness], m.material[Kind::damping_ratio]);
   }
-  static void adapt(Material& m, const MeshSource& source) { m[Kind::stiffness] *= share(source); }
 };
 
 /// Along the edges of the mesh.
-struct StructuralSprings : SpringsAlong<StructuralSprings, &Mesh::edges> {
+struct StructuralSprings : SpringsAlong<StructuralSprings, &Mesh::edges, &Mesh::edge_shares> {
   static constexpr std::string_view key = "structural-springs";
   static constexpr auto stiffness =
       Key("structural.stiffness", "N/m", 300, spring_stiffness, "Stiffness of the springs along the edges of the mesh.",
@@ -72,12 +73,13 @@ struct StructuralSprings : SpringsAlong<StructuralSprings, &Mesh::edges> {
   static constexpr std::array keys{&stiffness, &damping_ratio};
 };
 
-/// Between the two vertices opposite an edge; on grids over one particle.
-struct BendSprings : SpringsAlong<BendSprings, &Mesh::bend_pairs> {
+/// Across an edge; on grids over one particle.
+struct BendSprings : SpringsAlong<BendSprings, &Mesh::bend_pairs, &Mesh::bend_shares> {
   static constexpr std::string_view key = "bend-springs";
   static constexpr auto stiffness = Key("bend.stiffness", "N/m", 75, spring_stiffness,
                                         "Stiffness of the springs between the two vertices opposite an edge, on grids "
-                                        "over one vertex. They resist folding.",
+                                        "over one vertex; in finer meshes between vertices as far apart. They resist "
+                                        "folding.",
                                         {"Bend springs", "%.1f N/m", 0, 1000, true});
   static constexpr auto damping_ratio =
       Key("bend.damping_ratio", "", 0.1, spring_damping_ratio, "Damping of the bend springs.");
@@ -85,7 +87,7 @@ struct BendSprings : SpringsAlong<BendSprings, &Mesh::bend_pairs> {
 };
 
 /// Both diagonals of each quad of a grid.
-struct ShearSprings : SpringsAlong<ShearSprings, &Mesh::shear_pairs> {
+struct ShearSprings : SpringsAlong<ShearSprings, &Mesh::shear_pairs, &Mesh::shear_shares> {
   static constexpr std::string_view key = "shear-springs";
   static constexpr auto stiffness = Key("shear.stiffness", "N/m", 0, spring_stiffness,
                                         "Stiffness of the diagonal springs of grids. Other meshes have none.",

@@ -9,7 +9,7 @@
 // A force inside bodies is a law of a coordinate (coordinates.h). It has
 //   coordinate         which one
 //   Data, make(model, source)   what the bodies of a model need for the coordinate, or nothing
-//   adapt(material, source)     changes the values of a material to fit a mesh
+//   adapt(material, mesh)       changes the values of a material to fit a mesh
 //
 // Any other force is an object of the solver (ForceSet::Objects, Motion::Parts). It has
 //   add(batch)         adds its forces on the bodies of a batch

@@ -14,14 +14,6 @@ void sort_unique(std::vector<Edge>& edges) {
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 }
 
-/// Returns, for each edge, the corners opposite to it: one for each triangle that has the edge.
-std::map<Edge, std::vector<Index>> opposite_corners(const std::vector<Triangle>& triangles) {
-  std::map<Edge, std::vector<Index>> corners;
-  for (const Triangle& t : triangles)
-    for (int k = 0; k < 3; ++k) corners[ordered(t[k], t[(k + 1) % 3])].push_back(t[(k + 2) % 3]);
-  return corners;
-}
-
 Mesh icosahedron() {
   const double p = (1.0 + std::sqrt(5.0)) / 2.0;
   Mesh mesh;
@@ -50,18 +42,6 @@ void subdivide(Mesh& mesh) {
 
 }  // namespace
 
-void connect_triangles(Mesh& mesh) {
-  mesh.closed = !mesh.triangles.empty();
-  for (const auto& [edge, corners] : opposite_corners(mesh.triangles)) {
-    mesh.edges.push_back(edge);
-    if (corners.size() == 2)
-      mesh.bend_pairs.push_back(ordered(corners[0], corners[1]));
-    else
-      mesh.closed = false;
-  }
-  sort_unique(mesh.bend_pairs);
-}
-
 Mesh icosphere(int subdivisions, double radius) {
   Mesh mesh = icosahedron();
   for (int s = 0; s < subdivisions; ++s) {
@@ -75,6 +55,9 @@ Mesh icosphere(int subdivisions, double radius) {
 
 Mesh quad_grid(int columns, int rows, double width, double depth) {
   Mesh mesh;
+  mesh.stated_for = 57 * 57;
+  const double finer = double(columns + 1) * double(rows + 1) / mesh.stated_for;
+  const int steps = std::max(1, int(std::lround(std::sqrt(finer)))), span = 2 * steps;
   const auto at = [&](int c, int r) { return static_cast<Index>(r * (columns + 1) + c); };
   for (int r = 0; r <= rows; ++r)
     for (int c = 0; c <= columns; ++c)
@@ -83,8 +66,8 @@ Mesh quad_grid(int columns, int rows, double width, double depth) {
     for (int c = 0; c <= columns; ++c) {
       if (c < columns) mesh.edges.push_back({at(c, r), at(c + 1, r)});
       if (r < rows) mesh.edges.push_back({at(c, r), at(c, r + 1)});
-      if (c + 2 <= columns) mesh.bend_pairs.push_back({at(c, r), at(c + 2, r)});
-      if (r + 2 <= rows) mesh.bend_pairs.push_back({at(c, r), at(c, r + 2)});
+      if (c + span <= columns) mesh.bend_pairs.push_back({at(c, r), at(c + span, r)});
+      if (r + span <= rows) mesh.bend_pairs.push_back({at(c, r), at(c, r + span)});
       if (c == columns || r == rows) continue;
       const Index a = at(c, r), b = at(c, r + 1), d = at(c + 1, r), e = at(c + 1, r + 1);
       mesh.shear_pairs.push_back(ordered(a, e));
@@ -98,6 +81,7 @@ Mesh quad_grid(int columns, int rows, double width, double depth) {
   sort_unique(mesh.edges);
   sort_unique(mesh.bend_pairs);
   sort_unique(mesh.shear_pairs);
+  mesh.bend_shares.assign(mesh.bend_pairs.size(), 1.0 / (steps * steps));  // as many more pull side by side
   return mesh;
 }
 

@@ -21,8 +21,11 @@ struct Mesh {
   std::vector<Triangle> triangles;
   std::vector<Edge> edges;        // polygon edges, ascending, unique, without the diagonals of quads
   std::vector<Edge> shear_pairs;  // both diagonals of each quad; empty for triangle meshes
-  std::vector<Edge> bend_pairs;   // the vertices that a bend spring joins across one edge or particle
-  bool closed = false;            // every edge has two faces, so the mesh encloses a volume
+  std::vector<Edge> bend_pairs;   // the vertices that a bend spring joins; ascending, unique
+  std::vector<double> edge_shares, shear_shares,
+      bend_shares;          // of a material's stiffness, of springs there; empty: all 1
+  double stated_for = 162;  // number of vertices of the mesh of this kind that materials are stated for
+  bool closed = false;      // every edge has two faces, so the mesh encloses a volume
 };
 
 /// Returns a sphere: an icosahedron whose faces are cut into four s = `subdivisions` times (0 to 6). It has
@@ -31,10 +34,12 @@ struct Mesh {
 Mesh icosphere(int subdivisions, double radius);
 
 /// Returns a flat sheet in the xz plane, centred at the origin: columns x rows quads (>= 1 each), width x depth metres.
-/// Bend springs join each particle to the next but one in both directions.
+/// Bend springs join each particle in both directions to the next but one, of finer grids than that which materials are
+/// stated for (56 x 56 quads) to one that is as far away as the next but one is there.
 Mesh quad_grid(int columns, int rows, double width, double depth);
 
-/// Fills in `edges`, `bend_pairs` and `closed` from the triangles.
+/// Fills in all else from the vertices and triangles of a mesh. Whatever its resolution, the springs that it asks for
+/// are as stiff as those of the sphere that materials are stated for, see connect_triangles.cpp.
 void connect_triangles(Mesh& mesh);
 
 /// Returns the signed volume of a closed triangle mesh in m^3, by the divergence theorem.

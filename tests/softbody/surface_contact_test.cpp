@@ -326,6 +326,8 @@ Scene sheet_on_sheet(double friction, double tangent) {
   Material cloth = spring_ball();
   cloth[contact::friction] = friction;
   cloth[Material::thickness] = 0.01;
+  // Damping is stated for a grid of 57 x 57 particles.
+  for (const Key* ratio : {&StructuralSprings::damping_ratio, &BendSprings::damping_ratio}) cloth[*ratio] *= 57.0 / 4;
   Scene scene = ball_in_space(cloth);
   scene.collision.self_collision = false;
   scene.gravity = g * glm::dvec3(std::sin(angle), -std::cos(angle), 0);
