@@ -1,6 +1,7 @@
 #include "collide/exact/patch_search.h"
 
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 #include <glm/common.hpp>
@@ -13,15 +14,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-float squared_length(const glm::vec3& side) { return squared_distance(side.x, side.y, side.z, 0, 0, 0); }
-
-/// Returns what squared_distance() of two points in these boxes is at least, and at most.
-float least_squared_distance(const Aabb& a, const Aabb& b) {
-  return squared_length(glm::max(glm::max(a.lo - b.hi, b.lo - a.hi), glm::vec3(0)));
-}
-float greatest_squared_distance(const Aabb& a, const Aabb& b) {
-  return squared_length(glm::max(a.hi - b.lo, b.hi - a.lo));
-}
+std::array<float, 4> padded(const glm::vec3& p) { return {p.x, p.y, p.z, 0}; }
 
 }  // namespace
 
@@ -37,6 +30,11 @@ void PatchSearch::begin(const Frame& frame, std::span<const Index> which, float 
   if (fresh || tolerance2 != tolerance2_) {
     tolerance2_ = tolerance2;
     list_joined(frame);
+  }
+  const std::span<const trees::Node> nodes = trees_.nodes();
+  for (std::size_t at = trees_.root(0); at < nodes.size(); ++at) {
+    boxes_[at].lo = padded(nodes[at].box.lo);
+    boxes_[at].hi = padded(nodes[at].box.hi);
   }
 }
 
@@ -54,28 +52,33 @@ void PatchSearch::take_rest(const Frame& frame) {
     points_.rest_y[slot] = at.y;
     points_.rest_z[slot] = at.z;
   }
+  take_rest_boxes();
+}
+
+void PatchSearch::take_rest_boxes() {
   const std::span<const trees::Node> nodes = trees_.nodes();
-  rest_.resize(nodes.size());
+  boxes_.resize(nodes.size());
+  body_.resize(nodes.size());
   for (std::size_t at = nodes.size(); at-- > trees_.root(0);) {
     const trees::Node& node = nodes[at];
-    Aabb box{glm::vec3(infinity), glm::vec3(-infinity)};
-    const auto add = [&box](const glm::vec3& lo, const glm::vec3& hi) {
-      box = {glm::min(box.lo, lo), glm::max(box.hi, hi)};
+    PatchBoxes& boxes = boxes_[at];
+    boxes.rest_lo = padded(glm::vec3(infinity));
+    boxes.rest_hi = padded(glm::vec3(-infinity));
+    const auto add = [&boxes](std::size_t axis, float lo, float hi) {
+      boxes.rest_lo[axis] = std::min(boxes.rest_lo[axis], std::isnan(lo) ? -infinity : lo);
+      boxes.rest_hi[axis] = std::max(boxes.rest_hi[axis], std::isnan(hi) ? infinity : hi);
     };
-    if (node.is_leaf()) {
-      const Range slots = node.slots();
-      for (Index slot = slots.begin; slot < slots.end; ++slot) {
-        const glm::vec3 p(points_.rest_x[slot], points_.rest_y[slot], points_.rest_z[slot]);
-        const bool known = p == p;  // no coordinate is NaN
-        add(known ? p : glm::vec3(-infinity), known ? p : glm::vec3(infinity));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::vector<float>& rest = axis == 0 ? points_.rest_x : axis == 1 ? points_.rest_y : points_.rest_z;
+      for (Index k = node.first; k < node.first + (node.is_leaf() ? node.size : node.children); ++k) {
+        if (node.is_leaf()) {
+          add(axis, rest[k], rest[k]);
+        } else {
+          add(axis, boxes_[k].rest_lo[axis], boxes_[k].rest_hi[axis]);
+        }
       }
-      rest_[at] = {box, now.body[slots.begin]};
-    } else {
-      for (Index child = node.first; child < node.first + node.children; ++child) {
-        add(rest_[child].box.lo, rest_[child].box.hi);
-      }
-      rest_[at] = {box, rest_[node.first].body};
     }
+    body_[at] = node.is_leaf() ? points_.now->body[node.first] : body_[node.first];
   }
 }
 
@@ -112,23 +115,23 @@ std::size_t PatchSearch::deal(int threads) {
 }
 
 bool PatchSearch::apart(trees::NodePair pair) const {
-  const Rest &a = rest_[pair.a], &b = rest_[pair.b];
-  if (a.body == b.body && greatest_squared_distance(a.box, b.box) < tolerance2_) return true;
-  const std::span<const trees::Node> nodes = trees_.nodes();
-  return least_squared_distance(nodes[pair.a].box, nodes[pair.b].box) >= tolerance2_;
+  const PatchBoxes &a = boxes_[pair.a], &b = boxes_[pair.b];
+  if (body_[pair.a] == body_[pair.b] && greatest_squared_rest_distance(a, b) < tolerance2_) return true;
+  return least_squared_distance(a, b) >= tolerance2_;
 }
 
 PatchSearch::Found PatchSearch::find(std::size_t task, std::size_t max_contacts, std::vector<Contact>& contacts) const {
   constexpr std::size_t room = std::size_t{trees::BodyTrees::patch_size} * trees::BodyTrees::patch_size;
   const std::span<const trees::Node> nodes = trees_.nodes();
-  const bool self = rest_[pairs_[task].a].body == rest_[pairs_[task].b].body;
+  const bool self = body_[pairs_[task].a] == body_[pairs_[task].b];
   Found found;
   std::size_t size = contacts.size();
   const auto test = [&](trees::NodePair pair) {
     const Range a = nodes[pair.a].slots(), b = nodes[pair.b].slots();
     if (contacts.size() < size + room) contacts.resize(size + 16 * room);
-    const Index added = self ? patch_contacts_within(points_, a, b, tolerance2_, contacts.data() + size)
-                             : patch_contacts_between(points_, a, b, tolerance2_, contacts.data() + size);
+    const PatchBoxes& box = boxes_[pair.b];
+    const Index added = self ? patch_contacts_within(points_, a, b, box, tolerance2_, contacts.data() + size)
+                             : patch_contacts_between(points_, a, b, box, tolerance2_, contacts.data() + size);
     found.self_contacts += self ? added : 0;
     found.pair_tests += std::uint64_t{a.size()} * b.size() - (pair.a == pair.b ? a.size() * (a.size() + 1) / 2 : 0);
     size += added;

@@ -6,10 +6,8 @@
 
 namespace collide::exact {
 
-/// Goes down the trees of the bodies with pairs of nodes. A pair of nodes of one body is left out if all its pairs of
-/// vertices are closer than the tolerance at rest, any pair of nodes if all are farther apart than the tolerance now.
-/// Both bounds are those that squared_distance() has over the boxes: each of its steps rounds monotonically, so that
-/// they need no margin.
+/// Goes down the trees of the bodies with pairs of nodes. A pair of nodes is left out if all its vertices are farther
+/// apart than the tolerance now, and one of one body also if all are closer than that at rest.
 class PatchSearch {
  public:
   /// Starts a frame with the positions of some bodies; ascending.
@@ -31,6 +29,7 @@ class PatchSearch {
 
  private:
   void take_rest(const Frame& frame);
+  void take_rest_boxes();
   void list_joined(const Frame& frame);
   bool apart(trees::NodePair pair) const;
 
@@ -38,11 +37,8 @@ class PatchSearch {
   std::vector<Index> which_;
   trees::BodyTrees trees_;
   PatchPoints points_;
-  struct Rest {
-    Aabb box;  // of the vertices of a node at rest; everything where that is not known
-    Index body;
-  };
-  std::vector<Rest> rest_;  // by node
+  std::vector<PatchBoxes> boxes_;  // of each node
+  std::vector<Index> body_;        // of each node
   std::vector<trees::NodePair> pairs_;
 };
 
