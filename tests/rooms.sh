@@ -10,7 +10,7 @@ collide/api/sbcollide:
 collide/core: collide/api/sbcollide
 collide/trees: collide/core
 collide/methods: collide/core collide/trees
-collide/exact: collide/core
+collide/exact: collide/core collide/trees
 collide/surface: collide/core
 collide/oracle: collide/core collide/surface
 collide: collide/core collide/methods collide/exact

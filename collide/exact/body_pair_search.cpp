@@ -51,7 +51,14 @@ void BodyPairSearch::find(const Frame& frame, const Query& query, const RestingC
   assert(bounds_.size() == frame.bodies->count());
   begin(frame, query, workers);
   near_.find(bounds_, live_, cutoff_, workers);
-  workers.run([&](int thread) { find_part(thread, workers.threads(), resting); });
+  share_large_bodies(resting, workers);
+  workers.run([&](int thread) {
+    Thread& own = threads_[static_cast<std::size_t>(thread)];
+    begin(own);
+    find_patch_contacts(thread, workers.threads());
+    find_part(thread, workers.threads(), resting);
+    if (!loose_.empty()) rows_.count(thread, own.loose);
+  });
   for (Thread& thread : threads_)
     check_contact_limit(thread);  // the rest, so that no more pass on many threads than on one
 }
@@ -69,13 +76,45 @@ void BodyPairSearch::begin(const Frame& frame, const Query& query, Workers& work
 void BodyPairSearch::begin(Thread& own) const {
   own.tree.begin(query_.levels, cutoff_, tolerance2_, query_.max_contacts);
   own.pairs.clear();
+  own.loose.clear();
+  own.segments.clear();
   own.checked = 0;
   own.self_contacts = own.pair_tests = own.separated = own.unfolded = own.kept = 0;
 }
 
+void BodyPairSearch::share_large_bodies(const RestingContacts& resting, Workers& workers) {
+  large_.clear();
+  loose_.clear();
+  for (const Index body : live_) {
+    if (!is_large(body)) continue;
+    large_.push_back(body);
+    if (!resting.group(body, near_)) loose_.push_back(body);
+  }
+  patch_tasks_ = 0;
+  if (loose_.empty()) return;
+  patches_.begin(*frame_, large_, tolerance2_, workers);
+  for (const Index a : loose_) {
+    if (query_.self) patches_.add(a, a);
+    for (const Index b : near_.later_neighbours(a)) {
+      if (is_large(b)) patches_.add(a, b);
+    }
+  }
+  patch_tasks_ = patches_.deal(workers.threads());
+  rows_.begin(frame_->bodies->vertex_count(), workers.threads());
+}
+
+void BodyPairSearch::find_patch_contacts(int thread, int threads) {
+  Thread& own = threads_[static_cast<std::size_t>(thread)];
+  for (auto task = static_cast<std::size_t>(thread); task < patch_tasks_; task += static_cast<std::size_t>(threads)) {
+    const PatchSearch::Found found = patches_.find(task, query_.max_contacts, own.loose);
+    own.pair_tests += found.pair_tests;
+    own.self_contacts += found.self_contacts;
+    check_contact_limit(own);
+  }
+}
+
 void BodyPairSearch::find_part(int thread, int threads, const RestingContacts& resting) {
   Thread& own = threads_[static_cast<std::size_t>(thread)];
-  begin(own);
   const Part part = part_of(near_.pairs() + live_.size(), thread, threads);
   for (std::size_t k = 0; k < live_.size(); ++k) {
     const Index body = live_[k];
@@ -83,10 +122,12 @@ void BodyPairSearch::find_part(int thread, int threads, const RestingContacts& r
     if (place < part.begin || place >= part.end) continue;
     if (const auto group = resting.group(body, near_)) {
       keep_group(own, body, *group);
+    } else if (is_large(body)) {
+      find_loose_group(own, body);
     } else {
       find_group(own, body);
     }
-    if (own.pairs.size() - own.checked >= std::min(max_uncounted_pairs, query_.max_contacts / 8))
+    if (own.pairs.size() + own.loose.size() - own.checked >= std::min(max_uncounted_pairs, query_.max_contacts / 8))
       check_contact_limit(own);
   }
 }
@@ -97,6 +138,16 @@ void BodyPairSearch::keep_group(Thread& own, Index a, std::span<const Contact> g
       std::count_if(group.begin(), group.end(), [end](const Contact& contact) { return contact.b < end; }));
   own.kept += near_.later_neighbours(a).size();
   own.pairs.insert(own.pairs.end(), group.begin(), group.end());
+}
+
+/// Leaves a gap for the group of a large body, and adds its contacts with small bodies to those that patches_ found.
+void BodyPairSearch::find_loose_group(Thread& own, Index a) {
+  own.segments.push_back({own.pairs.size(), 0});
+  for (const Index b : near_.later_neighbours(a)) {
+    own.group.clear();
+    if (!is_large(b)) find_between(own, a, b);
+    own.loose.insert(own.loose.end(), own.group.begin(), own.group.end());
+  }
 }
 
 void BodyPairSearch::find_group(Thread& own, Index a) {
@@ -118,8 +169,8 @@ void BodyPairSearch::find_group(Thread& own, Index a) {
 }
 
 void BodyPairSearch::check_contact_limit(Thread& own) {
-  const std::size_t added = own.pairs.size() - own.checked;
-  own.checked = own.pairs.size();
+  const std::size_t added = own.pairs.size() + own.loose.size() - own.checked;
+  own.checked += added;
   if (found_.fetch_add(added, std::memory_order_relaxed) + added > query_.max_contacts) {
     throw_too_many_contacts(query_.max_contacts);
   }
@@ -196,12 +247,30 @@ void BodyPairSearch::sort_group(Thread& own, Index a, bool runs_ordered) {
 
 void BodyPairSearch::concatenate(Workers& workers, std::vector<Contact>& pairs) {
   std::size_t total = 0;
-  for (Thread& thread : threads_)
-    thread.checked = std::exchange(total, total + thread.pairs.size());  // its first place
+  auto large = loose_.begin();
+  for (Thread& thread : threads_) {
+    std::size_t begin = 0;
+    for (Segment& segment : thread.segments) {
+      segment.place = total;
+      total += segment.end - std::exchange(begin, segment.end);
+      const Index body = *large++;
+      total = rows_.place({frame_->bodies->first[body], frame_->bodies->first[body + 1]}, total);
+    }
+    thread.segments.push_back({thread.pairs.size(), total});
+    total += thread.pairs.size() - begin;
+  }
   pairs.resize(total);
   workers.run([&](int thread) {
     const Thread& own = threads_[static_cast<std::size_t>(thread)];
-    std::copy(own.pairs.begin(), own.pairs.end(), pairs.begin() + static_cast<std::ptrdiff_t>(own.checked));
+    auto begin = own.pairs.begin();
+    for (const Segment& segment : own.segments) {
+      const auto end = own.pairs.begin() + static_cast<std::ptrdiff_t>(segment.end);
+      std::copy(std::exchange(begin, end), end, pairs.begin() + static_cast<std::ptrdiff_t>(segment.place));
+    }
+    if (loose_.empty()) return;
+    rows_.scatter(thread, own.loose, pairs);
+    workers.barrier();
+    rows_.sort(thread, pairs);
   });
 }
 
@@ -234,6 +303,9 @@ std::vector<DebugGeometry::Box> BodyPairSearch::boxes() const {
     const auto& leaves = thread.tree.leaf_boxes();
     boxes.insert(boxes.end(), leaves.begin(), leaves.end());
   }
+  if (loose_.empty()) return boxes;
+  const std::vector<DebugGeometry::Box> patches = patches_.boxes();
+  boxes.insert(boxes.end(), patches.begin(), patches.end());
   return boxes;
 }
 

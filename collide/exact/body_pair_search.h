@@ -5,7 +5,9 @@
 #include <atomic>
 
 #include "collide/exact/body_broad_phase.h"
+#include "collide/exact/contact_rows.h"
 #include "collide/exact/overlap_tree.h"
+#include "collide/exact/patch_search.h"
 #include "collide/exact/resting_contacts.h"
 #include "collide/exact/self_collision_culling.h"
 
@@ -32,7 +34,7 @@ class BodyPairSearch {
 
   const BodyBroadPhase& near() const { return near_; }
 
-  /// Copies all groups, one after another, into `pairs`.
+  /// Copies all groups, one after another, into `pairs`, and sorts those of large bodies there.
   void concatenate(Workers& workers, std::vector<Contact>& pairs);
 
   /// Adds the counters of the last search, and what it left out, to the result.
@@ -40,9 +42,17 @@ class BodyPairSearch {
   /// Returns the areas where bodies overlap and the leaves of the cuts there, for drawing.
   std::vector<DebugGeometry::Box> boxes() const;
 
-  void forget() { references_.forget(); }
+  void forget() {
+    references_.forget();
+    patches_.forget();
+  }
 
  private:
+  /// Pairs of a thread that no large body's group interrupts.
+  struct Segment {
+    std::size_t end;    // behind its last pair; it begins where the one before it ends
+    std::size_t place;  // of the first one among those of all threads
+  };
   struct alignas(64) Thread {
     OverlapTree tree;
     FacingScratch facing;
@@ -50,7 +60,9 @@ class BodyPairSearch {
     Words words;
     VertexSet whole;             // of one body
     std::vector<Contact> pairs;  // of its groups, in order
-    std::size_t checked = 0;     // how many of the pairs are counted in found_
+    std::vector<Contact> loose;  // of the groups of large bodies, in no order
+    std::size_t checked = 0;     // how many of both are counted in found_
+    std::vector<Segment> segments;
     std::vector<Contact> group, sorted;
     std::vector<Index> vertex_count;
     std::uint64_t self_contacts = 0, pair_tests = 0, separated = 0, unfolded = 0, kept = 0;
@@ -58,10 +70,15 @@ class BodyPairSearch {
 
   void begin(const Frame& frame, const Query& query, Workers& workers);
   void begin(Thread& own) const;
+  bool is_large(Index body) const { return frame_->bodies->size(body) > CullingReference::max_vertices; }
+  void share_large_bodies(const RestingContacts& resting, Workers& workers);
+  /// Finds one thread's share of the contacts inside large bodies and between them.
+  void find_patch_contacts(int thread, int threads);
   /// Finds the groups of one thread's share of the bodies. Each thread gets consecutive bodies, with about as many near
   /// pairs as every other thread.
   void find_part(int thread, int threads, const RestingContacts& resting);
   void find_group(Thread& own, Index a);
+  void find_loose_group(Thread& own, Index a);
   void keep_group(Thread& own, Index a, std::span<const Contact> group);
   void find_between(Thread& own, Index a, Index b);
   void find_self(Thread& own, Index body);
@@ -76,6 +93,11 @@ class BodyPairSearch {
   std::vector<Index> live_;
   BodyBroadPhase near_;
   SelfCollisionCulling references_;
+  std::vector<Index> large_;     // the live bodies that is_large()
+  std::vector<Index> loose_;     // those of them whose groups are not kept: their contacts come in no order
+  PatchSearch patches_;          // of the large bodies
+  std::size_t patch_tasks_ = 0;  // of this frame
+  ContactRows rows_;             // of the large bodies' groups
   std::vector<Thread> threads_;
   std::atomic<std::size_t> found_ = 0;
 };

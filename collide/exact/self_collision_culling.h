@@ -26,6 +26,8 @@ struct SelfCollisionCandidates {
 /// decide how much is left to test, never which contacts are found.
 class CullingReference {
  public:
+  static constexpr Index min_vertices = sample_run, max_vertices = 2048;
+
   /// positions: of one body. cutoff: m. The reference is usable() if it has `min_vertices` to `max_vertices` vertices,
   /// is finite and is not flat.
   CullingReference(const VertexRun& positions, const Topology& topology, float cutoff);
@@ -42,7 +44,6 @@ class CullingReference {
  private:
   void list_pairs(const Topology& topology);
 
-  static constexpr Index min_vertices = sample_run, max_vertices = 2048;  // vertices
   bool usable_ = false;
   float cutoff_ = 0;
   std::vector<float> x_, y_, z_;             // centred

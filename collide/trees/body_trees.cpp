@@ -7,15 +7,20 @@
 
 namespace collide::trees {
 
-void BodyTrees::update(const Frame& frame, std::span<const Index> which, Workers& workers) {
-  if (!std::ranges::equal(which, which_) || frame.bodies->first != bodies_.first ||
-      frame.bodies->shape != bodies_.shape || patterns_.empty()) {
+bool BodyTrees::update(const Frame& frame, std::span<const Index> which, Workers& workers) {
+  bool fresh = !std::ranges::equal(which, which_) || frame.bodies->first != bodies_.first ||
+               frame.bodies->shape != bodies_.shape || patterns_.empty();
+  if (fresh) lay_out(frame, which, workers);
+  refit(frame, workers);
+  if (drop_spread_patterns()) {
+    fresh = true;
     lay_out(frame, which, workers);
+    refit(frame, workers);
   }
-  workers.run([&](int thread) {
-    const Part part = part_of(which.size(), thread, workers.threads());
-    for (std::size_t k = part.begin; k < part.end; ++k) refit(frame, k);
-  });
+  for (std::size_t k = 0; k < which_.size(); ++k) {
+    if (pattern_[k]->spread == 0 && pattern_[k]->cut_by == which_[k]) pattern_[k]->spread = spread_[k];
+  }
+  return fresh;
 }
 
 void BodyTrees::forget() { patterns_.clear(); }
@@ -50,11 +55,13 @@ void BodyTrees::find_patterns(const Frame& frame, std::span<const Index> which, 
   for (const Index body : which) {
     const std::shared_ptr<const Shape>& shape = frame.bodies->shape[body];
     Pattern& pattern = patterns[shape.get()];
+    if (!pattern.shape) {
+      pattern.shape = shape;
+      pattern.cut_by = body;
+    }
+    if (!pattern.used && pattern.nodes.empty()) fresh.emplace_back(&pattern, pattern.cut_by);
     pattern.used = true;
     pattern_.push_back(&pattern);
-    if (pattern.shape) continue;
-    pattern.shape = shape;
-    fresh.emplace_back(&pattern, body);
   }
   items_.resize(static_cast<std::size_t>(workers.threads()));
   workers.run([&](int thread) {
@@ -93,25 +100,62 @@ void BodyTrees::Pattern::cut(std::span<Item> items, Index node, Index first_slot
   cut(items.subspan(low), child + 1, first_slot + low);
 }
 
-/// From the leaves to the root.
-void BodyTrees::refit(const Frame& frame, std::size_t k) {
-  for (Index at = first_node_[k + 1]; at-- > first_node_[k];) {
-    Node& node = nodes_[at];
-    if (!node.is_leaf()) {
-      const Aabb &one = nodes_[node.first].box, &other = nodes_[node.first + std::size_t{1}].box;
-      node.box = {glm::min(one.lo, other.lo), glm::max(one.hi, other.hi)};
-      continue;
+/// The leaves, in parts of about the same size, then the others of each body from below.
+void BodyTrees::refit(const Frame& frame, Workers& workers) {
+  const std::size_t first = first_node_.front();
+  spread_.resize(which_.size());
+  workers.run([&](int thread) {
+    const Part part = part_of(nodes_.size() - first, thread, workers.threads());
+    for (std::size_t at = first + part.begin; at < first + part.end; ++at) {
+      if (nodes_[at].is_leaf()) refit_leaf(frame, nodes_[at]);
     }
-    const Range slots = node.slots();
-    for (Index slot = slots.begin; slot < slots.end; ++slot) {
-      points_.x[slot] = frame.x[points_.vertex[slot]];
-      points_.y[slot] = frame.y[points_.vertex[slot]];
-      points_.z[slot] = frame.z[points_.vertex[slot]];
+    workers.barrier();
+    const Part bodies = part_of(which_.size(), thread, workers.threads());
+    for (std::size_t k = bodies.begin; k < bodies.end; ++k) {
+      for (Index at = first_node_[k + 1]; at-- > first_node_[k];) {
+        Node& node = nodes_[at];
+        if (node.is_leaf()) continue;
+        const Aabb &one = nodes_[node.first].box, &other = nodes_[node.first + std::size_t{1}].box;
+        node.box = {glm::min(one.lo, other.lo), glm::max(one.hi, other.hi)};
+      }
+      spread_[k] = spread_of(k);
     }
-    node.box = bounds_of(slots.begin, slots.end, [&](std::size_t slot) {
-      return glm::vec3(points_.x[slot], points_.y[slot], points_.z[slot]);
-    });
+  });
+}
+
+void BodyTrees::refit_leaf(const Frame& frame, Node& leaf) {
+  const Range slots = leaf.slots();
+  for (Index slot = slots.begin; slot < slots.end; ++slot) {
+    points_.x[slot] = frame.x[points_.vertex[slot]];
+    points_.y[slot] = frame.y[points_.vertex[slot]];
+    points_.z[slot] = frame.z[points_.vertex[slot]];
   }
+  leaf.box = bounds_of(slots.begin, slots.end,
+                       [&](std::size_t slot) { return glm::vec3(points_.x[slot], points_.y[slot], points_.z[slot]); });
+}
+
+/// Returns how large the patches of a body are, all together, beside the body; never 0.
+float BodyTrees::spread_of(std::size_t k) const {
+  const auto sides = [](const Aabb& box) {
+    const glm::dvec3 side = glm::dvec3(box.hi) - glm::dvec3(box.lo);
+    return side.x + side.y + side.z;
+  };
+  double sum = 0;
+  for (const Node& node : nodes_of(k)) sum += node.is_leaf() ? sides(node.box) : 0;
+  const double whole = sides(nodes_of(k).front().box);
+  return whole > 0 && sum > 0 ? static_cast<float>(sum / whole) : 1;
+}
+
+/// Empties the patterns whose patches have spread in some body, for a new cut by that body.
+bool BodyTrees::drop_spread_patterns() {
+  bool dropped = false;
+  for (std::size_t k = 0; k < which_.size(); ++k) {
+    Pattern& pattern = *pattern_[k];
+    if (pattern.spread == 0 || !(spread_[k] > 2 * pattern.spread)) continue;
+    pattern = {pattern.shape, {}, {}, 0, which_[k], false};
+    dropped = true;
+  }
+  return dropped;
 }
 
 }  // namespace collide::trees

@@ -14,8 +14,10 @@ class BodyTrees {
   static constexpr Index patch_size = 16;  // vertices, at most
 
   /// Takes the positions of a frame. Makes the trees of the bodies `which`, unless they are those of the last frame,
-  /// and refits all boxes. A mesh is cut by the positions of its first body in the frame that it first appears in.
-  void update(const Frame& frame, std::span<const Index> which, Workers& workers);
+  /// and refits all boxes. A mesh is cut by the positions of its first body in the frame that it first appears in, and
+  /// cut anew once the patches of a body have spread to twice their share of it. Returns true if the slots and nodes
+  /// are not those of the last frame.
+  bool update(const Frame& frame, std::span<const Index> which, Workers& workers);
   /// Drops the cuts, so that the next frame makes them anew.
   void forget();
 
@@ -26,6 +28,8 @@ class BodyTrees {
   std::span<const Node> nodes_of(std::size_t k) const {
     return std::span(nodes_).subspan(first_node_[k], first_node_[k + 1] - first_node_[k]);
   }
+  /// Returns the place among nodes() of the root of the body which[k].
+  Index root(std::size_t k) const { return first_node_[k]; }
   /// Returns the room for a binary tree over the bodies; a leaf of it is a copy of a body's root.
   std::span<Node> upper() { return std::span(nodes_).first(first_node_.empty() ? 0 : first_node_.front()); }
 
@@ -35,6 +39,8 @@ class BodyTrees {
     std::shared_ptr<const Shape> shape;  // kept alive, so that no other shape can take its address
     std::vector<Index> vertex;           // of each slot
     std::vector<Node> nodes;
+    float spread = 0;  // see spread_of(), of the body that it was cut by
+    Index cut_by = 0;  // that body
     bool used = false;
 
     void cut(const Frame& frame, Index body, std::vector<Item>& items);
@@ -43,7 +49,10 @@ class BodyTrees {
   using Patterns = std::unordered_map<const Shape*, Pattern>;
   void find_patterns(const Frame& frame, std::span<const Index> which, Patterns& patterns, Workers& workers);
   void lay_out(const Frame& frame, std::span<const Index> which, Workers& workers);
-  void refit(const Frame& frame, std::size_t k);
+  void refit(const Frame& frame, Workers& workers);
+  void refit_leaf(const Frame& frame, Node& leaf);
+  float spread_of(std::size_t k) const;
+  bool drop_spread_patterns();
 
   Patterns patterns_;
   std::vector<Pattern*> pattern_;         // of each of the bodies
@@ -51,6 +60,7 @@ class BodyTrees {
   Bodies bodies_;                         // of the last layout
   std::vector<Index> which_;              // the same
   std::vector<Index> first_node_;         // of each body, and the end of the last one's
+  std::vector<float> spread_;             // of each body, see spread_of()
   std::vector<Node> nodes_;
   Points points_;
 };

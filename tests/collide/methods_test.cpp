@@ -57,7 +57,7 @@ TEST(Methods, SayWhetherTheyKeepAnythingBetweenFrames) {
   for (int body = 0; body < 6; ++body) {
     std::vector<glm::vec3> points = moved(ball.vertices, glm::vec3(0.7f * static_cast<float>(body), 0, 0));
     now.add(shape, points);
-    std::rotate(points.begin(), points.begin() + 50, points.end());
+    for (glm::vec3& p : points) p = glm::vec3(0.8f * p.x - 0.6f * p.y, 0.6f * p.x + 0.8f * p.y, p.z);
     before.add(shape, points);
   }
   Settings settings;

@@ -140,6 +140,33 @@ TEST(BodyTrees, KeepTheCutsOfAMeshUntilTheyForget) {
   EXPECT_NE(order(trees), first);
 }
 
+TEST(BodyTrees, AreCutAnewByTheBodyWhosePatchesHaveSpread) {
+  const Ball ball = icosphere(3, 0.5f);
+  const auto shape = std::make_shared<const Shape>(642, ball.edges, ball.vertices);
+  std::mt19937 random(53);
+  std::vector<glm::vec3> mixed = ball.vertices;
+  std::ranges::shuffle(mixed, random);
+  State before, after;
+  for (const float at : {0.0f, 2.0f}) {
+    before.add(shape, moved(ball.vertices, glm::vec3(at, 0, 0)));
+    after.add(shape, moved(at > 0 ? mixed : ball.vertices, glm::vec3(at, 0, 0)));
+  }
+  Workers workers(2);
+  BodyTrees trees, fresh;
+  const std::vector<Index> live{0, 1}, second{1};
+  EXPECT_TRUE(trees.update(before.frame(), live, workers));
+  EXPECT_FALSE(trees.update(before.frame(), live, workers));
+  EXPECT_TRUE(trees.update(after.frame(), live, workers));
+  fresh.update(after.frame(), second, workers);
+  const auto boxes = [](std::span<const Node> nodes) {
+    std::vector<float> sides;
+    for (const Node& node : nodes) sides.push_back(node.box.hi.x - node.box.lo.x);
+    return sides;
+  };
+  EXPECT_EQ(boxes(trees.nodes_of(1)), boxes(fresh.nodes_of(0)));
+  check_points(after, trees.points(), live);
+}
+
 TEST(TreeSearch, FindsTheContactsOfAnyTree) {
   for (const NamedState& named : named_states()) {
     const State state = named.make();
