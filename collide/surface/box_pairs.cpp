@@ -134,19 +134,13 @@ void BoxPairs::pick(const BoxList& list, const Aabb& box, BoxList& picked) {
 void BoxPairs::between(const BoxList& a, const BoxList& b, std::vector<ItemPair>& pairs, std::size_t max_pairs) {
   pairs_ = &pairs;
   max_pairs_ = max_pairs;
-  const std::size_t before = pairs.size();
   cut_between(a, b, lowest_corner, 0);
-  if (std::uint64_t{a.size} * b.size > leaf_tests)
-    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(before), pairs.end());
 }
 
 void BoxPairs::within(const BoxList& list, std::vector<ItemPair>& pairs, std::size_t max_pairs) {
   pairs_ = &pairs;
   max_pairs_ = max_pairs;
-  const std::size_t before = pairs.size();
   cut_within(list, lowest_corner, 0);
-  if (std::uint64_t{list.size} * list.size / 2 > leaf_tests)
-    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(before), pairs.end());
 }
 
 /// Appends the pairs of box i of a with the boxes k >= begin of b. A pair belongs to the cell that contains the minimum

@@ -46,7 +46,7 @@ class BoxPairs {
   /// Copies the boxes of `list` that overlap `box` to `picked`, in order.
   void pick(const BoxList& list, const Aabb& box, BoxList& picked);
   /// Append each pair of overlapping boxes once: (item of a, item of b), or two items of one list in the order of the
-  /// list. The pairs are ascending if the lists are. Throw std::length_error if `pairs` grows beyond max_pairs.
+  /// list. The pairs are in no particular order. Throw std::length_error if `pairs` grows beyond max_pairs.
   void between(const BoxList& a, const BoxList& b, std::vector<ItemPair>& pairs, std::size_t max_pairs = unlimited);
   void within(const BoxList& list, std::vector<ItemPair>& pairs, std::size_t max_pairs = unlimited);
 

@@ -22,17 +22,21 @@ void grow(BoxList& list, const glm::vec3& lo, const glm::vec3& hi) {
     }
 }
 
-template <std::size_t n, std::size_t m>
-bool share_vertex(const std::array<Index, n>& a, const std::array<Index, m>& b) {
-  return std::any_of(a.begin(), a.end(), [&](Index v) { return std::find(b.begin(), b.end(), v) != b.end(); });
-}
-
+// Of the mean edge:
+constexpr float self_margin = 0.1f;                          // see SelfNeighbours::cover()
+constexpr float max_self_deformation = 0.125f;               // of a body that may touch itself, within one prediction
 constexpr std::size_t max_box_pairs = std::size_t{1} << 26;  // of two bodies: 512 MiB for each thread
 
 [[maybe_unused]] bool has_all_vertices(const Motion& motion) {
   const std::size_t count = motion.positions.x.size();
   return is_complete(motion.positions) && motion.vx.size() == count && motion.vy.size() == count &&
          motion.vz.size() == count;
+}
+
+/// Sorts what was appended to a list of features since it had `first`.
+void sort_from(std::size_t first, std::vector<FeaturePair>& features) {
+  const auto by_key = [](const FeaturePair& x, const FeaturePair& y) { return x.key() < y.key(); };
+  std::sort(features.begin() + static_cast<std::ptrdiff_t>(first), features.end(), by_key);
 }
 
 /// Returns true if one body may be wholly inside the other; then no features need be near each other.
@@ -45,6 +49,7 @@ bool may_contain(const SweptBody& outer, const SweptBody& inner) {
 
 float SurfaceSearch::max_relative_speed(const SurfacePair& pair) const {
   const SweptBody &a = swept_[pair.a], &b = swept_[pair.b];
+  if (pair.a == pair.b) return 2 * a.max_deformation_speed();
   return glm::length(a.mean_velocity() - b.mean_velocity()) + a.velocity_spread() + b.velocity_spread();
 }
 
@@ -89,7 +94,9 @@ void SurfaceSearch::find(const Motion& motion, std::span<const SurfaceBody> bodi
   query_ = query;
   time_ = 0, end_ = query.seconds;
   swept_.resize(bodies.size());
+  near_itself_.resize(bodies.size());
   predicted_anew_.assign(bodies.size(), true);
+  may_touch_itself_.assign(bodies.size(), false);
   has_boxes_.assign(bodies.size(), false);
   search(motion, query.min_seconds, workers);
 }
@@ -116,7 +123,11 @@ void SurfaceSearch::search(const Motion& motion, float min_seconds, Workers& wor
   };
   in_parts(swept_.size(), [&](Thread&, std::size_t b) {
     const float end = std::min(end_, time_ + bodies_[b].horizon);
-    if (predicted_anew_[b]) swept_[b].predict(motion, static_cast<Index>(b), bodies_[b], time_, end, min_seconds);
+    if (!predicted_anew_[b]) return;
+    SweptBody& body = swept_[b];
+    body.predict(motion, static_cast<Index>(b), bodies_[b], time_, end, min_seconds);
+    may_touch_itself_[b] = query_.self && body.live() && body.moves() && !body.stays_star_shaped();
+    if (may_touch_itself_[b]) body.limit_deformation(max_self_deformation * bodies_[b].mean_edge, min_seconds);
   });
   find_near_bodies();
   std::swap(current_, previous_);
@@ -143,7 +154,7 @@ void SurfaceSearch::find_near_bodies() {
     if (!swept_[b].live()) continue;
     order_.push_back(b);
     predicted_until_ = std::min(predicted_until_, swept_[b].end());
-    if (query_.self && swept_[b].moves()) near_bodies_.push_back({b, b});
+    if (may_touch_itself_[b]) near_bodies_.push_back({b, b});
   }
   sweep(
       order_, 0.0f, [&](Index b) -> const Aabb& { return swept_[b].world_box(); },
@@ -247,6 +258,7 @@ float SurfaceSearch::max_squared_speed(Index a, const std::array<Index, n>& one,
 }
 
 void SurfaceSearch::add_vertex_faces(Thread& own, const SurfacePair& pair, Index a, Index b) const {
+  const std::size_t first = own.candidates.features.size();
   const auto& faces = swept_[b].surface().triangles();
   for (std::size_t i = 0; i < own.found.size();) {
     own.batch.clear();
@@ -258,10 +270,12 @@ void SurfaceSearch::add_vertex_faces(Thread& own, const SurfacePair& pair, Index
     add_reachable(own, pair, [&](const ItemPair& f) { return max_squared_speed(a, std::array{f.a}, b, faces[f.b]); });
     check_feature_limit(own.candidates.features.size());
   }
+  sort_from(first, own.candidates.features);
   own.found.clear();
 }
 
 void SurfaceSearch::add_edges(Thread& own, const SurfacePair& pair) const {
+  const std::size_t first = own.candidates.features.size();
   const auto &ones = swept_[pair.a].surface().edges(), &twos = swept_[pair.b].surface().edges();
   for (std::size_t i = 0; i < own.found.size();) {
     own.batch.clear();
@@ -275,46 +289,50 @@ void SurfaceSearch::add_edges(Thread& own, const SurfacePair& pair) const {
                   [&](const ItemPair& f) { return max_squared_speed(pair.a, ones[f.a], pair.b, twos[f.b]); });
     check_feature_limit(own.candidates.features.size());
   }
+  sort_from(first, own.candidates.features);
   own.found.clear();
 }
 
-/// Adds the pairs of the batch that can come within 1.1 times their contact distance before the prediction ends. Their
+/// Returns the distance (m) from which features that move at `speed` relative to each other can come within 1.1 times
+/// their contact distance before the prediction ends.
+float SurfaceSearch::reach(const SurfacePair& pair, float speed) const {
+  const SurfaceBody &a = bodies_[pair.a], &b = bodies_[pair.b];
+  const float near = 1.1f * (a.skin - a.slack + b.skin - b.slack) + a.slack + b.slack;
+  return near + (std::min(swept_[pair.a].end(), swept_[pair.b].end()) - time_) * speed;
+}
+
+/// Adds the pairs of the batch that can come within reach of each other before the prediction ends. Their
 /// distance and relative speed bound the earliest time of that, as in conservative advancement.
 /// squared_speed(features): m^2/s^2, of their corners.
 template <class Speed>
 void SurfaceSearch::add_reachable(Thread& own, const SurfacePair& pair, const Speed& squared_speed) const {
-  const SurfaceBody &a = bodies_[pair.a], &b = bodies_[pair.b];
-  const float near = 1.1f * (a.skin - a.slack + b.skin - b.slack) + a.slack + b.slack;
-  const float seconds = std::min(swept_[pair.a].end(), swept_[pair.b].end()) - time_;
-  const float speed_bound = pair.a == pair.b ? 2 * swept_[pair.a].max_deformation_speed() : max_relative_speed(pair);
-  const float max_distance = near + seconds * speed_bound, max_distance2 = max_distance * max_distance;
+  const float near = reach(pair, 0), max_distance = reach(pair, max_relative_speed(pair)),
+              max_distance2 = max_distance * max_distance;
   for (Index i = 0; i < own.batch.size(); ++i) {
     const float distance2 = own.batch.distance2(i);
     if (distance2 > max_distance2) continue;
     const ItemPair& f = own.found[own.batch.tag(i)];
-    const float speed = std::sqrt(squared_speed(f)), cutoff = near + seconds * speed;
+    const float speed = std::sqrt(squared_speed(f)), cutoff = reach(pair, speed);
     if (distance2 > cutoff * cutoff) continue;
     const float travel = std::sqrt(distance2) - near;
     own.candidates.features.push_back({f.a, f.b, time_ + (travel > 0 ? travel / speed : 0.0f)});
   }
 }
 
-void SurfaceSearch::find_within(Thread& own, SurfacePair& pair) const {
+void SurfaceSearch::find_within(Thread& own, SurfacePair& pair) {
   const SweptBody& body = swept_[pair.a];
-  if (body.stays_star_shaped()) return;
-  const Surface& surface = body.surface();
-  own.work += surface.feature_count();
-  body.build_deformation_boxes(own.vertices);
-  join(own.vertices, surface.triangles(), own.faces);
-  join(own.vertices, surface.edges(), own.edges);
-  own.search.between(own.vertices, own.faces, own.found, max_box_pairs);
-  own.work += own.found.size();
-  std::erase_if(own.found, [&](const ItemPair& f) { return share_vertex(std::array{f.a}, surface.triangles()[f.b]); });
+  own.ways.clear();
+  for (Index v = 0; v < body.surface().vertex_count(); ++v)
+    own.ways.push_back((body.end() - time_) * glm::length(body.deformation_velocity(v)));
+  SelfNeighbours& near = near_itself_[pair.a];
+  near.cover(body.surface(), body.run(), reach(pair, 0), own.ways, self_margin * bodies_[pair.a].mean_edge,
+             max_box_pairs, own);
+  // As if searched anew: work must not depend on how long candidates were kept.
+  own.work += body.surface().feature_count();
+  near.add_vertex_faces(own);
   add_vertex_faces(own, pair, pair.a, pair.a);
   pair.face_vertex = pair.edge_edge = static_cast<std::uint32_t>(own.candidates.features.size());
-  own.search.within(own.edges, own.found, max_box_pairs);
-  own.work += own.found.size();
-  std::erase_if(own.found, [&](const ItemPair& f) { return share_vertex(surface.edges()[f.a], surface.edges()[f.b]); });
+  near.add_edges(own);
   add_edges(own, pair);
 }
 

@@ -20,19 +20,17 @@
 // contact distance, their boxes overlap, and they are candidates.
 //   One body. Let r_i be the position of vertex i relative to the centre. For any u and w, let v_i = u + w x r_i + s_i:
 // s_i is the velocity of the deformation. Let [w] be the matrix with [w] r = w x r, and A = 1 + t [w]. Then
-//   (x_i + v_i t) - (x_j + v_j t) = A (r_i - r_j) + t s_i - t s_j,
-// and the length of this is at least |A (r_i - r_j)| - t |s_i| - t |s_j|. Since w x r is normal to r, |A r| >= |r| for
-// all r. So rotation brings no two points closer, and the inverse of A makes no vector longer. Now apply the inverse of
-// A to all positions. Features that were within their contact distance still are, and no deviation from a path grows.
-// The deformation t s becomes a vector that differs from t s by at most t |w| |t s|. Therefore, the boxes around the
-// vertices, swept over s T and grown by T |w| |s T| and by the skin, overlap if the features come within their contact
-// distance.
+//   (x_i + v_i t) - (x_j + v_j t) = A (r_i - r_j) + t (s_i - s_j),
+// and the length of this is at least |A (r_i - r_j)| - t |s_i - s_j|. Since w x r is normal to r, |A r| >= |r| for all
+// r: rotation brings no two points closer. All this holds for points of features, which are means of their corners. So
+// features come closer by at most t times the largest |s_i - s_j| of their corners, and by the slack of each; the
+// search tests the pairs that are near each other in the shape of the body: see self_neighbours.h.
 
 #include <utility>
 #include <vector>
 
 #include "collide/core/workers.h"
-#include "collide/surface/feature_batch.h"
+#include "collide/surface/self_neighbours.h"
 #include "collide/surface/swept_body.h"
 
 namespace collide::surface {
@@ -105,7 +103,8 @@ class SurfaceSearch {
   /// Returns the last prediction of a body, and its largest deviation in any check_valid() since.
   const SweptBody& body(Index body) const { return swept_[body]; }
 
-  /// Returns an upper bound (m/s) of the relative speed of any vertices of the two bodies, as predicted.
+  /// Returns an upper bound (m/s) of the relative speed of any vertices of the two bodies, as predicted; of a body and
+  /// itself, without its rigid motion.
   float max_relative_speed(const SurfacePair& pair) const;
 
  private:
@@ -113,12 +112,9 @@ class SurfaceSearch {
     std::vector<SurfacePair> pairs;
     std::vector<FeaturePair> features;
   };
-  struct alignas(64) Thread {
-    BoxPairs search;
+  struct alignas(64) Thread : SelfNeighbours::Scratch {
     BoxList vertices_a, faces_a, edges_a, vertices_b, faces_b, edges_b;
-    BoxList vertices, faces, edges;  // of one body, without its rigid motion
-    std::vector<ItemPair> found;     // features whose boxes overlap
-    FeatureBatch batch;
+    std::vector<float> ways;  // see SelfNeighbours::cover()
     Candidates candidates;
     std::size_t work = 0;
   };
@@ -127,13 +123,14 @@ class SurfaceSearch {
   void find_near_bodies();
   void find_candidates(Thread& own, const ItemPair& bodies);
   void find_between(Thread& own, SurfacePair& pair) const;
-  void find_within(Thread& own, SurfacePair& pair) const;
+  void find_within(Thread& own, SurfacePair& pair);
   void copy_previous(Thread& own, SurfacePair& pair) const;
   void merge_threads();
   void add_vertex_faces(Thread& own, const SurfacePair& pair, Index vertex_body, Index face_body) const;
   void add_edges(Thread& own, const SurfacePair& pair) const;
   template <std::size_t n, std::size_t m>
   float max_squared_speed(Index a, const std::array<Index, n>& one, Index b, const std::array<Index, m>& two) const;
+  float reach(const SurfacePair& pair, float speed) const;
   template <class Speed>
   void add_reachable(Thread& own, const SurfacePair& pair, const Speed& squared_speed) const;
   glm::vec3 at(Index body, Index v) const { return swept_[body].at(v, time_); }
@@ -142,12 +139,14 @@ class SurfaceSearch {
   SurfaceQuery query_;
   float time_ = 0, end_ = 0, predicted_until_ = 0;  // s after find()
   std::vector<SweptBody> swept_;
+  std::vector<SelfNeighbours> near_itself_;  // of each body, kept from find() to find()
   // One value for each body:
-  std::vector<char> predicted_anew_;   // it was predicted again in this search
-  std::vector<char> needs_boxes_;      // it is in a near pair of which a body was predicted again
-  std::vector<char> has_boxes_;        // the boxes of its features are those of its last prediction
-  std::vector<Index> order_;           // scratch of the sweep
-  std::vector<ItemPair> near_bodies_;  // a == b: a body with itself
+  std::vector<char> predicted_anew_;    // it was predicted again in this search
+  std::vector<char> may_touch_itself_;  // as it is predicted
+  std::vector<char> needs_boxes_;       // it is in a near pair of which a body was predicted again
+  std::vector<char> has_boxes_;         // the boxes of its features are those of its last prediction
+  std::vector<Index> order_;            // scratch of the sweep
+  std::vector<ItemPair> near_bodies_;   // a == b: a body with itself
   std::vector<Thread> threads_;
   Candidates current_, previous_;
   std::size_t work_ = 0;

@@ -64,7 +64,8 @@ void SweptBody::predict(const Motion& now, Index body, const SurfaceBody& traits
   else
     for (auto& v : velocity_) v.assign(count_, 0.0f);
   fit_rigid_motion();
-  compute_bounds(min_seconds);
+  bound_velocities();
+  limit_deformation(max_deformation_share * traits.mean_edge, min_seconds);
 }
 
 void SweptBody::fit_rigid_motion() {
@@ -84,7 +85,7 @@ void SweptBody::fit_rigid_motion() {
   if (inertia > 0) spin_ = momentum / inertia;
 }
 
-void SweptBody::compute_bounds(float min_seconds) {
+void SweptBody::bound_velocities() {
   float spread2 = 0, deformation2 = 0;
   for (Index v = 0; v < count_; ++v) {
     const glm::vec3 relative = velocity(v) - mean_velocity_,
@@ -94,8 +95,14 @@ void SweptBody::compute_bounds(float min_seconds) {
   }
   velocity_spread_ = std::sqrt(spread2);
   max_deformation_speed_ = std::sqrt(deformation2);
-  end_ = std::min(end_,
-                  begin_ + std::max(min_seconds, max_deformation_share * traits_.mean_edge / max_deformation_speed_));
+}
+
+void SweptBody::limit_deformation(float way, float min_seconds) {
+  end_ = std::min(end_, begin_ + std::max(min_seconds, way / max_deformation_speed_));
+  bound_path();
+}
+
+void SweptBody::bound_path() {
   const float seconds = end_ - begin_;
   glm::vec3 lo = at(0), hi = lo;
   for (Index v = 0; v < count_; ++v) {
@@ -122,19 +129,6 @@ void SweptBody::build_feature_boxes() {
   vertex_boxes_.end();
   join(vertex_boxes_, surface().triangles(), face_boxes_);
   join(vertex_boxes_, surface().edges(), edge_boxes_);
-}
-
-void SweptBody::build_deformation_boxes(BoxList& vertices) const {
-  assert(live_);
-  const float seconds = end_ - begin_, angle = seconds * glm::length(spin_);
-  vertices.clear();
-  vertices.reserve(count_);
-  for (Index v = 0; v < count_; ++v) {
-    const glm::vec3 s = seconds * deformation_velocity(v);
-    const float margin = traits_.skin + angle * glm::length(s);
-    vertices.add({at(v) + negative_part(s) - margin, at(v) + positive_part(s) + margin}, v);
-  }
-  vertices.end();
 }
 
 /// Tests that every face turns its outer side away from the centre: det(a, b, c) > 0 for its corners as seen from the

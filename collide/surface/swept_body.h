@@ -41,6 +41,9 @@ class SweptBody {
   /// deformation may have moved a vertex by half an edge: boxes that are swept farther overlap most others of their
   /// body, and it is cheaper to predict again. Precondition: the surface has as many vertices as the body.
   void predict(const Motion& now, Index body, const SurfaceBody& traits, float begin, float end, float min_seconds);
+  /// Ends the prediction earlier, but not within min_seconds: when deformation may have moved a vertex by `way` (m).
+  /// Precondition: live().
+  void limit_deformation(float way, float min_seconds);
   /// Returns true if the body has vertices and a surface, and all positions and velocities are finite.
   bool live() const { return live_; }
   const Surface& surface() const { return *traits_.surface; }
@@ -57,11 +60,6 @@ class SweptBody {
   const BoxList& vertex_boxes() const { return vertex_boxes_; }
   const BoxList& face_boxes() const { return face_boxes_; }
   const BoxList& edge_boxes() const { return edge_boxes_; }
-  /// Computes boxes around the vertices, swept over their deformation only. The boxes of two features overlap if the
-  /// features come within their contact distance, whatever the rigid motion: see the proof in surface_search.h.
-  /// Precondition: live().
-  void build_deformation_boxes(BoxList& vertices) const;
-
   /// Returns how far (m) the mean velocity has carried the body from begin() to `time`.
   glm::vec3 drift(float time) const { return (time - begin_) * mean_velocity_; }
   glm::vec3 mean_velocity() const { return mean_velocity_; }
@@ -93,7 +91,8 @@ class SweptBody {
 
  private:
   void fit_rigid_motion();
-  void compute_bounds(float min_seconds);
+  void bound_velocities();
+  void bound_path();
 
   SurfaceBody traits_;
   float begin_ = 0, end_ = 0;

@@ -64,22 +64,27 @@ Boxes lattice_boxes(std::mt19937& random, std::size_t count, unsigned space) {
   return boxes;
 }
 
+std::vector<ItemPair> sorted(std::vector<ItemPair> pairs) {
+  std::ranges::sort(pairs);
+  return pairs;
+}
+
 using BoxPairsTest = OnEveryTarget;
 
-TEST_P(BoxPairsTest, FindsThePairsOfPlainLoopsInTheirOrderWithoutCuts) {
+TEST_P(BoxPairsTest, FindsThePairsOfPlainLoopsWithoutCuts) {
   BoxPairs search;
   for (const std::size_t count : {0u, 1u, 2u, 15u, 16u, 17u, 63u, 64u, 65u, 200u}) {
     const Boxes a = random_boxes(random_, count, 1, 0.4f), b = random_boxes(random_, 70, 1, 0.4f);
     std::vector<ItemPair> pairs;
     search.between(list_of(a), list_of(b), pairs);
-    EXPECT_EQ(pairs, plain_between(a, b)) << count;
+    EXPECT_EQ(sorted(pairs), plain_between(a, b)) << count;
     pairs.clear();
     search.within(list_of(a), pairs);
-    EXPECT_EQ(pairs, plain_within(a)) << count;
+    EXPECT_EQ(sorted(pairs), plain_within(a)) << count;
   }
 }
 
-TEST_P(BoxPairsTest, FindsEachPairOnceInAscendingOrderWithCuts) {
+TEST_P(BoxPairsTest, FindsEachPairOnceWithCuts) {
   const std::size_t count = 1100;  // four times as many tests as a leaf takes
   static_assert(1100 * 1100 / 2 > 2 * BoxPairs::leaf_tests);
   BoxPairs search;
@@ -93,11 +98,11 @@ TEST_P(BoxPairsTest, FindsEachPairOnceInAscendingOrderWithCuts) {
       std::vector<ItemPair> pairs;
       search.between(list_of(a), list_of(b), pairs);
       ASSERT_GT(pairs.size(), 10u);
-      EXPECT_EQ(pairs, plain_between(a, b)) << lattice << ' ' << space;
+      EXPECT_EQ(sorted(pairs), plain_between(a, b)) << lattice << ' ' << space;
       pairs.clear();
       search.within(list_of(a), pairs);
       ASSERT_GT(pairs.size(), 10u);
-      EXPECT_EQ(pairs, plain_within(a)) << lattice << ' ' << space;
+      EXPECT_EQ(sorted(pairs), plain_within(a)) << lattice << ' ' << space;
     }
 }
 
@@ -106,13 +111,13 @@ TEST_P(BoxPairsTest, FindsAllPairsOfBoxesThatNoCutSeparates) {
   BoxPairs search;
   std::vector<ItemPair> pairs;
   search.within(list_of(equal), pairs);
-  EXPECT_EQ(pairs, plain_within(equal));
+  EXPECT_EQ(sorted(pairs), plain_within(equal));
   Boxes points;  // without extent, half of them at one position
   for (const glm::vec3& p : random_points(random_, 400, 0, 1)) points.push_back({p, p});
   points.resize(800, points.back());
   pairs.clear();
   search.within(list_of(points), pairs);
-  EXPECT_EQ(pairs, plain_within(points));
+  EXPECT_EQ(sorted(pairs), plain_within(points));
   EXPECT_EQ(pairs.size(), 401u * 400 / 2);
 }
 
@@ -136,6 +141,7 @@ TEST_P(BoxPairsTest, KeepsEarlierPairsInFrontOfThoseFromCuts) {
     std::vector<ItemPair> pairs = earlier, expected = earlier, found = one ? plain_within(a) : plain_between(a, b);
     one ? search.within(list_of(a), pairs) : search.between(list_of(a), list_of(b), pairs);
     expected.insert(expected.end(), found.begin(), found.end());
+    std::sort(pairs.begin() + std::ssize(earlier), pairs.end());
     EXPECT_EQ(pairs, expected) << one;
   }
 }

@@ -1,0 +1,249 @@
+#include "collide/surface/self_neighbours.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "collide/surface/closest_parameters.h"
+#include "collide/surface/swept_body.h"
+
+namespace collide::surface {
+namespace {
+
+constexpr float rounding_share = 16 * std::numeric_limits<float>::epsilon();
+
+/// Returns the largest value of the corners of a feature.
+template <std::size_t n>
+float largest(const std::array<Index, n>& corners, std::span<const float> values) {
+  float most = values[corners[0]];
+  for (std::size_t k = 1; k < n; ++k) most = std::max(most, values[corners[k]]);
+  return most;
+}
+
+/// Grows the boxes of the features that a list holds by their rooms.
+void grow(BoxList& boxes, const std::vector<float>& rooms) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (Index k = 0; k < boxes.size; ++k) {
+      boxes.lo[axis][k] -= rooms[k];
+      boxes.hi[axis][k] += rooms[k];
+    }
+}
+
+/// Copies each box to one of two lists.
+template <class Belongs>
+void divide(const BoxList& all, const Belongs& belongs_to_one, BoxList& one, BoxList& other) {
+  for (BoxList* list : {&one, &other}) list->clear(), list->reserve(all.size);
+  for (Index k = 0; k < all.size; ++k) (belongs_to_one(all.item[k]) ? one : other).add(all.box(k), all.item[k]);
+  for (BoxList* list : {&one, &other}) list->end();
+}
+
+glm::vec3 centre_of(const VertexRun& at) {
+  glm::vec3 sum(0.0f);
+  for (Index v = 0; v < at.size; ++v) sum += at[v];
+  return sum / static_cast<float>(at.size);
+}
+
+}  // namespace
+
+void SelfNeighbours::take_reference(const VertexRun& at) {
+  centre_ = centre_of(at);
+  rotation_ = glm::quat(1, 0, 0, 0);
+  reference_.resize(at.size);
+  strayed_.assign(at.size, true);
+  glm::dmat3 inertia(0.0);
+  double radius2 = 0;
+  for (Index v = 0; v < at.size; ++v) {
+    const glm::vec3 x = reference_[v] = at[v] - centre_;
+    const double r2 = static_cast<double>(glm::dot(x, x));
+    inertia += glm::dmat3(r2) - glm::outerProduct(glm::dvec3(x), glm::dvec3(x));
+    radius2 += r2;
+  }
+  inertia += glm::dmat3(1e-6 * radius2 + 1e-30);  // a little more about every axis, for vertices on a line
+  inverse_inertia_ = glm::mat3(glm::inverse(inertia));
+}
+
+/// Bounds the errors of closest_features.h, and of positions about the centre.
+void SelfNeighbours::bound_rounding() {
+  float longest2 = 0, radius2 = 0;
+  for (const auto& [a, b] : surface_->edges()) {
+    const glm::vec3 along = reference_[b] - reference_[a];
+    longest2 = std::max(longest2, glm::dot(along, along));
+    radius2 = std::max(radius2, glm::dot(reference_[a], reference_[a]));
+  }
+  rounding_ = std::sqrt(degenerate_sine2 * longest2) + rounding_share * std::sqrt(radius2);
+}
+
+/// Fits the rotation by Newton's method from the last one: any is good enough for the proof. A body that has turned far
+/// meanwhile is measured to have deviated far.
+void SelfNeighbours::fit_rotation(const VertexRun& at) {
+  constexpr int max_steps = 4;
+  constexpr float exact = 1e-4f;  // an angle
+  centre_ = centre_of(at);
+  for (int step = 0; step < max_steps; ++step) {
+    const glm::mat3 turn = glm::mat3_cast(rotation_);
+    glm::vec3 torque(0.0f);
+    for (Index v = 0; v < at.size; ++v) {
+      const glm::vec3 place = turn * reference_[v];
+      torque += glm::cross(place, at[v] - centre_ - place);
+    }
+    const glm::vec3 angle = turn * (inverse_inertia_ * (glm::transpose(turn) * torque));
+    if (!(glm::dot(angle, angle) > exact * exact)) return;
+    rotation_ = glm::normalize(glm::quat(1, 0.5f * angle) * rotation_);
+  }
+}
+
+/// Calls visit(corners, member of Lengths, place) for each feature.
+template <class Visit>
+void SelfNeighbours::for_each_feature(const Visit& visit) {
+  for (Index v = 0; v < surface_->vertex_count(); ++v) visit(std::array{v}, &Lengths::vertices, v);
+  for (Index f = 0; f < surface_->triangles().size(); ++f) visit(surface_->triangles()[f], &Lengths::faces, f);
+  for (Index e = 0; e < surface_->edges().size(); ++e) visit(surface_->edges()[e], &Lengths::edges, e);
+}
+
+/// A feature needs room for half of the distance, its deviation and its way.
+void SelfNeighbours::measure_needs(const VertexRun& at, float near, std::span<const float> ways, float margin,
+                                   Scratch& s) {
+  const glm::mat3 turn = glm::mat3_cast(rotation_);
+  const float half = 0.5f * (near + rounding_ + rounding_share * glm::length(centre_));
+  s.deviations.resize(at.size);
+  for (Index v = 0; v < at.size; ++v) s.deviations[v] = glm::length(at[v] - centre_ - turn * reference_[v]);
+  for_each_feature([&](const auto& corners, auto of, Index i) {
+    const float way = largest(corners, ways);
+    (need_.*of)[i] = half + largest(corners, s.deviations) + way;
+    (margin_.*of)[i] = margin + 2 * way;  // what moves fast needs more soon
+  });
+}
+
+bool SelfNeighbours::has_room() const {
+  const auto all = [](const std::vector<float>& needs, const std::vector<float>& rooms) {
+    return std::ranges::equal(needs, rooms, std::ranges::less_equal());
+  };
+  return all(need_.vertices, room_.vertices) && all(need_.faces, room_.faces) && all(need_.edges, room_.edges);
+}
+
+void SelfNeighbours::cover(const Surface& surface, const VertexRun& at, float near, std::span<const float> ways,
+                           float margin, std::size_t max_pairs, Scratch& scratch) {
+  assert(surface.vertex_count() == at.size && ways.size() == at.size);
+  searched_ = 0;
+  if (complete_ && surface_ == &surface) {
+    fit_rotation(at);
+    measure_needs(at, near, ways, margin, scratch);
+    if (has_room()) return;
+    strayed_.assign(at.size, false);
+    for_each_feature([&](const auto& corners, auto of, Index i) {
+      const float need = (need_.*of)[i], more = (margin_.*of)[i], room = (room_.*of)[i];
+      if (room < need + 0.5f * more || room > 2 * (need + more))
+        for (const Index v : corners) strayed_[v] = true;
+    });
+    const glm::mat3 back = glm::transpose(glm::mat3_cast(rotation_));
+    for (Index v = 0; v < at.size; ++v)
+      if (strayed_[v]) reference_[v] = back * (at[v] - centre_);
+  } else {
+    surface_ = &surface;
+    take_reference(at);
+    for (Lengths* lengths : {&need_, &margin_, &room_}) {
+      lengths->vertices.resize(at.size);
+      lengths->faces.resize(surface.triangles().size());
+      lengths->edges.resize(surface.edges().size());
+    }
+  }
+  bound_rounding();
+  measure_needs(at, near, ways, margin, scratch);
+  bool calm = true;  // but for what strays
+  for_each_feature([&](const auto& corners, auto of, Index i) {
+    calm = calm && (strays(corners) || (need_.*of)[i] <= (room_.*of)[i]);
+  });
+  if (!calm) strayed_.assign(at.size, true);  // for the rounding of a reference shape that has become much larger
+  for_each_feature([&](const auto& corners, auto of, Index i) {
+    if (strays(corners)) (room_.*of)[i] = (need_.*of)[i] + (margin_.*of)[i];
+  });
+  searched_ = static_cast<Index>(std::ranges::count(strayed_, true));
+  complete_ = false;
+  list(max_pairs, scratch);
+  complete_ = true;
+}
+
+template <class Corners>
+bool SelfNeighbours::strays(const Corners& corners) const {
+  return std::ranges::any_of(corners, [&](Index v) { return strayed_[v] != 0; });
+}
+
+void SelfNeighbours::list(std::size_t max_pairs, Scratch& s) {
+  const auto& faces = surface_->triangles();
+  const auto& edges = surface_->edges();
+  s.vertices.clear();
+  s.vertices.reserve(static_cast<Index>(reference_.size()));
+  for (Index v = 0; v < reference_.size(); ++v) s.vertices.add({reference_[v], reference_[v]}, v);
+  s.vertices.end();
+  join(s.vertices, faces, s.faces);
+  join(s.vertices, edges, s.edges);
+  grow(s.vertices, room_.vertices);
+  grow(s.faces, room_.faces);
+  grow(s.edges, room_.edges);
+  divide(
+      s.vertices, [&](Index v) { return strayed_[v] != 0; }, s.strayed_vertices, s.calm_vertices);
+  divide(
+      s.faces, [&](Index f) { return strays(faces[f]); }, s.strayed_faces, s.calm_faces);
+  divide(
+      s.edges, [&](Index e) { return strays(edges[e]); }, s.strayed_edges, s.calm_edges);
+  const auto keep_near = [&](const auto& corners, const auto& find_closest, const std::vector<float>& room_a,
+                             const std::vector<float>& room_b, std::vector<Near>& near) {
+    std::erase_if(near, [&](const Near& n) { return strays(corners(n)); });
+    for (std::size_t i = 0; i < s.found.size();) {
+      s.batch.clear();
+      for (; i < s.found.size() && !s.batch.full(); ++i) {
+        const std::array<Index, 4> c = corners(s.found[i]);
+        s.batch.add({reference_[c[0]], reference_[c[1]], reference_[c[2]], reference_[c[3]]}, static_cast<Index>(i));
+      }
+      find_closest();
+      for (Index k = 0; k < s.batch.size(); ++k) {
+        const ItemPair& f = s.found[s.batch.tag(k)];
+        const float distance = std::sqrt(s.batch.distance2(k));
+        if (distance <= room_a[f.a] + room_b[f.b]) near.push_back({f.a, f.b, distance});
+      }
+    }
+  };
+  s.found.clear();
+  s.search.between(s.strayed_vertices, s.faces, s.found, max_pairs);
+  s.search.between(s.calm_vertices, s.strayed_faces, s.found, max_pairs);
+  std::erase_if(s.found, [&](const ItemPair& f) {
+    const auto& [a, b, c] = faces[f.b];
+    return f.a == a || f.a == b || f.a == c;
+  });
+  keep_near(
+      [&](const auto& f) {
+        return std::array{f.a, faces[f.b][0], faces[f.b][1], faces[f.b][2]};
+      },
+      [&] { s.batch.find_closest_vertex_faces(); }, room_.vertices, room_.faces, vertex_faces_);
+  s.found.clear();
+  s.search.within(s.strayed_edges, s.found, max_pairs);
+  s.search.between(s.strayed_edges, s.calm_edges, s.found, max_pairs);
+  std::erase_if(s.found, [&](const ItemPair& f) {
+    const Edge &one = edges[f.a], &two = edges[f.b];
+    return one[0] == two[0] || one[0] == two[1] || one[1] == two[0] || one[1] == two[1];
+  });
+  for (ItemPair& f : s.found) f = {std::min(f.a, f.b), std::max(f.a, f.b)};
+  keep_near(
+      [&](const auto& f) {
+        return std::array{edges[f.a][0], edges[f.a][1], edges[f.b][0], edges[f.b][1]};
+      },
+      [&] { s.batch.find_closest_edges(); }, room_.edges, room_.edges, edges_);
+  s.found.clear();
+}
+
+void SelfNeighbours::add_vertex_faces(Scratch& s) const {
+  for (const Near& n : vertex_faces_)
+    if (n.distance <= need_.vertices[n.a] + need_.faces[n.b]) s.found.push_back({n.a, n.b});
+}
+
+void SelfNeighbours::add_edges(Scratch& s) const {
+  for (const Near& n : edges_)
+    if (n.distance <= need_.edges[n.a] + need_.edges[n.b]) s.found.push_back({n.a, n.b});
+}
+
+}  // namespace collide::surface

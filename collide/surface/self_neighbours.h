@@ -1,0 +1,83 @@
+#pragma once
+// Keeps the pairs of features of one body that are near each other, in a reference shape: a Verlet list (Verlet 1967)
+// in a frame that moves and turns with the body. So rigid motion costs nothing; only deformation uses the margin up.
+// Where it has, those vertices take their present places in the reference shape, and only their pairs are searched.
+//
+// Proof that no pair is missing. Let X_i be the reference shape, x_i the present one, and d_i = |x_i - (c + R X_i)|,
+// for any rotation R and any c. The points of a feature are means of its corners with fixed weights, so that they
+// deviate by at most the largest d_i of its corners. Therefore features that are r apart now are at most r plus the
+// deviations of both apart in the reference shape. Each feature has a room, which is at least r / 2 plus its deviation,
+// and all pairs are listed that are no farther apart in the reference shape than their rooms.
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <span>
+#include <vector>
+
+#include "collide/core/vertex_run.h"
+#include "collide/surface/box_pairs.h"
+#include "collide/surface/feature_batch.h"
+#include "collide/surface/surface.h"
+
+namespace collide::surface {
+
+class SelfNeighbours {
+ public:
+  /// What a search computes with.
+  struct Scratch {
+    BoxPairs search;
+    std::vector<ItemPair> found;  // features that may be near each other
+    std::vector<float> deviations;
+    FeatureBatch batch;
+    BoxList vertices, faces, edges;
+    BoxList strayed_vertices, strayed_faces, strayed_edges, calm_vertices, calm_faces, calm_edges;
+  };
+
+  /// Makes sure that no pair is missing of features that come within `near` (m) while each vertex goes its way (m),
+  /// beside the rigid motion of the body. Lists anew the pairs of what has no room for that any more, with a margin
+  /// (m), which is larger for what goes far. Vertices must be finite, and the surface must stay alive until the next
+  /// call. Throws std::length_error if more than max_pairs boxes overlap.
+  void cover(const Surface& surface, const VertexRun& at, float near, std::span<const float> ways, float margin,
+             std::size_t max_pairs, Scratch& scratch);
+  /// Append to scratch.found the pairs that may come so near, in no particular order: perhaps others, too. Pairs that
+  /// share a vertex are left out.
+  void add_vertex_faces(Scratch& scratch) const;
+  void add_edges(Scratch& scratch) const;
+  /// Returns of how many vertices the last cover() has listed the pairs anew.
+  Index searched() const { return searched_; }
+
+ private:
+  struct Near {
+    Index a, b;
+    float distance;  // m, in the reference shape
+  };
+  /// A length (m) of each feature.
+  struct Lengths {
+    std::vector<float> vertices, faces, edges;
+  };
+
+  void take_reference(const VertexRun& at);
+  void bound_rounding();
+  void fit_rotation(const VertexRun& at);
+  void measure_needs(const VertexRun& at, float near, std::span<const float> ways, float margin, Scratch& scratch);
+  bool has_room() const;
+  void list(std::size_t max_pairs, Scratch& scratch);
+  template <class Corners>
+  bool strays(const Corners& corners) const;
+  template <class Visit>
+  void for_each_feature(const Visit& visit);
+
+  const Surface* surface_ = nullptr;
+  std::vector<glm::vec3> reference_;            // m, about its centre
+  std::vector<char> strayed_;                   // of each vertex: its pairs are to be listed anew
+  glm::mat3 inverse_inertia_{1.0f};             // 1/m^2, of the reference shape
+  glm::vec3 centre_{0.0f};                      // m, of the last shape
+  glm::quat rotation_ = glm::quat(1, 0, 0, 0);  // from the reference shape to the last one
+  Lengths need_, margin_, room_;
+  float rounding_ = 0;     // m, of distances in the reference shape
+  bool complete_ = false;  // so are the lists
+  Index searched_ = 0;
+  std::vector<Near> vertex_faces_, edges_;
+};
+
+}  // namespace collide::surface
