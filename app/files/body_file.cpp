@@ -4,6 +4,7 @@
 #include <cassert>
 #include <numeric>
 
+#include "app/files/forest.h"
 #include "app/files/inputs.h"
 
 namespace app::files {
@@ -76,24 +77,18 @@ Partition objects_of(const FileMesh& mesh, std::vector<std::string>& notes) {
 
 Partition components_of(const FileMesh& mesh) {
   constexpr Index none = ~Index{0};
-  std::vector<Index> parent(mesh.x.size());  // a forest; the root of a tree is its smallest vertex
-  std::iota(parent.begin(), parent.end(), Index{0});
-  const auto root = [&](Index v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  std::vector<char> has_face(parent.size(), false);
+  Forest forest(mesh.x.size());
+  std::vector<char> has_face(mesh.x.size(), false);
   mesh.for_each_face([&](std::span<const Index> corners, std::size_t) {
     for (const Index corner : corners) {
       has_face[corner] = true;
-      const Index a = root(corners[0]), b = root(corner);
-      parent[std::max(a, b)] = std::min(a, b);
+      forest.join(corners[0], corner);
     }
   });
-  Partition partition{std::vector<Index>(parent.size(), none), 0};
-  for (Index v = 0; v < parent.size(); ++v) {
+  Partition partition{std::vector<Index>(mesh.x.size(), none), 0};
+  for (Index v = 0; v < mesh.x.size(); ++v) {
     if (!has_face[v]) continue;
-    const Index first = root(v);
+    const Index first = forest.root(v);
     partition.body_of[v] = first == v ? static_cast<Index>(partition.count++) : partition.body_of[first];
   }
   if (std::ranges::count(has_face, char(false)) > 0)
