@@ -21,7 +21,7 @@ struct Frame {
 
 Frame read_frame(const std::filesystem::path& file) {
   protect_input(file);
-  return {file.string(), softbody::read_file_mesh(file, softbody::Rounding::to_double)};
+  return {file.string(), softbody::read_file_mesh(file, {.doubles = true, .lines = true})};
 }
 
 std::span<const Index> corners_of(const FileMesh& mesh, std::size_t face) {

@@ -59,16 +59,18 @@ struct FileMesh {
   }
 };
 
-/// What coordinates are rounded to, always correctly.
-enum class Rounding { to_float, to_double };
+struct MeshReading {
+  bool doubles = false;  // coordinates are rounded to double, not to float
+  bool lines = false;    // of OBJ files, the lines `l` are read, too
+};
 
 /// Reads a Wavefront OBJ or a PLY file. A file is PLY if its name ends in .ply or its first line is `ply`. The result
 /// has at least one object; a PLY file is one object. A face may use vertices that come later in the file. The time is
 /// proportional to the file's size, and no more memory is used than the result needs. Throws MeshFileError.
 ///
-/// Of OBJ it reads the statements `v`, `o`, `f` and `l`. All others are ignored, and so is what follows the coordinates
-/// of a vertex. Of PLY it reads x, y and z of the element `vertex`, and the lists vertex_indices (or vertex_index) of
-/// the elements `face` and `tristrips`. All other elements and properties are skipped.
-FileMesh read_file_mesh(const std::filesystem::path& file, Rounding rounding = Rounding::to_float);
+/// Of OBJ it reads the statements `v`, `o` and `f`, and `l` on request. All others are ignored, and so is what follows
+/// the coordinates of a vertex. Of PLY it reads x, y and z of the element `vertex`, and the lists vertex_indices (or
+/// vertex_index) of the elements `face` and `tristrips`. All other elements and properties are skipped.
+FileMesh read_file_mesh(const std::filesystem::path& file, const MeshReading& reading = {});
 
 }  // namespace softbody

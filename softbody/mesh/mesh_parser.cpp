@@ -41,14 +41,13 @@ double MeshParser::number(std::string_view word) const {
     if (!std::isfinite(value)) fail_at_line(quoted(word) + " is " + not_finite());
     return double{value};
   };
-  return rounding_ == Rounding::to_float ? read(0.0f, std::strtof) : read(0.0, std::strtod);
+  return reading_.doubles ? read(0.0, std::strtod) : read(0.0f, std::strtof);
 }
 
 std::optional<double> MeshParser::rounded(double value) const {
-  const double most =
-      rounding_ == Rounding::to_float ? double{std::numeric_limits<float>::max()} : std::numeric_limits<double>::max();
+  const double most = reading_.doubles ? std::numeric_limits<double>::max() : double{std::numeric_limits<float>::max()};
   if (!(std::abs(value) <= most)) return std::nullopt;
-  return rounding_ == Rounding::to_float ? double{static_cast<float>(value)} : value;
+  return reading_.doubles ? value : double{static_cast<float>(value)};
 }
 
 void MeshParser::require_vertices() const {
@@ -69,7 +68,7 @@ void MeshParser::require_vertices() const {
   }
 }
 
-FileMesh read_file_mesh(const std::filesystem::path& file, Rounding rounding) {
+FileMesh read_file_mesh(const std::filesystem::path& file, const MeshReading& reading) {
   const std::string name = file.string();
   try {
     LineReader lines(file);
@@ -78,10 +77,10 @@ FileMesh read_file_mesh(const std::filesystem::path& file, Rounding rounding) {
     try {
       std::string_view line;
       lines.next(line);
-      if (Words(line).next() == "ply") return parse_ply(name, lines, rounding);
+      if (Words(line).next() == "ply") return parse_ply(name, lines, reading);
       if (extension == ".ply")
         throw MeshFileError(name + ":1: the line 'ply' is missing; is this a file in PLY format?");
-      return parse_obj(name, lines, rounding, line);
+      return parse_obj(name, lines, reading, line);
     } catch (const std::length_error& too_long) {
       throw MeshFileError(name + ":" + std::to_string(lines.number()) + ": " + too_long.what() +
                           "; is this a text file in OBJ or PLY format?");

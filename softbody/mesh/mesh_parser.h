@@ -36,8 +36,8 @@ std::from_chars_result parse(std::string_view word, Real& value) {
 class MeshParser {
  public:
   /// name: of the file. lines: of the file; it must outlive the parser.
-  MeshParser(std::string name, LineReader& lines, Rounding rounding)
-      : name_(std::move(name)), lines_(lines), rounding_(rounding) {}
+  MeshParser(std::string name, LineReader& lines, const MeshReading& reading)
+      : name_(std::move(name)), lines_(lines), reading_(reading) {}
 
   FileMesh take() { return std::move(mesh_); }
 
@@ -58,8 +58,8 @@ class MeshParser {
   /// Rounds a coordinate. Returns nothing if it is not finite then.
   std::optional<double> rounded(double value) const;
   std::string not_finite() const {
-    return rounding_ == Rounding::to_float ? "not finite as a float; coordinates must lie within 3.4e38"
-                                           : "not finite as a double; coordinates must lie within 1.8e308";
+    return reading_.doubles ? "not finite as a double; coordinates must lie within 1.8e308"
+                            : "not finite as a float; coordinates must lie within 3.4e38";
   }
   /// Ends a face whose corners have been added to the mesh. fail(what) throws.
   void end_face(const auto& fail) {
@@ -73,13 +73,13 @@ class MeshParser {
 
   std::string name_;
   LineReader& lines_;
-  Rounding rounding_;
+  MeshReading reading_;
   FileMesh mesh_;
 };
 
 /// Reads the statements of an OBJ file, beginning with `line`, which has been read from `lines`.
-FileMesh parse_obj(const std::string& name, LineReader& lines, Rounding rounding, std::string_view line);
+FileMesh parse_obj(const std::string& name, LineReader& lines, const MeshReading& reading, std::string_view line);
 /// Reads a PLY file of which the first line has been read.
-FileMesh parse_ply(const std::string& name, LineReader& lines, Rounding rounding);
+FileMesh parse_ply(const std::string& name, LineReader& lines, const MeshReading& reading);
 
 }  // namespace softbody

@@ -45,7 +45,7 @@ class ObjParser : public MeshParser {
     const std::string_view keyword = words.next();
     if (keyword == "v") return vertex(words);
     if (keyword == "f") return face(words);
-    if (keyword == "l") return line(words);
+    if (keyword == "l" && reading_.lines) return line(words);
     if (keyword == "o") return begin_object(true);
     if (keyword.empty()) return;
     const char initial = keyword.front();
@@ -127,8 +127,8 @@ class ObjParser : public MeshParser {
 
 }  // namespace
 
-FileMesh parse_obj(const std::string& name, LineReader& lines, Rounding rounding, std::string_view line) {
-  ObjParser parser(name, lines, rounding);
+FileMesh parse_obj(const std::string& name, LineReader& lines, const MeshReading& reading, std::string_view line) {
+  ObjParser parser(name, lines, reading);
   parser.run(line);
   return parser.take();
 }

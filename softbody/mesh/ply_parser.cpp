@@ -337,8 +337,8 @@ class PlyParser : public MeshParser {
 
 }  // namespace
 
-FileMesh parse_ply(const std::string& name, LineReader& lines, Rounding rounding) {
-  PlyParser parser(name, lines, rounding);
+FileMesh parse_ply(const std::string& name, LineReader& lines, const MeshReading& reading) {
+  PlyParser parser(name, lines, reading);
   parser.run();
   return parser.take();
 }
