@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/continuous.h"
 #include "app/cli/method_runs.h"
 #include "app/compare/score.h"
 #include "app/files/contacts_csv.h"
@@ -204,6 +205,7 @@ void print_table(const Given& given, const MethodRuns& all) {
 }  // namespace
 
 void detect(const Options& options) {
+  if (options.detect.continuous) return detect_continuous(options);
   const bool compares = options.detection.method == all_methods;
   const collide::Method* method = compares ? nullptr : &chosen_method(options.detection, collide::default_method);
   if (compares && options.detect.contacts)

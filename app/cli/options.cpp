@@ -150,7 +150,6 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
   detect->add_option("FILE", d.files, "OBJ or PLY files: consecutive frames of the same bodies")->required();
   add_bodies_option(*detect, d.by);
   add_common_options(*detect, options);
-  detect->get_option("--tolerance")->required();
   detect->get_option("--method")->description("detector: a key of `list methods`, or all of them: compares them");
   detect->add_flag("--self,!--no-self", d.self_collision,
                    "whether pairs of one body count (default: yes; of both, the last one holds)");
@@ -162,6 +161,11 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
   detect->add_flag("!--no-reuse", d.reuse, "forget what earlier frames taught");
   detect->add_option("--contacts", d.contacts, "file to write the contacts to")->type_name("CSV");
   detect->add_flag("--json", options.json, "print one JSON document instead of a table");
+  CLI::Option* continuous = detect->add_flag(
+      "--continuous", d.continuous,
+      "of two files FROM and TO: all vertices and faces, edges and edges that meet on the straight way between them");
+  for (const char* other : {"--tolerance", "--method", "--bodies", "--self", "--rest", "--repeat", "--no-reuse"})
+    continuous->excludes(detect->get_option(other));
   return detect;
 }
 
@@ -334,6 +338,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     throw UsageError("list: say of what: scenes, methods, integrators or contact-surfaces");
   refuse_missing_values(cli);
   if (*report) complete_report(options.report, report_tolerance);
+  if (*detect && !options.detect.continuous && !options.detection.tolerance)
+    throw UsageError("--tolerance: is missing; contacts need one, in metres, unless --continuous is given");
   options.command = *simulate ? Command::simulate
                     : *detect ? Command::detect
                     : *report ? Command::report

@@ -23,6 +23,7 @@ struct DetectOptions {
   std::optional<files::BodiesBy> by;              // what a body is; otherwise the format's default
   std::optional<std::string> rest;                // mesh: pairs closer than the tolerance in it are not self-collisions
   std::optional<std::filesystem::path> contacts;  // the CSV file to write
+  bool continuous = false;                        // of two files: what meets on the way from one to the other
   bool self_collision = true;
   int repeat = 1;
   bool reuse = true;  // a detector may use data of earlier frames

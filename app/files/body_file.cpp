@@ -4,6 +4,7 @@
 #include <cassert>
 #include <numeric>
 
+#include "app/files/forest.h"
 #include "app/files/inputs.h"
 
 namespace app::files {
@@ -76,24 +77,18 @@ Partition objects_of(const FileMesh& mesh, std::vector<std::string>& notes) {
 
 Partition components_of(const FileMesh& mesh) {
   constexpr Index none = ~Index{0};
-  std::vector<Index> parent(mesh.x.size());  // a forest; the root of a tree is its smallest vertex
-  std::iota(parent.begin(), parent.end(), Index{0});
-  const auto root = [&](Index v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  std::vector<char> has_face(parent.size(), false);
+  Forest forest(mesh.x.size());
+  std::vector<char> has_face(mesh.x.size(), false);
   mesh.for_each_face([&](std::span<const Index> corners, std::size_t) {
     for (const Index corner : corners) {
       has_face[corner] = true;
-      const Index a = root(corners[0]), b = root(corner);
-      parent[std::max(a, b)] = std::min(a, b);
+      forest.join(corners[0], corner);
     }
   });
-  Partition partition{std::vector<Index>(parent.size(), none), 0};
-  for (Index v = 0; v < parent.size(); ++v) {
+  Partition partition{std::vector<Index>(mesh.x.size(), none), 0};
+  for (Index v = 0; v < mesh.x.size(); ++v) {
     if (!has_face[v]) continue;
-    const Index first = root(v);
+    const Index first = forest.root(v);
     partition.body_of[v] = first == v ? static_cast<Index>(partition.count++) : partition.body_of[first];
   }
   if (std::ranges::count(has_face, char(false)) > 0)
@@ -174,23 +169,22 @@ BodyMeshes divide(const FileMesh& mesh, BodiesBy by, const std::filesystem::path
   return bodies;
 }
 
-VertexPositions positions_of(FileMesh mesh, const BodyMeshes& bodies) {
+VertexPositions positions_of(const FileMesh& mesh, const BodyMeshes& bodies) {
   assert(mesh.x.size() == bodies.vertex_count());
-  VertexPositions at{std::move(mesh.x), std::move(mesh.y), std::move(mesh.z)};
-  if (std::ranges::is_sorted(bodies.file_vertex)) return at;
-  for (std::vector<float>* axis : {&at.x, &at.y, &at.z}) {
-    const std::vector<float> in_file = *axis;
-    for (Index v = 0; v < in_file.size(); ++v) (*axis)[v] = in_file[bodies.file_vertex[v]];
+  VertexPositions at;
+  for (const auto& [axis, in_file] : {std::pair(&at.x, &mesh.x), {&at.y, &mesh.y}, {&at.z, &mesh.z}}) {
+    axis->reserve(in_file->size());
+    for (const Index v : bodies.file_vertex) axis->push_back(static_cast<float>((*in_file)[v]));
   }
   return at;
 }
 
 BodyFile read_bodies(const std::filesystem::path& file, std::optional<BodiesBy> by) {
   protect_input(file);
-  FileMesh mesh = softbody::read_file_mesh(file);
+  const FileMesh mesh = softbody::read_file_mesh(file);
   BodyFile read;
   read.meshes = divide(mesh, by.value_or(default_bodies_by(mesh)), file, read.notes);
-  read.at = positions_of(std::move(mesh), read.meshes);
+  read.at = positions_of(mesh, read.meshes);
   return read;
 }
 
@@ -208,22 +202,14 @@ std::vector<BodyMeshes::Edge> BodyMeshes::edges(std::size_t body) const {
 
 std::vector<softbody::Triangle> triangles_of(const BodyMeshes& meshes, std::size_t body, const VertexPositions& at) {
   std::vector<softbody::Triangle> list;
-  const auto add = [&](Index a, Index b, Index c) {
-    if (a != b && b != c && c != a) list.push_back({a, b, c});
+  const auto position = [&](Index corner) {
+    const Index v = meshes.first[body] + corner;
+    return glm::dvec3(at.x[v], at.y[v], at.z[v]);
   };
-  std::vector<glm::dvec3> points;
   for (std::size_t p = meshes.first_polygon[body]; p < meshes.first_polygon[body + 1]; ++p) {
-    const std::span<const Index> corners = meshes.polygons[p];
-    if (corners.size() == 3 || corners.size() > softbody::max_polygon_corners) {
-      for (std::size_t i = 2; i < corners.size(); ++i) add(corners[0], corners[i - 1], corners[i]);
-      continue;
-    }
-    points.clear();
-    for (const Index corner : corners) {
-      const Index v = meshes.first[body] + corner;
-      points.emplace_back(at.x[v], at.y[v], at.z[v]);
-    }
-    for (const auto& [a, b, c] : softbody::triangulate(points)) add(corners[a], corners[b], corners[c]);
+    for_each_triangle(meshes.polygons[p], position, [&](const softbody::Triangle& t) {
+      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) list.push_back(t);
+    });
   }
   return list;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,6 +55,19 @@ struct VertexPositions {
   std::vector<float> x, y, z;
 };
 
+/// Cuts a polygon into triangles. corners: numbers of vertices; position(corner): m. Calls take(triangle) for each.
+template <class Position, class Take>
+void for_each_triangle(std::span<const collide::Index> corners, const Position& position, const Take& take) {
+  if (corners.size() == 3 || corners.size() > softbody::max_polygon_corners) {
+    for (std::size_t i = 2; i < corners.size(); ++i) take(softbody::Triangle{corners[0], corners[i - 1], corners[i]});
+    return;
+  }
+  std::vector<glm::dvec3> points;
+  for (const collide::Index corner : corners) points.push_back(position(corner));
+  for (const auto& [a, b, c] : softbody::triangulate(points))
+    take(softbody::Triangle{corners[a], corners[b], corners[c]});
+}
+
 /// Returns the polygons of a body, cut into triangles by the positions of all vertices: a list of local indices,
 /// without triangles that have a vertex twice. Nothing is welded, turned or dropped.
 std::vector<softbody::Triangle> triangles_of(const BodyMeshes& meshes, std::size_t body, const VertexPositions& at);
@@ -76,6 +90,6 @@ BodyMeshes divide(const softbody::FileMesh& mesh, BodiesBy by, const std::filesy
                   std::vector<std::string>& notes);
 
 /// Returns the positions of a mesh in the order of the bodies' vertices.
-VertexPositions positions_of(softbody::FileMesh mesh, const BodyMeshes& bodies);
+VertexPositions positions_of(const softbody::FileMesh& mesh, const BodyMeshes& bodies);
 
 }  // namespace app::files

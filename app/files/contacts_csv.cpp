@@ -1,35 +1,12 @@
 #include "app/files/contacts_csv.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
+#include "app/files/csv_line.h"
+
 namespace app::files {
-namespace {
-
-/// Composes one line. It uses to_chars, because a frame may have millions of lines.
-class Line {
- public:
-  template <class Integer>
-  void add(Integer number, char after) {
-    end_ = std::to_chars(end_, text_.end(), number).ptr;
-    *end_++ = after;
-  }
-  /// Writes nine digits, which identify a float uniquely.
-  void add_distance(float distance) {
-    end_ = std::to_chars(end_, text_.end(), double{distance}, std::chars_format::general, 9).ptr;
-    *end_++ = '\n';
-  }
-  std::string_view text() const { return {text_.data(), static_cast<std::size_t>(end_ - text_.data())}; }
-
- private:
-  std::array<char, 128> text_;  // at most five integers of 20 digits and a distance of 16 characters
-  char* end_ = text_.data();
-};
-
-}  // namespace
 
 ContactsCsv::ContactsCsv(const std::filesystem::path& path)
     : file_(path, "frame,vertex_a,vertex_b,body_a,body_b,distance\n") {}
@@ -48,13 +25,13 @@ void ContactsCsv::add(std::size_t number, const collide::Frame& frame, std::span
   }
   for (auto [a, b] : sorted.empty() ? contacts : sorted) {
     if (file_vertex[a] > file_vertex[b]) std::swap(a, b);
-    Line line;
+    CsvLine line;
     line.add(number, ',');
     line.add(file_vertex[a], ',');
     line.add(file_vertex[b], ',');
     line.add(bodies->body_of(a), ',');
     line.add(bodies->body_of(b), ',');
-    line.add_distance(std::sqrt(collide::squared_distance(x[a], y[a], z[a], x[b], y[b], z[b])));
+    line.add_float(std::sqrt(collide::squared_distance(x[a], y[a], z[a], x[b], y[b], z[b])), '\n');
     file_.write(line.text());
   }
 }

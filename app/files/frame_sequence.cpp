@@ -52,11 +52,11 @@ FrameSequence::FrameSequence(std::vector<std::filesystem::path> files, const Opt
   assert(!files_.empty());
   for (const std::filesystem::path& file : files_) protect_input(file);
   if (options.rest) protect_input(*options.rest);
-  softbody::FileMesh mesh = softbody::read_file_mesh(files_.front());
+  const softbody::FileMesh mesh = softbody::read_file_mesh(files_.front());
   by_ = options.by.value_or(default_bodies_by(mesh));
   const auto first = std::make_shared<SequenceBodies>();
   first->meshes = divide(mesh, by_, files_.front(), notes_);
-  first_at_ = positions_of(std::move(mesh), first->meshes);
+  first_at_ = positions_of(mesh, first->meshes);
   first_ = last_ = first;
   const VertexPositions rest = options.rest ? read(*options.rest, false).at : VertexPositions{};
   add_bodies(first->bodies, first->meshes, options.rest ? &rest : nullptr);
@@ -69,7 +69,7 @@ SequenceFrame FrameSequence::read(std::size_t frame) {
 }
 
 SequenceFrame FrameSequence::read(const std::filesystem::path& file, bool may_grow) {
-  softbody::FileMesh mesh = softbody::read_file_mesh(file);
+  const softbody::FileMesh mesh = softbody::read_file_mesh(file);
   SequenceFrame frame{first_, {}};
   if (by_ == BodiesBy::objects || !mesh.faces.empty() || mesh.x.size() != first_->meshes.vertex_count()) {
     std::vector<std::string> notes;
@@ -80,7 +80,7 @@ SequenceFrame FrameSequence::read(const std::filesystem::path& file, bool may_gr
         notes_.push_back(std::move(named));
     }
   }
-  frame.at = positions_of(std::move(mesh), frame.of->meshes);
+  frame.at = positions_of(mesh, frame.of->meshes);
   return frame;
 }
 

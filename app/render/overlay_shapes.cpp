@@ -184,7 +184,7 @@ void spread(const softbody::BodyModel& model, std::span<float> particles, std::s
 }
 
 /// Marks the regions of the surfaces that are inside other bodies or pierce them, with a margin that is outside and so
-/// in sight. Adds the deepest vertex of each pair of bodies, joined to the surface that it passed.
+/// in sight. Adds the deepest vertex of each pair of bodies, joined to the nearest point of the surface.
 void add_marks(const softbody::World& world, std::span<const compare::SurfaceMark> marks, Points particles,
                engine::FrameData& frame) {
   frame.mark_colour = contact_missed_colour;

@@ -47,6 +47,52 @@ inline std::optional<int> sign_of(const Bounded& x) {
 }
 inline std::optional<int> sign_of(const Rational& x) { return sgn(x); }
 
+/// A number of twice a double's digits, as a sum of two doubles (double-word arithmetic; Joldes, Muller and Popescu,
+/// Tight and Rigorous Error Bounds for Basic Building Blocks of Double-Word Arithmetic, 2017). Sums are off by at most
+/// 3 units of 2^-106 of themselves, products by at most 5, unless they overflow or underflow. A sum or difference of
+/// two doubles is exact.
+struct DoubleDouble {
+  double high = 0, low = 0;  // |low| is at most half of the last digit of `high`
+
+  DoubleDouble() = default;
+  DoubleDouble(double x) : high(x) {}  // NOLINT: implicit, as for Rational
+
+  DoubleDouble& operator+=(const DoubleDouble& b) { return *this = *this + b; }
+  DoubleDouble& operator-=(const DoubleDouble& b) { return *this = *this - b; }
+  friend DoubleDouble operator-(const DoubleDouble& a) { return {-a.high, -a.low}; }
+  friend DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
+    const DoubleDouble s = sum(a.high, b.high), t = sum(a.low, b.low), v = ordered_sum(s.high, s.low + t.high);
+    return ordered_sum(v.high, t.low + v.low);
+  }
+  friend DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
+  friend DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
+    const DoubleDouble p = product(a.high, b.high);
+    return ordered_sum(p.high, p.low + (a.high * b.low + a.low * b.high));
+  }
+
+ private:
+  DoubleDouble(double h, double l) : high(h), low(l) {}
+  static DoubleDouble sum(double a, double b) {
+    const double s = a + b, from_b = s - a;
+    return {s, (a - (s - from_b)) + (b - from_b)};
+  }
+  /// Precondition: |a| >= |b|, or a = 0.
+  static DoubleDouble ordered_sum(double a, double b) {
+    const double s = a + b;
+    return {s, b - (s - a)};
+  }
+  static DoubleDouble product(double a, double b) {
+    const DoubleDouble x = halves(a), y = halves(b);
+    const double p = a * b;
+    return {p, x.low * y.low - (((p - x.high * y.high) - x.low * y.high) - x.high * y.low)};
+  }
+  /// Returns x as two numbers of at most 26 digits.
+  static DoubleDouble halves(double x) {
+    const double scaled = x * 0x8000001p0, high = scaled - (scaled - x);
+    return {high, x - high};
+  }
+};
+
 template <class T>
 void add_product(T& sum, const T& a, const T& b) {
   sum += a * b;

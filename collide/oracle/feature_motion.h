@@ -11,9 +11,12 @@ namespace collide::oracle {
 
 using Points = std::array<MovingPoint, 4>;  // p, a, b, c or p, q, u, v
 
-/// The relative motion of four points: three difference vectors.
+/// Three difference vectors of four points, as polynomials of degree N.
+template <class T, std::size_t N>
+using Differences = std::array<Vector<T, N>, 3>;
+/// The relative motion of four points.
 template <class T>
-using FeatureMotion = std::array<Vector<T, 1>, 3>;
+using FeatureMotion = Differences<T, 1>;
 
 template <class T>
 using Weight = Polynomial<T, 4>;
@@ -40,10 +43,10 @@ struct VertexFace {
   }
   /// Returns the barycentric coordinates of the projection of p, times the squared length of the normal. None is
   /// negative while the projection lies on the face. All are 0 where the face has no area.
-  template <class T>
-  static std::array<Weight<T>, 3> weights(const FeatureMotion<T>& v) {
-    const Vector<T, 2> a = cross(v[1], v[2]), b = cross(v[2], v[0]), c = cross(v[0], v[1]);
-    const Vector<T, 2> normal = a + b + c;
+  template <class T, std::size_t N>
+  static std::array<Polynomial<T, 4 * N>, 3> weights(const Differences<T, N>& v) {
+    const Vector<T, 2 *N> a = cross(v[1], v[2]), b = cross(v[2], v[0]), c = cross(v[0], v[1]);
+    const Vector<T, 2 * N> normal = a + b + c;
     return {dot(normal, a), dot(normal, b), dot(normal, c)};
   }
   /// Returns the vertex with each side of the face.
@@ -69,11 +72,11 @@ struct EdgeEdge {
   /// Returns s, 1 - s, r and 1 - r, where s and r are the parameters of the closest points of the two lines, times the
   /// squared length of the normal. None is negative while these points lie on the edges. All are 0 where the edges are
   /// parallel or one has no length.
-  template <class T>
-  static std::array<Weight<T>, 4> weights(const FeatureMotion<T>& v) {
-    const Vector<T, 2> normal = cross(v[0], v[1]);
-    const Weight<T> length2 = dot(normal, normal);
-    const Weight<T> along_p = dot(normal, cross(v[2], v[1])), along_u = dot(normal, cross(v[2], v[0]));
+  template <class T, std::size_t N>
+  static std::array<Polynomial<T, 4 * N>, 4> weights(const Differences<T, N>& v) {
+    const Vector<T, 2 * N> normal = cross(v[0], v[1]);
+    const Polynomial<T, 4 * N> length2 = dot(normal, normal);
+    const Polynomial<T, 4 *N> along_p = dot(normal, cross(v[2], v[1])), along_u = dot(normal, cross(v[2], v[0]));
     return {along_p, length2 - along_p, along_u, length2 - along_u};
   }
   /// Returns each end with the other edge.

@@ -1,5 +1,8 @@
 #pragma once
-// Decides most queries of continuous collision detection in plain doubles, by signs that no rounding can change.
+// Decides most queries of continuous collision detection in doubles, and in pairs of doubles, by signs that no rounding
+// can change.
+
+#include <cstdint>
 
 #include "collide/oracle/feature_motion.h"
 
@@ -12,8 +15,13 @@ struct Filtered {
     unknown
   };
   Answer answer;
-  unsigned start = 0, halvings = 0;  // from start / 2^halvings to (start + 1) / 2^halvings
+  std::uint64_t start = 0;  // the piece: from start / 2^halvings to (start + 1) / 2^halvings
+  unsigned halvings = 0;
+  bool inward = false;  // passing: the side changes from positive to negative
 };
+
+/// The piece is halved this often if doubles can tell where the root is.
+inline constexpr unsigned most_halvings = 41;
 
 /// Kind: VertexFace or EdgeEdge.
 template <class Kind>

@@ -132,19 +132,23 @@ Sides sides_around(const Root& root, const Polynomial<Integer, 3>& side) {
   return {begins ? 1 : sgn(*first) * (is_odd ? -1 : 1), ends ? 1 : sgn(*first)};
 }
 
-/// Returns the root that the filter found.
+/// Returns the time of the passage that the filter found.
 template <class Kind>
-Root passing_root(const Filtered& filtered, const FeatureMotion<Integer>& motion) {
-  const TimePiece piece{filtered.start, filtered.halvings};
-  return {piece, coefficients(Kind::side(restricted(motion, piece)))};
+Meeting meeting_at(const Filtered& passing, const Points& points) {
+  if (passing.halvings == most_halvings) {
+    const auto time = [](std::uint64_t step) { return std::ldexp(static_cast<double>(step), -int{most_halvings}); };
+    return {time(passing.start), time(passing.start + 1)};
+  }
+  const TimePiece piece{passing.start, passing.halvings};
+  return meeting_at(Root{piece, coefficients(Kind::side(restricted(integer_motion<Kind>(points), piece)))});
 }
 
 template <class Kind>
 std::optional<Meeting> first_meeting(const Points& points) {
   const Filtered filtered = filter_motion<Kind>(points);
   if (filtered.answer == Filtered::Answer::apart) return std::nullopt;
+  if (filtered.answer == Filtered::Answer::passing) return meeting_at<Kind>(filtered, points);
   const FeatureMotion<Integer> motion = integer_motion<Kind>(points);
-  if (filtered.answer == Filtered::Answer::passing) return meeting_at(passing_root<Kind>(filtered, motion));
   const Polynomial<Integer, 3> side = Kind::side(motion);
   if (is_zero(side)) return first_meeting_in_plane<Kind>(motion);
   for (const Root& root : roots_of(coefficients(side))) {
@@ -153,26 +157,22 @@ std::optional<Meeting> first_meeting(const Points& points) {
   return std::nullopt;
 }
 
-Passage passage_at(const Root& root, bool inward) {
-  const Meeting meeting = meeting_at(root);
-  return {(meeting.low + meeting.high) / 2, inward};
-}
+Passage passage_at(const Meeting& meeting, bool inward) { return {(meeting.low + meeting.high) / 2, inward}; }
 
 template <class Kind>
 std::optional<Passage> first_passage(const Points& points) {
   const Filtered filtered = filter_motion<Kind>(points);
   if (filtered.answer == Filtered::Answer::apart) return std::nullopt;
+  if (filtered.answer == Filtered::Answer::passing)
+    return passage_at(meeting_at<Kind>(filtered, points), filtered.inward);
   const FeatureMotion<Integer> motion = integer_motion<Kind>(points);
-  if (filtered.answer == Filtered::Answer::passing) {
-    const Root root = passing_root<Kind>(filtered, motion);
-    return passage_at(root, root.polynomial.front() > 0);
-  }
   const Polynomial<Integer, 3> side = Kind::side(motion);
   if (is_zero(side)) return std::nullopt;
   for (const Root& root : roots_of(coefficients(side))) {
     const FeatureMotion<Integer> piece = restricted(motion, root.piece);
     const Sides sides = sides_around(root, Kind::side(piece));
-    if ((sides.before < 0 || sides.after < 0) && meet_at<Kind>(root, piece)) return passage_at(root, sides.before > 0);
+    if ((sides.before < 0 || sides.after < 0) && meet_at<Kind>(root, piece))
+      return passage_at(meeting_at(root), sides.before > 0);
   }
   return std::nullopt;
 }

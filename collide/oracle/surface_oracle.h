@@ -21,7 +21,7 @@
 #include <glm/vec3.hpp>
 
 #include "collide/core/detector.h"
-#include "collide/surface/surface.h"
+#include "collide/oracle/moving_mesh.h"
 
 namespace collide::oracle {
 
@@ -58,21 +58,17 @@ Overlaps find_overlaps(const Frame& frame, const surface::Surfaces& surfaces, Wo
 /// A vertex that passed through a face, or an edge that passed through an edge, while all vertices moved along straight
 /// lines from one frame to the next. Each pair is listed once, with its first passage. The features belong to different
 /// bodies or to one body; those with a common vertex are left out.
-struct Crossing {
-  enum class Kind { vertex_face, edge_edge };
-  Kind kind;
-  Index body, other;             // vertex_face: those of the vertex and of the face; edge_edge: body <= other
-  std::array<Index, 2> feature;  // of `body`, numbers in the frame: {vertex, vertex}, or the ends of the edge
-  std::array<Index, 3> against;  // of `other`, numbers in the frame: the face, or {end, end, end} of the edge
-  double time;                   // 0 .. 1: of the first passage
-  bool inward;                   // vertex_face: from the outer side of the face to its inner side
+struct Crossing : MovingPair {  // vertices as numbers in the frame
+  Index body, other;            // of `feature` and of `against`; edge_edge: body <= other
+  double time;                  // 0 .. 1: of the first passage
+  bool inward;                  // vertex_face: from the outer side of the face to its inner side
 };
 
-/// Finds all crossings between two frames, exactly: no passage is missed, and none is reported without a point that
-/// both features share when the side changes (moving_features.h). A vertex in the plane of a face counts as outside, so
-/// that a passage over several frames is counted once: in the frame in which the vertex leaves the plane inwards, or
-/// reaches it from the inside. Motion within a plane is no passage. A passage exactly through the border of several
-/// faces is one through each of them. Throws std::invalid_argument if the frames do not have the same bodies.
+/// Finds all crossings between two frames, ascending, exactly: no passage is missed, and none is reported without a
+/// point that both features share when the side changes (moving_features.h). A vertex in the plane of a face counts as
+/// outside, so that a passage over several frames is counted once: in the frame in which the vertex leaves the plane
+/// inwards, or reaches it from the inside. Motion within a plane is no passage. A passage exactly through the border of
+/// several faces is one through each of them. Throws std::invalid_argument if the frames do not have the same bodies.
 std::vector<Crossing> find_crossings(const Frame& before, const Frame& after, const surface::Surfaces& surfaces,
                                      Workers& workers);
 

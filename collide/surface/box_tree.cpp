@@ -2,7 +2,8 @@
 
 namespace collide::surface {
 
-BoxTree::BoxTree(const std::vector<Box>& boxes) {
+template <class Bounds>
+BoundsTree<Bounds>::BoundsTree(const std::vector<Bounds>& boxes) {
   std::vector<Index> items;
   items.reserve(boxes.size());
   for (Index item = 0; item < boxes.size(); ++item) {
@@ -12,15 +13,18 @@ BoxTree::BoxTree(const std::vector<Box>& boxes) {
   if (!items.empty()) build(boxes, items.begin(), items.end());
 }
 
-void BoxTree::build(const std::vector<Box>& boxes, Iterator begin, Iterator end) {
+template <class Bounds>
+void BoundsTree<Bounds>::build(const std::vector<Bounds>& boxes, Iterator begin, Iterator end) {
   const std::size_t self = nodes_.size();
   nodes_.push_back({{}, 0, *begin});
-  Box all;
+  Bounds all;
   for (Iterator it = begin; it != end; ++it) all.add(boxes[*it]);
   if (end - begin > 1) {
-    const glm::dvec3 size = all.hi - all.lo;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto centre2 = [&](Index item) { return boxes[item].lo[axis] + boxes[item].hi[axis]; };
+    int widest = 0;
+    for (int axis = 1; axis < Bounds::axes; ++axis) {
+      if (all.extent(axis) > all.extent(widest)) widest = axis;
+    }
+    const auto centre2 = [&](Index item) { return boxes[item].centre2(widest); };
     const Iterator half = begin + (end - begin) / 2;
     std::nth_element(begin, half, end, [&](Index a, Index b) { return centre2(a) < centre2(b); });
     build(boxes, begin, half);
@@ -29,5 +33,8 @@ void BoxTree::build(const std::vector<Box>& boxes, Iterator begin, Iterator end)
   nodes_[self].box = all;
   nodes_[self].end = static_cast<Index>(nodes_.size());
 }
+
+template class BoundsTree<Box>;
+template class BoundsTree<MovingBox>;
 
 }  // namespace collide::surface

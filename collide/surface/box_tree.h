@@ -1,5 +1,5 @@
 #pragma once
-// A bounding volume hierarchy of boxes over items: faces, edges or bodies.
+// A bounding volume hierarchy of boxes over items: faces, edges or bodies, at one instant or in motion.
 
 #include <algorithm>
 #include <limits>
@@ -16,6 +16,7 @@ namespace collide::surface {
 /// A closed box in doubles, which hold float positions, their sums and differences without harmful rounding. Empty at
 /// first.
 struct Box {
+  static constexpr int axes = 3;
   glm::dvec3 lo{std::numeric_limits<double>::infinity()}, hi{-std::numeric_limits<double>::infinity()};
 
   bool empty() const { return !(lo.x <= hi.x); }
@@ -27,6 +28,8 @@ struct Box {
     lo = glm::min(lo, box.lo);
     hi = glm::max(hi, box.hi);
   }
+  double extent(int axis) const { return hi[axis] - lo[axis]; }
+  double centre2(int axis) const { return lo[axis] + hi[axis]; }  // twice the centre
 };
 inline bool overlap(const Box& a, const Box& b) {
   return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
@@ -38,13 +41,43 @@ inline double squared_distance_to(const Box& box, const glm::dvec3& p) {
   return glm::dot(outside, outside);
 }
 
-/// Splits at the median of the widest axis and has one item in each leaf. The nodes are stored in depth-first order, so
-/// that a walk needs no stack.
-class BoxTree {
+/// A box whose corners move along straight lines, from one place to another. It holds all points that do so and are
+/// inside at both ends.
+struct MovingBox {
+  static constexpr int axes = 6;
+  Box from, to;
+
+  bool empty() const { return from.empty(); }
+  void add(const glm::dvec3& point_from, const glm::dvec3& point_to) {
+    from.add(point_from);
+    to.add(point_to);
+  }
+  void add(const MovingBox& box) {
+    from.add(box.from);
+    to.add(box.to);
+  }
+  // Of the place at the beginning, then of the one at the end.
+  double extent(int axis) const { return axis < 3 ? from.extent(axis) : to.extent(axis - 3); }
+  double centre2(int axis) const { return axis < 3 ? from.centre2(axis) : to.centre2(axis - 3); }
+};
+/// Returns false if an axis separates the boxes, in the same order at both ends and therefore always. Nothing is
+/// rounded.
+inline bool overlap(const MovingBox& a, const MovingBox& b) {
+  const auto separates = [&](int axis) {
+    return ((a.from.hi[axis] < b.from.lo[axis]) & (a.to.hi[axis] < b.to.lo[axis])) |
+           ((b.from.hi[axis] < a.from.lo[axis]) & (b.to.hi[axis] < a.to.lo[axis]));
+  };
+  return !separates(0) && !separates(1) && !separates(2);
+}
+
+/// Splits at the median of the axis along which the boxes are spread widest and has one item in each leaf. The nodes
+/// are stored in depth-first order, so that a walk needs no stack. Bounds: Box or MovingBox.
+template <class Bounds>
+class BoundsTree {
  public:
-  BoxTree() = default;
+  BoundsTree() = default;
   /// Builds the tree. boxes[i] is the box of item i; items with an empty box are left out.
-  explicit BoxTree(const std::vector<Box>& boxes);
+  explicit BoundsTree(const std::vector<Bounds>& boxes);
 
   /// Walks the tree depth first. Skips every node for whose box enter(box) is false, and calls take(item) for the items
   /// that are left.
@@ -62,22 +95,24 @@ class BoxTree {
   }
   /// Calls take(item) for every item whose box overlaps `box`.
   template <class Take>
-  void for_each_overlapping(const Box& box, const Take& take) const {
-    walk([&](const Box& other) { return overlap(box, other); }, take);
+  void for_each_overlapping(const Bounds& box, const Take& take) const {
+    walk([&](const Bounds& other) { return overlap(box, other); }, take);
   }
   /// Returns the box around all items; empty if there are none.
-  Box box() const { return nodes_.empty() ? Box{} : nodes_.front().box; }
+  Bounds box() const { return nodes_.empty() ? Bounds{} : nodes_.front().box; }
 
  private:
   struct Node {
-    Box box;
+    Bounds box;
     Index end;   // one past the last node below this one
     Index item;  // only of a leaf
   };
   using Iterator = std::vector<Index>::iterator;
-  void build(const std::vector<Box>& boxes, Iterator begin, Iterator end);
+  void build(const std::vector<Bounds>& boxes, Iterator begin, Iterator end);
 
   std::vector<Node> nodes_;
 };
+using BoxTree = BoundsTree<Box>;
+using MovingBoxTree = BoundsTree<MovingBox>;
 
 }  // namespace collide::surface

@@ -23,17 +23,22 @@ struct FileMesh {
     std::size_t end;     // of its corners in `corners`
     std::uint64_t line;  // of the file, from 1; a binary file has no lines
   };
+  struct Segment {
+    Index a, b;
+    std::uint64_t line;  // of the file, from 1
+  };
   struct Object {
     Index first_vertex;
     std::size_t first_face;
     bool named;  // it has a line `o`; false for what stands before the first one
   };
   Format format = Format::obj;
-  std::vector<float> x, y, z;   // finite
-  std::vector<Object> objects;  // in the order of their lines `o`; vertices before the first `o` are an object too
-  std::vector<Index> corners;   // of all faces, one after another
-  std::vector<Face> faces;      // of 3 or more corners
-  std::size_t weights = 0;      // lines v X Y Z W with W other than 1, which only curves and surfaces use
+  std::vector<double> x, y, z;    // finite
+  std::vector<Object> objects;    // in the order of their lines `o`; vertices before the first `o` are an object too
+  std::vector<Index> corners;     // of all faces, one after another
+  std::vector<Face> faces;        // of 3 or more corners
+  std::vector<Segment> segments;  // of the lines `l`, in the order of the file
+  std::size_t weights = 0;        // lines v X Y Z W with W other than 1, which only curves and surfaces use
 
   /// Calls visit(corners, face) for each face in the order of the file.
   void for_each_face(const auto& visit) const {
@@ -54,13 +59,18 @@ struct FileMesh {
   }
 };
 
+struct MeshReading {
+  bool doubles = false;  // coordinates are rounded to double, not to float
+  bool lines = false;    // of OBJ files, the lines `l` are read, too
+};
+
 /// Reads a Wavefront OBJ or a PLY file. A file is PLY if its name ends in .ply or its first line is `ply`. The result
 /// has at least one object; a PLY file is one object. A face may use vertices that come later in the file. The time is
 /// proportional to the file's size, and no more memory is used than the result needs. Throws MeshFileError.
 ///
-/// Of OBJ it reads the statements `v`, `o` and `f`. All others are ignored, and so is what follows the coordinates of a
-/// vertex. Of PLY it reads x, y and z of the element `vertex`, and the lists vertex_indices (or vertex_index) of the
-/// elements `face` and `tristrips`. All other elements and properties are skipped.
-FileMesh read_file_mesh(const std::filesystem::path& file);
+/// Of OBJ it reads the statements `v`, `o` and `f`, and `l` on request. All others are ignored, and so is what follows
+/// the coordinates of a vertex. Of PLY it reads x, y and z of the element `vertex`, and the lists vertex_indices (or
+/// vertex_index) of the elements `face` and `tristrips`. All other elements and properties are skipped.
+FileMesh read_file_mesh(const std::filesystem::path& file, const MeshReading& reading = {});
 
 }  // namespace softbody

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <system_error>
 
 namespace softbody {
@@ -30,35 +31,44 @@ std::string quoted(std::string_view word) {
   return "'" + text + (word.size() > longest ? "...'" : "'");
 }
 
-std::from_chars_result parse(std::string_view word, float& value) {
-  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
-  return std::from_chars(word.data(), word.data() + word.size(), value);
+double MeshParser::number(std::string_view word) const {
+  const auto read = [&](auto value, auto from_text) {
+    const auto [stop, error] = parse(word, value);
+    if (stop != word.data() + word.size() || error == std::errc::invalid_argument)
+      fail_at_line(quoted(word) + " is no number; write e.g. -0.25");
+    // from_chars does not tell too large from too small, and leaves the value alone.
+    if (error == std::errc::result_out_of_range) value = from_text(std::string(word).c_str(), nullptr);
+    if (!std::isfinite(value)) fail_at_line(quoted(word) + " is " + not_finite());
+    return double{value};
+  };
+  return reading_.doubles ? read(0.0, std::strtod) : read(0.0f, std::strtof);
 }
 
-float MeshParser::number(std::string_view word) const {
-  float value = 0;
-  const auto [stop, error] = parse(word, value);
-  if (stop != word.data() + word.size() || error == std::errc::invalid_argument)
-    fail_at_line(quoted(word) + " is no number; write e.g. -0.25");
-  // from_chars does not tell too large from too small to be a float, and leaves the value alone.
-  if (error == std::errc::result_out_of_range) value = std::strtof(std::string(word).c_str(), nullptr);
-  if (!std::isfinite(value))
-    fail_at_line(quoted(word) + " is not finite as a float; coordinates must lie within 3.4e38");
-  return value;
+std::optional<double> MeshParser::rounded(double value) const {
+  const double most = reading_.doubles ? std::numeric_limits<double>::max() : double{std::numeric_limits<float>::max()};
+  if (!(std::abs(value) <= most)) return std::nullopt;
+  return reading_.doubles ? value : double{static_cast<float>(value)};
 }
 
 void MeshParser::require_vertices() const {
+  const auto require = [&](Index vertex, const auto& place, const char* feature) {
+    if (vertex >= vertex_count())
+      fail_at(place(), feature + (" names vertex " + std::to_string(vertex + std::uint64_t{mesh_.first_number()})) +
+                           " of " + std::to_string(vertex_count()) + "; correct the index");
+  };
   mesh_.for_each_face([&](std::span<const Index> corners, std::size_t face) {
-    for (const Index vertex : corners) {
-      if (vertex >= vertex_count())
-        fail_at(mesh_.place(face), "a face names vertex " +
-                                       std::to_string(vertex + std::uint64_t{mesh_.first_number()}) + " of " +
-                                       std::to_string(vertex_count()) + "; correct the index");
-    }
+    for (const Index vertex : corners)
+      require(
+          vertex, [&] { return mesh_.place(face); }, "a face");
   });
+  for (const FileMesh::Segment& segment : mesh_.segments) {
+    for (const Index vertex : {segment.a, segment.b})
+      require(
+          vertex, [&] { return std::to_string(segment.line); }, "a line");
+  }
 }
 
-FileMesh read_file_mesh(const std::filesystem::path& file) {
+FileMesh read_file_mesh(const std::filesystem::path& file, const MeshReading& reading) {
   const std::string name = file.string();
   try {
     LineReader lines(file);
@@ -67,10 +77,10 @@ FileMesh read_file_mesh(const std::filesystem::path& file) {
     try {
       std::string_view line;
       lines.next(line);
-      if (Words(line).next() == "ply") return parse_ply(name, lines);
+      if (Words(line).next() == "ply") return parse_ply(name, lines, reading);
       if (extension == ".ply")
         throw MeshFileError(name + ":1: the line 'ply' is missing; is this a file in PLY format?");
-      return parse_obj(name, lines, line);
+      return parse_obj(name, lines, reading, line);
     } catch (const std::length_error& too_long) {
       throw MeshFileError(name + ":" + std::to_string(lines.number()) + ": " + too_long.what() +
                           "; is this a text file in OBJ or PLY format?");

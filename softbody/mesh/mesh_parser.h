@@ -2,6 +2,7 @@
 // What the readers of OBJ and PLY files share: words, numbers, limits and messages.
 
 #include <charconv>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -25,13 +26,18 @@ class Words {
 std::string quoted(std::string_view word);
 
 /// Parses a number as from_chars() does, but allows a + before it.
-std::from_chars_result parse(std::string_view word, float& value);
+template <class Real>
+std::from_chars_result parse(std::string_view word, Real& value) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  return std::from_chars(word.data(), word.data() + word.size(), value);
+}
 
 /// Collects the mesh of a file. All members but take() throw MeshFileError.
 class MeshParser {
  public:
   /// name: of the file. lines: of the file; it must outlive the parser.
-  MeshParser(std::string name, LineReader& lines) : name_(std::move(name)), lines_(lines) {}
+  MeshParser(std::string name, LineReader& lines, const MeshReading& reading)
+      : name_(std::move(name)), lines_(lines), reading_(reading) {}
 
   FileMesh take() { return std::move(mesh_); }
 
@@ -48,24 +54,32 @@ class MeshParser {
 
   Index vertex_count() const { return static_cast<Index>(mesh_.x.size()); }
   /// Returns a number of the line.
-  float number(std::string_view word) const;
+  double number(std::string_view word) const;
+  /// Rounds a coordinate. Returns nothing if it is not finite then.
+  std::optional<double> rounded(double value) const;
+  std::string not_finite() const {
+    return reading_.doubles ? "not finite as a double; coordinates must lie within 1.8e308"
+                            : "not finite as a float; coordinates must lie within 3.4e38";
+  }
   /// Ends a face whose corners have been added to the mesh. fail(what) throws.
   void end_face(const auto& fail) {
     const std::size_t begin = mesh_.faces.empty() ? 0 : mesh_.faces.back().end;
     if (mesh_.corners.size() - begin < 3) fail("a face of fewer than 3 corners; give it 3 or more, or leave it out");
     mesh_.faces.push_back({mesh_.corners.size(), lines_.number()});
   }
-  /// Checks that the vertices of all faces exist. To be called at the end, since a face may come before its vertices.
+  /// Checks that the vertices of all faces and segments exist. To be called at the end, since these may come before
+  /// their vertices.
   void require_vertices() const;
 
   std::string name_;
   LineReader& lines_;
+  MeshReading reading_;
   FileMesh mesh_;
 };
 
 /// Reads the statements of an OBJ file, beginning with `line`, which has been read from `lines`.
-FileMesh parse_obj(const std::string& name, LineReader& lines, std::string_view line);
+FileMesh parse_obj(const std::string& name, LineReader& lines, const MeshReading& reading, std::string_view line);
 /// Reads a PLY file of which the first line has been read.
-FileMesh parse_ply(const std::string& name, LineReader& lines);
+FileMesh parse_ply(const std::string& name, LineReader& lines, const MeshReading& reading);
 
 }  // namespace softbody

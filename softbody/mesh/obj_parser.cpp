@@ -45,6 +45,7 @@ class ObjParser : public MeshParser {
     const std::string_view keyword = words.next();
     if (keyword == "v") return vertex(words);
     if (keyword == "f") return face(words);
+    if (keyword == "l" && reading_.lines) return line(words);
     if (keyword == "o") return begin_object(true);
     if (keyword.empty()) return;
     const char initial = keyword.front();
@@ -61,8 +62,8 @@ class ObjParser : public MeshParser {
   void vertex(Words words) {
     if (mesh_.objects.empty()) begin_object(false);
     if (vertex_count() == max_particles) fail_at_line(beyond("vertices", max_particles));
-    std::array<float, 3> position;
-    for (float& coordinate : position) {
+    std::array<double, 3> position;
+    for (double& coordinate : position) {
       const std::string_view word = words.next();
       if (word.empty()) fail_at_line("a vertex with fewer than 3 coordinates; write v X Y Z");
       coordinate = number(word);
@@ -96,6 +97,17 @@ class ObjParser : public MeshParser {
     end_face([&](const std::string& what) { fail_at_line(what); });
   }
 
+  void line(Words words) {
+    std::string_view word = words.next();
+    if (word.empty()) fail_at_line("a line without a vertex; write l V V");
+    for (Index last = corner(word); !(word = words.next()).empty();) {
+      const Index next = corner(word);
+      mesh_.segments.push_back({last, next, lines_.number()});
+      if (mesh_.segments.size() > max_file_corners) fail_at_line(beyond("segments of lines", max_file_corners));
+      last = next;
+    }
+  }
+
   Index corner(std::string_view word) const {
     std::int64_t index = 0;
     std::string_view rest = word;
@@ -115,8 +127,8 @@ class ObjParser : public MeshParser {
 
 }  // namespace
 
-FileMesh parse_obj(const std::string& name, LineReader& lines, std::string_view line) {
-  ObjParser parser(name, lines);
+FileMesh parse_obj(const std::string& name, LineReader& lines, const MeshReading& reading, std::string_view line) {
+  ObjParser parser(name, lines, reading);
   parser.run(line);
   return parser.take();
 }

@@ -307,12 +307,11 @@ class PlyParser : public MeshParser {
       binary<double>(type);
   }
 
-  float real(Type type) {
+  double real(Type type) {
     if (text()) return number(word());
-    const double value = binary<double>(type);
-    if (!(std::abs(value) <= std::numeric_limits<float>::max()))
-      fail("a coordinate that is not finite as a float; coordinates must lie within 3.4e38");
-    return static_cast<float>(value);
+    const std::optional<double> value = rounded(binary<double>(type));
+    if (!value) fail("a coordinate that is " + not_finite());
+    return *value;
   }
 
   std::int64_t integer(Type type) {
@@ -331,15 +330,15 @@ class PlyParser : public MeshParser {
   bool foreign_order_ = false;        // the bytes of a number are reversed
   const Element* element_ = nullptr;  // of the row
   std::uint64_t row_ = 0;
-  Words words_{{}};                  // the rest of the line
-  std::array<float, 3> position_{};  // of the row
-  std::vector<Index> corners_;       // of the row; no_vertex ends a strip
+  Words words_{{}};                   // the rest of the line
+  std::array<double, 3> position_{};  // of the row
+  std::vector<Index> corners_;        // of the row; no_vertex ends a strip
 };
 
 }  // namespace
 
-FileMesh parse_ply(const std::string& name, LineReader& lines) {
-  PlyParser parser(name, lines);
+FileMesh parse_ply(const std::string& name, LineReader& lines, const MeshReading& reading) {
+  PlyParser parser(name, lines, reading);
   parser.run();
   return parser.take();
 }

@@ -18,8 +18,11 @@ RecordedBodies::RecordedBodies(const std::string& scene, int frame) {
   frame_file = folder.path() / ("frame_" + name);
   rest_file = folder.path() / ("rest_" + name);
   const softbody::FileMesh moved = softbody::read_file_mesh(frame_file), still = softbody::read_file_mesh(rest_file);
-  x = moved.x, y = moved.y, z = moved.z;
-  for (std::size_t v = 0; v < x.size(); ++v) rest.insert(rest.end(), {still.x[v], still.y[v], still.z[v]});
+  x.assign(moved.x.begin(), moved.x.end());
+  y.assign(moved.y.begin(), moved.y.end());
+  z.assign(moved.z.begin(), moved.z.end());
+  for (std::size_t v = 0; v < x.size(); ++v)
+    for (const auto* axis : {&still.x, &still.y, &still.z}) rest.push_back(static_cast<float>((*axis)[v]));
   for (const auto& object : moved.objects) first.push_back(object.first_vertex);
   first.push_back(static_cast<sbcollide::Index>(x.size()));
   triangles.resize(first.size() - 1), edges.resize(first.size() - 1);

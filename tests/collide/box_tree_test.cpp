@@ -50,5 +50,50 @@ TEST(BoxTree, FindsEqualBoxesAndBoxesThatOnlyTouch) {
   EXPECT_EQ(found({}), 0);
 }
 
+/// Returns where a moving box is at a time.
+Box at(const MovingBox& box, double time) {
+  return {glm::mix(box.from.lo, box.to.lo, time), glm::mix(box.from.hi, box.to.hi, time)};
+}
+
+TEST(MovingBox, OverlapsNoBoxThatAnAxisSeparatesAtAllTimes) {
+  std::mt19937 random(22);
+  int separate = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const std::vector<Box> boxes = random_boxes(random, 4);
+    const MovingBox a{boxes[0], boxes[1]}, b{boxes[2], boxes[3]};
+    bool meet = false;
+    for (const double time : {0.0, 0.25, 0.5, 0.75, 1.0}) meet = meet || overlap(at(a, time), at(b, time));
+    EXPECT_TRUE(!meet || overlap(a, b));
+    EXPECT_EQ(overlap(a, b), overlap(b, a));
+    separate += !overlap(a, b);
+  }
+  EXPECT_GT(separate, 1000);
+  const Box unit{glm::dvec3(0), glm::dvec3(1)}, beside{glm::dvec3(2, 0, 0), glm::dvec3(3, 1, 1)};
+  const Box far{glm::dvec3(9), glm::dvec3(10)}, beside_far{glm::dvec3(11, 9, 9), glm::dvec3(12, 10, 10)};
+  EXPECT_FALSE(overlap(MovingBox{unit, far}, {beside, beside_far})) << "they fly together";
+  EXPECT_TRUE(overlap(MovingBox{unit, beside}, {beside, unit})) << "they change places";
+}
+
+TEST(MovingBoxTree, FindsExactlyTheOverlappingBoxes) {
+  std::mt19937 random(23);
+  const auto moving_boxes = [&](std::size_t count) {
+    std::vector<MovingBox> boxes;
+    for (std::size_t k = 0; k < count; ++k)
+      boxes.push_back({random_boxes(random, 1).front(), random_boxes(random, 1).front()});
+    return boxes;
+  };
+  const std::vector<MovingBox> boxes = moving_boxes(300);
+  const MovingBoxTree tree(boxes);
+  for (const MovingBox& query : moving_boxes(50)) {
+    std::vector<Index> found, expected;
+    tree.for_each_overlapping(query, [&](Index item) { found.push_back(item); });
+    for (Index i = 0; i < boxes.size(); ++i) {
+      if (overlap(boxes[i], query)) expected.push_back(i);
+    }
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected);
+  }
+}
+
 }  // namespace
 }  // namespace collide::test

@@ -281,6 +281,30 @@ TEST_F(ConstructedMeetings, AreFound) {
   }
 }
 
+/// A vertex passes the plane of a face beside one of its sides, or an edge passes another beside its end, by any
+/// little.
+TEST_F(ConstructedMeetings, AreToldFromNearMissesBesideASide) {
+  int found = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double gap = std::ldexp(i % 2 == 0 ? 1 : -1, -static_cast<int>(random_() % 200));
+    // The side, or the end, is at x = 0 all the time; the other feature comes across it in y and z only.
+    const auto moving = [&](double x, double y, double z, double by) {
+      return MovingPoint{{x, y + whole(1) / 8, z + whole(1) / 8}, {x, y + whole(1) / 8, z + by + whole(1) / 8}};
+    };
+    const Query vertex_face{Kind::vertex_face,
+                            {moving(gap, 0, 1, -2), moving(0, -8, 0, 0), moving(0, 8, 0, 0), moving(-8, 0, 0, 0)}};
+    const Query edge_edge{Kind::edge_edge,
+                          {moving(gap, -2, 1, -2), moving(gap, 2, 1, -2), moving(0, 0, 0, 0), moving(-8, 0, 0, 0)}};
+    for (const Query& query : {vertex_face, edge_edge}) {
+      ASSERT_EQ(meeting_of(query).has_value(), gap <= 0) << text_of(query);
+      ASSERT_EQ(passage_of(query).has_value(), gap <= 0) << text_of(query);
+      if (i % 40 == 1) expect_meeting(query, truth_of(query).first_meeting);
+      found += gap <= 0;
+    }
+  }
+  EXPECT_EQ(found, 4000);
+}
+
 /// A plane that moves separates the features by a tiny gap, and their boxes overlap.
 TEST_F(ConstructedMeetings, AreNoneBesideAMovingPlane) {
   const double gap = 0x1p-40;

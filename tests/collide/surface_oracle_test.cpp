@@ -63,9 +63,9 @@ TEST(SurfaceOracle, FiguresCountEachItemOnce) {
   overlaps.penetrations = {{3, 1, 0, 0.5, {}, {}}, {3, 2, 0, 1.5, {}, {}}, {12, 0, 0, 1, {}, {}}};
   overlaps.piercings = {{{1, 2}, 0, 2, 0, {}}, {{21, 22}, 2, 2, 0, {}}, {{21, 23}, 2, 2, 0, {}}};
   using enum Crossing::Kind;
-  const std::vector<Crossing> crossings{{vertex_face, 0, 1, {5, 5}, {10, 11, 12}, 0, true},
-                                        {vertex_face, 0, 1, {5, 5}, {11, 12, 13}, 0, true},
-                                        {edge_edge, 1, 2, {10, 11}, {20, 21, 21}, 0, true}};
+  const std::vector<Crossing> crossings{{{vertex_face, {5, 5}, {10, 11, 12}}, 0, 1, 0, true},
+                                        {{vertex_face, {5, 5}, {11, 12, 13}}, 0, 1, 0, true},
+                                        {{edge_edge, {10, 11}, {20, 21, 21}}, 1, 2, 0, true}};
   const SurfaceFigures figures = figures_of(frame, overlaps, crossings);
   EXPECT_EQ(figures, (SurfaceFigures{.penetrating_vertices = 2,
                                      .overlapping_pairs = 2,

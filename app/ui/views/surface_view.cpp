@@ -56,7 +56,8 @@ void draw_overlaps(Widgets& w, const collide::oracle::SurfaceFigures& figures) {
 
 void draw_crossings(Widgets& w, const collide::oracle::SurfaceFigures& figures, const session::CrossingSums& sums) {
   w.figure("Passed in this step", vertices_and_edges(figures.crossed_vertices, figures.edge_crossings),
-           "Vertices that passed through a face in the last step, and pairs of edges that passed through each other.");
+           "Vertices that passed through a face in the last step, and pairs of edges that passed through each other: they "
+           "met, and the side changed.");
   w.figure("Passed in all checked steps", vertices_and_edges(sums.vertices, sums.edge_pairs),
            "The same, summed over all checked steps.");
   w.figure("Checked steps", grouped(static_cast<std::uint64_t>(sums.steps)),
@@ -70,7 +71,7 @@ void draw_missed(Widgets& w, const Session& session) {
   w.text_line("Missed surface contacts");
   w.register_item("Missed surface contacts",
                   "Overlaps of surfaces without a contact between vertices (§2.3). The scene hatches the surface round "
-                  "them. A line joins the deepest vertex of two bodies to the surface that it passed.");
+                  "them. A line joins the deepest vertex of two bodies to the nearest point of the surface.");
   w.figure("  vertices", share(report.missed_penetrations, report.penetrations),
            "Penetrating vertices without a contact with the body that they are in.");
   w.figure("  edges", share(report.missed_piercings, report.figures.piercings),

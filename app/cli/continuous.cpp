@@ -1,0 +1,96 @@
+#include "app/cli/continuous.h"
+
+#include <array>
+#include <iostream>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "app/base/timings.h"
+#include "app/files/meetings_csv.h"
+#include "app/files/motion_file.h"
+
+namespace app::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using collide::oracle::FeatureMeeting;
+
+/// Numbers of pairs of features.
+struct Counts {
+  std::size_t own = 0, others = 0;  // of one surface; of two
+};
+
+/// Of one kind of pairs.
+struct KindCounts {
+  const char *key, *name;
+  Counts meetings{}, passages{};
+};
+
+struct Figures {
+  std::array<KindCounts, 2> kinds{{{"vf", "vertex and face"}, {"ee", "edge and edge"}}};  // as in FeatureMeeting::Kind
+  double ms = 0;
+
+  void count(const FeatureMeeting& meeting, bool own) {
+    KindCounts& kind = kinds[static_cast<std::size_t>(meeting.kind)];
+    ++(own ? kind.meetings.own : kind.meetings.others);
+    if (meeting.passes) ++(own ? kind.passages.own : kind.passages.others);
+  }
+};
+
+Figures find(const files::MotionFiles& motion, const Options& options) {
+  std::optional<files::MeetingsCsv> csv;
+  if (options.detect.contacts) csv.emplace(*options.detect.contacts);
+  Figures figures;
+  collide::Workers workers(options.threads);
+  const auto take = [&](const std::vector<FeatureMeeting>& meetings) {
+    for (const FeatureMeeting& m : meetings) {
+      figures.count(m, motion.surface_of[m.feature[0]] == motion.surface_of[m.against[0]]);
+      if (csv) csv->add(m);
+    }
+  };
+  figures.ms = time_ms([&] { collide::oracle::find_meetings(motion.mesh, workers, take); });
+  if (csv) csv->commit();
+  return figures;
+}
+
+Json to_json(const files::MotionFiles& motion, const Figures& figures, int threads) {
+  Json document{{"threads", threads},
+                {"surfaces", motion.surfaces},
+                {"vertices", motion.mesh.vertices.size()},
+                {"edges", motion.mesh.edges.size()},
+                {"faces", motion.mesh.faces.size()}};
+  for (const auto& [name, counts] :
+       {std::pair("meetings", &KindCounts::meetings), {"passages", &KindCounts::passages}}) {
+    for (const KindCounts& kind : figures.kinds)
+      document[name][kind.key] = {{"own", (kind.*counts).own}, {"others", (kind.*counts).others}};
+  }
+  document["ms"] = figures.ms;
+  return document;
+}
+
+void print_table(const files::MotionFiles& motion, const Figures& figures, int threads) {
+  std::cout << fmt::format("contact in motion, threads {}, surfaces {}, vertices {}, edges {}, faces {}, {:.3f} ms\n",
+                           threads, motion.surfaces, motion.mesh.vertices.size(), motion.mesh.edges.size(),
+                           motion.mesh.faces.size(), figures.ms);
+  std::cout << fmt::format("{:16} {:>12} {:>12} {:>12} {:>12}\n", "pairs of", "meet, own", "others", "pass, own",
+                           "others");
+  for (const KindCounts& kind : figures.kinds)
+    std::cout << fmt::format("{:16} {:12} {:12} {:12} {:12}\n", kind.name, kind.meetings.own, kind.meetings.others,
+                             kind.passages.own, kind.passages.others);
+}
+
+}  // namespace
+
+void detect_continuous(const Options& options) {
+  const std::vector<std::string>& files = options.detect.files;
+  if (files.size() != 2) throw UsageError("--continuous: takes two files: detect FROM TO --continuous");
+  const files::MotionFiles motion = files::read_motion(files[0], files[1]);
+  const Figures figures = find(motion, options);
+  if (options.json)
+    std::cout << to_json(motion, figures, options.threads).dump() << '\n';
+  else
+    print_table(motion, figures, options.threads);
+}
+
+}  // namespace app::cli

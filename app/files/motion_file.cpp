@@ -1,0 +1,102 @@
+#include "app/files/motion_file.h"
+
+#include <algorithm>
+
+#include "app/base/usage_error.h"
+#include "app/files/body_file.h"
+#include "app/files/forest.h"
+#include "app/files/inputs.h"
+
+namespace app::files {
+namespace {
+
+using collide::Index;
+using softbody::FileMesh;
+
+/// A file and what was read from it.
+struct Frame {
+  std::string file;
+  FileMesh mesh;
+};
+
+Frame read_frame(const std::filesystem::path& file) {
+  protect_input(file);
+  return {file.string(), softbody::read_file_mesh(file, {.doubles = true, .lines = true})};
+}
+
+std::span<const Index> corners_of(const FileMesh& mesh, std::size_t face) {
+  const std::size_t begin = face > 0 ? mesh.faces[face - 1].end : 0;
+  return std::span(mesh.corners).subspan(begin, mesh.faces[face].end - begin);
+}
+
+/// Throws UsageError unless both frames have the same vertices, faces and lines.
+void require_match(const Frame& from, const Frame& to) {
+  const std::string advice = "; give two frames of one mesh";
+  const auto require_number = [&](const char* of, std::size_t in_from, std::size_t in_to) {
+    if (in_from != in_to)
+      throw UsageError(to.file + ": number of " + of + " " + std::to_string(in_to) + ", in " + from.file + " " +
+                       std::to_string(in_from) + advice);
+  };
+  const FileMesh &a = from.mesh, &b = to.mesh;
+  require_number("vertices", a.x.size(), b.x.size());
+  require_number("faces", a.faces.size(), b.faces.size());
+  require_number("segments of lines", a.segments.size(), b.segments.size());
+  for (std::size_t face = 0; face < a.faces.size(); ++face) {
+    if (!std::ranges::equal(corners_of(a, face), corners_of(b, face)))
+      throw UsageError(to.file + ":" + b.place(face) + ": another face than " + from.file + ":" + a.place(face) +
+                       advice);
+  }
+  for (std::size_t k = 0; k < a.segments.size(); ++k) {
+    const FileMesh::Segment &s = a.segments[k], &t = b.segments[k];
+    if (s.a != t.a || s.b != t.b)
+      throw UsageError(to.file + ":" + std::to_string(t.line) + ": another line than " + from.file + ":" +
+                       std::to_string(s.line) + advice);
+  }
+}
+
+template <class T>
+void sort_unique(std::vector<T>& values) {
+  std::ranges::sort(values);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// Adds the features of the mesh, each once.
+void add_features(const FileMesh& file, collide::oracle::MovingMesh& mesh) {
+  for (Index v = 0; v < file.x.size(); ++v) mesh.vertices.push_back({v});
+  const auto position = [&](Index v) { return mesh.points[v].from; };
+  file.for_each_face([&](std::span<const Index> corners, std::size_t) {
+    for_each_triangle(corners, position, [&](const softbody::Triangle& t) { mesh.faces.push_back(t); });
+  });
+  const auto add_edge = [&](Index a, Index b) {
+    if (a != b) mesh.edges.push_back({std::min(a, b), std::max(a, b)});
+  };
+  for (const auto& [a, b, c] : mesh.faces) {
+    add_edge(a, b);
+    add_edge(b, c);
+    add_edge(c, a);
+  }
+  for (const FileMesh::Segment& segment : file.segments) add_edge(segment.a, segment.b);
+  sort_unique(mesh.faces);
+  sort_unique(mesh.edges);
+}
+
+}  // namespace
+
+MotionFiles read_motion(const std::filesystem::path& from, const std::filesystem::path& to) {
+  const Frame first = read_frame(from), last = read_frame(to);
+  require_match(first, last);
+  MotionFiles motion;
+  const auto position = [](const FileMesh& mesh, Index v) { return glm::dvec3(mesh.x[v], mesh.y[v], mesh.z[v]); };
+  for (Index v = 0; v < first.mesh.x.size(); ++v)
+    motion.mesh.points.push_back({position(first.mesh, v), position(last.mesh, v)});
+  add_features(first.mesh, motion.mesh);
+  Forest forest(motion.mesh.points.size());
+  for (const auto& [a, b] : motion.mesh.edges) forest.join(a, b);
+  for (Index v = 0; v < motion.mesh.points.size(); ++v) {
+    const Index root = forest.root(v);
+    motion.surface_of.push_back(root == v ? static_cast<Index>(motion.surfaces++) : motion.surface_of[root]);
+  }
+  return motion;
+}
+
+}  // namespace app::files
