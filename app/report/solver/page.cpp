@@ -208,6 +208,27 @@ void add_promise(Page& page, const SolverResults& r) {
   page.table(table);
 }
 
+void add_coarse(Page& page, const CoarseResults& coarse) {
+  if (coarse.runs.empty()) return;
+  Table table;
+  for (const CoarseRun& run : coarse.runs)
+    table.add({{"particles", whole(double(run.particles))},
+               {"surfaces apart, R", run.distance > 0 ? two_digits(run.distance) : ""},
+               {"middle, R", two_digits(run.middle)},
+               {"shape, R", two_digits(run.shape)},
+               {"run time", fmt::format("{:.2g}", run.cost)}});
+  page.text("## Coarse against fine");
+  page.text(
+      "A creature of {} vertices falls on a solid sphere, simulated by so many particles; contact by surfaces, one "
+      "second. "
+      "Surfaces apart: the largest distance of the simulated surface from the creature's, at rest. Middle, shape: the "
+      "largest differences from the last row, of the middle of its vertices, and of the vertices about it (RMS). Run "
+      "time: "
+      "of the solver, without detection, in that of the last row.",
+      whole(double(coarse.vertices)));
+  page.table(table);
+}
+
 Table costs(const SolverResults& r, const SolverCase& c) {
   Table table;
   for (const WorkCurve& curve : c.curves) {
@@ -272,6 +293,7 @@ Page solver_page(const SolverResults& results) {
   page.warn(warn_of_busy_machine(results.timed));
   add_overview(page, results);
   add_promise(page, results);
+  add_coarse(page, results.coarse);
   for (const SolverCase& c : results.cases) {
     page.text("## {}", c.name);
     page.text(
