@@ -25,14 +25,13 @@ struct Group {
 std::vector<SceneLabel> miss_marks(const softbody::World& world, std::span<const collide::Contact> missed,
                                    const compare::DrawnPositions& positions) {
   constexpr double reach = 4;  // of a group, mean edges
-  const auto body_of = world.vertex_body();
   std::map<std::pair<softbody::BodyId, softbody::BodyId>, std::vector<Group>> groups;
   for (const collide::Contact& contact : missed) {
     assert(contact.a < positions.size() && contact.b < positions.size());
-    const softbody::BodyId body = body_of[contact.a];
+    const softbody::BodyId body = world.bodies().body_of(contact.a);
     const glm::vec3 middle = 0.5f * (positions[contact.a] + positions[contact.b]);
     const auto near = static_cast<float>(reach * world.model(body).shown().mean_edge);
-    std::vector<Group>& of_pair = groups[{body, body_of[contact.b]}];
+    std::vector<Group>& of_pair = groups[{body, world.bodies().body_of(contact.b)}];
     auto group = std::ranges::find_if(of_pair, [&](const Group& g) { return glm::distance(g.first, middle) < near; });
     if (group == of_pair.end()) group = of_pair.insert(group, {.first = middle});
     group->sum += middle;

@@ -110,9 +110,8 @@ void add_contact(Points positions, const collide::Contact& contact, const glm::v
 void add_contacts(const softbody::World& world, const DrawnPoints& at, engine::FrameData& frame) {
   engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = half_hidden};
   engine::PointSet points{.points = {}, .diameter = 5.0f, .occluded_alpha = half_hidden};
-  const auto body = world.vertex_body();
   for (const collide::Contact& contact : world.detection().contacts) {
-    const bool inside = body[contact.a] == body[contact.b];
+    const bool inside = world.bodies().body_of(contact.a) == world.bodies().body_of(contact.b);
     add_contact(at.shown, contact, inside ? contact_inside_colour : contact_between_colour, lines, points);
   }
   for (const softbody::SolidContactPoint& contact : softbody::solid_contacts(world)) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <random>
 #include <set>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "collide/oracle/surface_oracle.h"
 #include "collide/surface/box_tree.h"
 #include "collide/surface/closest_features.h"
+#include "softbody/mesh/sets.h"
 #include "softbody/mesh/surface.h"
 
 namespace softbody {
@@ -72,25 +72,12 @@ class FaceTree {
   collide::surface::BoxTree tree_;
 };
 
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
-  Index root(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(Index a, Index b) { parent_[root(b)] = root(a); }
-
- private:
-  std::vector<Index> parent_;
-};
-
 /// Returns a number for each vertex, the same for those that edges connect.
 std::vector<Index> parts_of(const Mesh& mesh) {
-  UnionFind joined(mesh.vertices.size());
-  for (const auto& [a, b, c] : mesh.triangles) joined.join(a, b), joined.join(a, c);
+  Sets joined(mesh.vertices.size());
+  for (const auto& [a, b, c] : mesh.triangles) joined.unite(a, b), joined.unite(a, c);
   std::vector<Index> part;
-  for (Index v = 0; v < mesh.vertices.size(); ++v) part.push_back(joined.root(v));
+  for (Index v = 0; v < mesh.vertices.size(); ++v) part.push_back(joined.find(v));
   return part;
 }
 
@@ -106,21 +93,21 @@ void cut_off_blisters(std::vector<Triangle>& triangles) {
   std::map<Edge, std::vector<Index>> faces;
   for (Index f = 0; f < triangles.size(); ++f)
     for (std::size_t k = 0; k < 3; ++k) faces[ordered(triangles[f][k], triangles[f][(k + 1) % 3])].push_back(f);
-  UnionFind joined(triangles.size());
+  Sets joined(triangles.size());
   for (const auto& [edge, at] : faces)
-    if (at.size() == 2) joined.join(at[0], at[1]);
+    if (at.size() == 2) joined.unite(at[0], at[1]);
   std::vector<std::size_t> size(triangles.size(), 0), of_largest(triangles.size(), 0);
-  for (Index f = 0; f < triangles.size(); ++f) ++size[joined.root(f)];
+  for (Index f = 0; f < triangles.size(); ++f) ++size[joined.find(f)];
   for (const auto& [edge, at] : faces) {
     if (at.size() <= 2) continue;
     std::size_t largest = 0;
-    for (const Index f : at) largest = std::max(largest, size[joined.root(f)]);
-    for (const Index f : at) of_largest[joined.root(f)] = std::max(of_largest[joined.root(f)], largest);
+    for (const Index f : at) largest = std::max(largest, size[joined.find(f)]);
+    for (const Index f : at) of_largest[joined.find(f)] = std::max(of_largest[joined.find(f)], largest);
   }
   constexpr std::size_t many = 20;  // times the triangles of a blister
   std::vector<Triangle> left;
   for (Index f = 0; f < triangles.size(); ++f)
-    if (many * size[joined.root(f)] > of_largest[joined.root(f)]) left.push_back(triangles[f]);
+    if (many * size[joined.find(f)] > of_largest[joined.find(f)]) left.push_back(triangles[f]);
   triangles = std::move(left);
 }
 

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <numeric>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -15,6 +14,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+
+#include "softbody/mesh/sets.h"
 
 namespace softbody {
 namespace {
@@ -47,23 +48,6 @@ class Places {
 
   double distance_, cell_;
   std::unordered_map<std::uint64_t, std::vector<std::pair<Index, glm::dvec3>>> cells_;
-};
-
-/// Disjoint sets of vertices, each named by its first vertex.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
-  Index find(Index v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void unite(Index a, Index b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parent_;
 };
 
 /// A side of a face.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "softbody/mesh/sets.h"
+
 namespace softbody {
 namespace {
 
@@ -35,11 +37,6 @@ void Sleep::wake_touched(State& state, std::span<const BodyId> vertex_body,
   });
 }
 
-BodyId Sleep::root(BodyId body) {
-  while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
-  return body;
-}
-
 void Sleep::settle(State& state, std::span<const BodyId> vertex_body, const std::vector<collide::Contact>& contacts,
                    const std::vector<collide::surface::ItemPair>& interactions) {
   const BodyId count = state.body_count();
@@ -50,19 +47,19 @@ void Sleep::settle(State& state, std::span<const BodyId> vertex_body, const std:
     memory.calm_frames = memory.speed < rule_.speed ? memory.calm_frames + 1 : 0;
     any = any || memory.calm_frames >= rule_.frames;
   }
-  if (!any) return;  // most frames need no islands
-  parent_.resize(count);
-  for (BodyId b = 0; b < count; ++b) parent_[b] = b;
+  if (!any) return;     // most frames need no islands
+  Sets islands(count);  // of moving bodies that touch
   const auto join = [&](BodyId a, BodyId b) {
-    if (a != b && state.body(a).moves() && state.body(b).moves()) parent_[root(a)] = root(b);
+    if (a != b && state.body(a).moves() && state.body(b).moves()) islands.unite(a, b);
   };
   for_each_pair(vertex_body, contacts, join);
   for (const collide::surface::ItemPair& pair : interactions) join(pair.a, pair.b);
   std::vector<int> calm(count, std::numeric_limits<int>::max());  // of each island: the calm frames of its latest body
   for (BodyId b = 0; b < count; ++b)
-    if (state.body(b).moves()) calm[root(b)] = std::min(calm[root(b)], state.body(b).memory.calm_frames);
+    if (state.body(b).moves())
+      calm[islands.find(b)] = std::min(calm[islands.find(b)], state.body(b).memory.calm_frames);
   for (BodyId b = 0; b < count; ++b)
-    if (state.body(b).moves() && calm[root(b)] >= rule_.frames) state.set_asleep(b, true);
+    if (state.body(b).moves() && calm[islands.find(b)] >= rule_.frames) state.set_asleep(b, true);
 }
 
 }  // namespace softbody

@@ -22,10 +22,7 @@ class Sleep {
               const std::vector<collide::surface::ItemPair>& interactions);
 
  private:
-  BodyId root(BodyId body);
-
   SleepRule rule_;
-  std::vector<BodyId> parent_;  // union-find over moving bodies that touch
 };
 
 }  // namespace softbody

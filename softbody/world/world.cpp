@@ -332,7 +332,6 @@ const BodyModel& World::model(BodyId body) const { return parts_->solver.state()
 Particle World::particle(BodyId body, Index vertex) const { return parts_->solver.state().particle(body, vertex); }
 const collide::Result& World::detection() const { return parts_->shown().result; }
 const collide::Detector& World::detector() const { return *parts_->shown().detector; }
-std::span<const BodyId> World::vertex_body() const { return parts_->shown().vertex_body; }
 const State& World::state() const { return parts_->solver.state(); }
 std::uint64_t World::state_hash() const { return parts_->solver.state().hash(); }
 const StepReport& World::last_step() const { return parts_->report; }

@@ -133,8 +133,7 @@ class World {
 
   // The current state, of the meshes that are shown (BodyModel::shown()).
   const collide::Bodies& bodies() const;
-  std::span<const BodyId> vertex_body() const;  // the body of each vertex
-  collide::Frame positions() const;             // in the world, valid until the next change
+  collide::Frame positions() const;  // in the world, valid until the next change
   SimulatedMeshes simulated() const;
   Particle particle(BodyId body, Index vertex) const;
   BodyState body(BodyId body) const;

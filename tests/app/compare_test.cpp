@@ -33,13 +33,13 @@ compare::FrameSnapshot snapshot_of(const softbody::World& world) {
 std::vector<collide::Contact> true_contacts(const softbody::World& world) {
   const collide::Frame f = world.positions();
   const float tolerance2 = world.collision().tolerance * world.collision().tolerance;
-  const auto body = world.vertex_body();
+  const auto body = [&](collide::Index vertex) { return world.bodies().body_of(vertex); };
   std::vector<collide::Contact> contacts;
   for (collide::Index a = 0; a < f.x.size(); ++a) {
     for (collide::Index b = a + 1; b < f.x.size(); ++b) {
       if (!(collide::squared_distance(f.x[a], f.y[a], f.z[a], f.x[b], f.y[b], f.z[b]) < tolerance2)) continue;
-      const collide::Index first = f.bodies->first[body[a]];
-      const bool excluded = body[a] == body[b] && f.bodies->shape[body[a]]->excludes(a - first, b - first, tolerance2);
+      const collide::Index first = f.bodies->first[body(a)];
+      const bool excluded = body(a) == body(b) && f.bodies->shape[body(a)]->excludes(a - first, b - first, tolerance2);
       if (!excluded) contacts.push_back({a, b});
     }
   }

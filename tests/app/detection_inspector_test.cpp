@@ -35,10 +35,10 @@ TEST(DetectionInspector, FindsEveryContactBetweenBodiesInTheSearchAreas) {
   simulation.advance(tick);
   const auto areas = inspector.search_areas();
   const collide::Frame frame = simulation.world().positions();
-  const auto body = simulation.world().vertex_body();
+  const auto body = [&](collide::Index vertex) { return simulation.world().bodies().body_of(vertex); };
   std::size_t between = 0;
   for (const collide::Contact& contact : simulation.world().detection().contacts) {
-    if (body[contact.a] == body[contact.b]) continue;
+    if (body(contact.a) == body(contact.b)) continue;
     ++between;
     const glm::vec3 middle = 0.5f * (glm::vec3(frame.x[contact.a], frame.y[contact.a], frame.z[contact.a]) +
                                      glm::vec3(frame.x[contact.b], frame.y[contact.b], frame.z[contact.b]));
@@ -73,11 +73,11 @@ TEST(DetectionInspector, ShowsSurfaceContactsAtTheClosestPointsOfTwoBodies) {
   for (int i = 0; i < 60 && inspector.surface_contacts().empty(); ++i) simulation.advance(tick);
   ASSERT_FALSE(inspector.surface_contacts().empty());
   const collide::Frame frame = simulation.world().positions();
-  const auto body = simulation.world().vertex_body();
+  const auto body = [&](collide::Index vertex) { return simulation.world().bodies().body_of(vertex); };
   for (const softbody::SurfaceContactPoint& touch : inspector.surface_contacts()) {
     EXPECT_NE(touch.a, touch.b);
-    EXPECT_EQ(body[touch.vertex[0]], touch.a);
-    EXPECT_EQ(body[touch.vertex[3]], touch.b);
+    EXPECT_EQ(body(touch.vertex[0]), touch.a);
+    EXPECT_EQ(body(touch.vertex[3]), touch.b);
     const glm::dvec3 apart = closest_point(touch, frame, false) - closest_point(touch, frame, true);
     EXPECT_LT(glm::length(apart), 0.02);
     EXPECT_GT(glm::dot(apart, glm::dvec3(touch.normal)), 0);

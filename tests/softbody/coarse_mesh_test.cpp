@@ -264,7 +264,6 @@ TEST_F(FineBody, IsSimulatedByFewParticles) {
   EXPECT_NEAR(double(model.mesh.vertices.size()), double(default_resolution), 0.05 * default_resolution);
   EXPECT_EQ(model.shown().mesh.vertices.size(), 2562u);
   EXPECT_EQ(world.bodies().vertex_count(), 2562u);
-  EXPECT_EQ(world.vertex_body().size(), 2562u);
   EXPECT_EQ(world.positions().x.size(), 2562u);
   EXPECT_EQ(world.simulated().positions.x.size(), model.mesh.vertices.size());
   for (Index v = 0; v < 2562; ++v)

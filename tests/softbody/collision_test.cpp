@@ -84,7 +84,7 @@ TEST(Collision, PairsOfUnlikeBodiesHaveTheSofterContactAndTheMeanFriction) {
     World world(scene, {});
     std::vector<collide::Contact> contacts = world.detection().contacts;
     const auto both_held = [&](const collide::Contact& c) {
-      return world.vertex_body()[c.a] != 1 && world.vertex_body()[c.b] != 1;
+      return world.bodies().body_of(c.a) != 1 && world.bodies().body_of(c.b) != 1;
     };
     EXPECT_GT(std::erase_if(contacts, both_held), 0u);
     world.step();
@@ -109,7 +109,7 @@ TEST(Collision, PairsOfUnlikeBodiesHaveTheSofterContactAndTheMeanFriction) {
 
 /// Of the faces at a vertex, by their areas.
 glm::dvec3 vertex_normal(const World& world, Index vertex) {
-  const BodyId body = world.vertex_body()[vertex];
+  const BodyId body = world.bodies().body_of(vertex);
   const std::vector<Particle> x = particles_of(world, body);
   const Index own = vertex - world.bodies().first[body];
   glm::dvec3 sum(0.0);
@@ -130,7 +130,7 @@ TEST(Collision, ActsAlongTheSurfacesNormalsWhereClosedBodiesFaceEachOther) {
       if (sheet) scene.bodies[1].mesh = {.kind = "grid", .columns = 7, .rows = 5, .width = 1, .depth = 0.8};
       World world(scene, {});
       const auto place = [&](Index v) {
-        const BodyId body = world.vertex_body()[v];
+        const BodyId body = world.bodies().body_of(v);
         return particles_of(world, body)[v - world.bodies().first[body]].position;
       };
       std::vector<glm::dvec3> expected;

@@ -24,7 +24,7 @@ std::set<BodyId> on_sphere(const World& world) {
   for (const SolidContactPoint& c : solid_contacts(world)) {
     const collide::Frame p = world.positions();
     const glm::dvec3 x(p.x[c.vertex], p.y[c.vertex], p.z[c.vertex]);
-    if (glm::distance(x, sphere.centre) < sphere.radius + touching) bodies.insert(world.vertex_body()[c.vertex]);
+    if (glm::distance(x, sphere.centre) < sphere.radius + touching) bodies.insert(world.bodies().body_of(c.vertex));
   }
   return bodies;
 }
@@ -33,7 +33,7 @@ std::set<BodyId> on_sphere(const World& world) {
 double stacked(const World& world) {
   double height = 0;
   for (const collide::Contact& c : world.detection().contacts) {
-    const BodyId a = world.vertex_body()[c.a], b = world.vertex_body()[c.b];
+    const BodyId a = world.bodies().body_of(c.a), b = world.bodies().body_of(c.b);
     if (a != b) height = std::max(height, std::abs(motion(world, a).centre.y - motion(world, b).centre.y));
   }
   return height;
@@ -68,7 +68,7 @@ TEST(Drop, ShowsWhatTheCaptionsSay) {
     EXPECT_GT(centre.y, 0.6 * radius) << "body " << b;
     std::size_t floor = 0;
     for (const SolidContactPoint& c : solid_contacts(world))
-      floor += world.vertex_body()[c.vertex] == b && world.positions().y[c.vertex] < touching;
+      floor += world.bodies().body_of(c.vertex) == b && world.positions().y[c.vertex] < touching;
     EXPECT_GE(floor, 1u) << "body " << b << " is not on the floor";
   }
   EXPECT_LT(stacked(world), 0.2 * radius) << "none on another";

@@ -130,7 +130,7 @@ TEST(Sleeping, NoBodyFallsAsleepWhileOneThatItTouchesMoves) {
     before.resize(world.bodies().count(), false);
     for (BodyId b = 0; b < world.bodies().count(); ++b) fell_asleep += world.body(b).asleep && !before[b];
     for (const collide::Contact& c : world.detection().contacts) {
-      const BodyId a = world.vertex_body()[c.a], b = world.vertex_body()[c.b];
+      const BodyId a = world.bodies().body_of(c.a), b = world.bodies().body_of(c.b);
       if (world.body(a).asleep && !before[a]) {
         EXPECT_FALSE(world.body(b).moves()) << "frame " << frame;
       }

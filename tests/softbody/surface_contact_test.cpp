@@ -200,7 +200,7 @@ TEST(SurfaceContact, TellsWhereBodiesTouch) {
     met.insert({std::min(touch.a, touch.b), std::max(touch.a, touch.b)});
     glm::dvec3 apart(0.0);
     for (std::size_t k = 0; k < 4; ++k) {
-      const BodyId body = world.vertex_body()[touch.vertex[k]];
+      const BodyId body = world.bodies().body_of(touch.vertex[k]);
       if (std::abs(touch.weight[k]) > 1e-6f) {
         EXPECT_EQ(body, touch.weight[k] > 0 ? touch.a : touch.b);
       }

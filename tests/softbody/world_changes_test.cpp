@@ -35,12 +35,11 @@ std::vector<glm::dvec3> positions(const World& world, BodyId body) {
 
 void expect_consistent(const World& world) {
   const collide::Bodies& bodies = world.bodies();
-  ASSERT_EQ(world.vertex_body().size(), bodies.vertex_count());
   ASSERT_EQ(WorldTestAccess::solver(world).state().body_count(), bodies.count());
   const collide::Frame frame = world.positions();
   for (BodyId b = 0; b < bodies.count(); ++b) {
-    ASSERT_EQ(world.vertex_body()[bodies.first[b]], b);
-    ASSERT_EQ(world.vertex_body()[bodies.first[b + 1] - 1], b);
+    ASSERT_EQ(world.bodies().body_of(bodies.first[b]), b);
+    ASSERT_EQ(world.bodies().body_of(bodies.first[b + 1] - 1), b);
     const glm::dvec3 first = world.particle(b, 0).position;
     ASSERT_EQ(frame.y[bodies.first[b]], float(first.y));
   }
@@ -203,7 +202,7 @@ TEST(Drop, WorksInEverySceneAndTwentyComeSideBySideWithoutTouching) {
     expect_consistent(world);
     float top = 0;
     for (const collide::Contact& c : world.detection().contacts)
-      EXPECT_LT(world.vertex_body()[c.b], 4u);  // those of the pile touch one another
+      EXPECT_LT(world.bodies().body_of(c.b), 4u);  // those of the pile touch one another
     for (const float y : world.positions().y) top = std::max(top, y);
     EXPECT_LT(top, 12);  // no tower
     test::run(world, 30);

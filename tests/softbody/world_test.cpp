@@ -35,8 +35,7 @@ TEST(World, VerticesAreListedBodyByBody) {
   scene.bodies[1].mesh.subdivisions = 1;
   const World world(scene, {});
   ASSERT_EQ(world.bodies().vertex_count(), 162u + 42u);
-  ASSERT_EQ(world.vertex_body().size(), 204u);
-  EXPECT_EQ(std::count(world.vertex_body().begin(), world.vertex_body().end(), 0u), 162);
+  EXPECT_EQ(world.bodies().size(0), 162u);
   const collide::Frame frame = world.positions();
   for (Index i = 0; i < 42; ++i) {
     const glm::dvec3 p = world.particle(1, i).position;
@@ -125,9 +124,9 @@ TEST(Dropper, PutsBodiesClearOfAllOthers) {
     const BodyId id = world.drop();
     EXPECT_EQ(id, world.bodies().count() - 1);
     const auto& contacts = world.detection().contacts;
-    EXPECT_TRUE(
-        std::none_of(contacts.begin(), contacts.end(),
-                     [&](const collide::Contact& c) { return world.vertex_body()[c.a] != world.vertex_body()[c.b]; }))
+    EXPECT_TRUE(std::none_of(
+        contacts.begin(), contacts.end(),
+        [&](const collide::Contact& c) { return world.bodies().body_of(c.a) != world.bodies().body_of(c.b); }))
         << "drop " << i;
     const glm::dvec3 at = motion(world, id).centre;
     EXPECT_LE(std::hypot(at.x, at.z), world.scene().dropper->spread + 1e-3);

@@ -133,9 +133,10 @@ Times measure(World& world, const softbody::Snapshot& start, FrameFacts& facts) 
   world.step();
   SolverTestAccess s(WorldTestAccess::solver(world));
   const double seconds = world.frame_time();
+  std::vector<softbody::BodyId> body;  // of each vertex
+  for (softbody::BodyId id = 0; id < world.bodies().count(); ++id) body.insert(body.end(), world.bodies().size(id), id);
   StopWatch watch;
-  s.solver.set_contacts({world.bodies(), world.vertex_body(), world.detection().contacts},
-                        WorldTestAccess::penalty_thickness(world));
+  s.solver.set_contacts({world.bodies(), body, world.detection().contacts}, WorldTestAccess::penalty_thickness(world));
   watch.add(pair_setup);
   s.begin_frame(seconds);
   s.penalty_energy();

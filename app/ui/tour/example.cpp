@@ -37,8 +37,7 @@ struct Pair {
 };
 
 Pair pair_of(const softbody::World& world, const Contact& contact) {
-  const auto body = world.vertex_body();
-  const auto [a, b] = std::minmax(body[contact.a], body[contact.b]);
+  const auto [a, b] = std::minmax({world.bodies().body_of(contact.a), world.bodies().body_of(contact.b)});
   return {a, b};
 }
 

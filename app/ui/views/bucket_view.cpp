@@ -22,8 +22,7 @@ void draw_group(Widgets& w, Session& session, const compare::BucketContents& buc
   const std::string cell = cell_text(group.cell);
   w.swatch(chosen ? render::same_cell_colour : render::aliased_colour, ImGui::GetTextLineHeight());
   ImGui::SameLine();
-  const std::string bodies =
-      bodies_text(group, bucket, session.inspector.shown_geometry(), session.world().vertex_body());
+  const std::string bodies = bodies_text(group, bucket, session.inspector.shown_geometry(), session.world().bodies());
   const std::string text =
       fmt::format("{}  {}, {}###Cell {}", cell, count_text(group.items.size(), bucket), bodies, cell);
   const std::string tooltip =
@@ -43,11 +42,11 @@ std::string sharing_text(const compare::Sharing& sharing) {
 }
 
 std::string bodies_text(const compare::CellGroup& group, const compare::BucketContents& bucket,
-                        const collide::DebugGeometry& debug, std::span<const softbody::BodyId> vertex_body) {
+                        const collide::DebugGeometry& debug, const collide::Bodies& of_world) {
   constexpr std::size_t max_named = 3;
   std::vector<softbody::BodyId> bodies;
   for (const collide::Index item : group.items)
-    bodies.push_back(bucket.vertices ? vertex_body[item] : debug.boxes[item].body);
+    bodies.push_back(bucket.vertices ? of_world.body_of(item) : debug.boxes[item].body);
   std::ranges::sort(bodies);
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   std::string text = bodies.size() == 1 ? "body " : "bodies ";

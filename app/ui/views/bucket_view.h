@@ -11,7 +11,7 @@ void draw_bucket(Widgets& widgets, Session& session);
 
 /// The bodies of the entries of one cell: "body 3", "bodies 0, 3 and 7", "bodies 0, 3 and 12 more".
 std::string bodies_text(const compare::CellGroup& group, const compare::BucketContents& bucket,
-                        const collide::DebugGeometry& debug, std::span<const softbody::BodyId> vertex_body);
+                        const collide::DebugGeometry& debug, const collide::Bodies& of_world);
 
 /// "(0, -1, 2)"
 std::string cell_text(const compare::Cell& cell);
