@@ -32,7 +32,6 @@ void add(Mesh& mesh, const Mesh& other) {
   const Index first = static_cast<Index>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
   for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + first, b + first, c + first});
-  mesh = Mesh{std::move(mesh.vertices), std::move(mesh.triangles), {}, {}, {}, false};
   connect_triangles(mesh);
 }
 
@@ -66,7 +65,6 @@ Mesh plate(int n) {
 Mesh sheet(int n) {
   Mesh mesh = quad_grid(n, n, 1, 1);
   for (glm::dvec3& v : mesh.vertices) v.y = 0.1 * std::sin(6 * v.x) * std::cos(5 * v.z);
-  mesh = Mesh{std::move(mesh.vertices), std::move(mesh.triangles), {}, {}, {}, false};
   connect_triangles(mesh);
   return mesh;
 }

@@ -208,6 +208,28 @@ void add_promise(Page& page, const SolverResults& r) {
   page.table(table);
 }
 
+void add_stiffness(Page& page, const SolverResults& r) {
+  Table table;
+  for (const StiffnessCase& c : r.stiffness)
+    for (const Stiffness& s : c.meshes) {
+      const auto beside_first = [](double value, double first) {
+        return fmt::format("{:+.1f} %", 100 * (value / first - 1));
+      };
+      table.add({{"body", c.name},
+                 {"particles", whole(double(s.particles))},
+                 {"sag, R", brief(s.sag)},
+                 {"beside the coarsest", beside_first(s.sag, c.meshes[0].sag)},
+                 {"period, ms", brief(1e3 * s.period)},
+                 {"beside it", beside_first(s.period, c.meshes[0].period)}});
+    }
+  if (table.empty()) return;
+  page.text("## Stiffness against resolution");
+  page.text(
+      "Bodies of one shape and material in meshes from coarse to fine. Sag: how much lower a body is at rest on the "
+      "ground than in free flight. Period: of its slowest swing in free flight, after it was stretched by 3 %.");
+  page.table(table);
+}
+
 Table costs(const SolverResults& r, const SolverCase& c) {
   Table table;
   for (const WorkCurve& curve : c.curves) {
@@ -272,6 +294,7 @@ Page solver_page(const SolverResults& results) {
   page.warn(warn_of_busy_machine(results.timed));
   add_overview(page, results);
   add_promise(page, results);
+  add_stiffness(page, results);
   for (const SolverCase& c : results.cases) {
     page.text("## {}", c.name);
     page.text(

@@ -10,6 +10,7 @@
 
 #include "app/base/timings.h"
 #include "app/report/page.h"
+#include "app/report/solver/stiffness.h"
 #include "softbody/integrate/integrators.h"
 
 namespace app::report {
@@ -82,6 +83,7 @@ struct SolverResults {
   int max_substeps = 0;        // ... or with this many steps per frame
   TimedParts timed;            // the repetitions
   std::vector<SolverCase> cases;
+  std::vector<StiffnessCase> stiffness;  // empty if one scene was asked for
 };
 
 /// Returns solver.csv: a row per point. What has no meaning is empty.
