@@ -137,7 +137,7 @@ class Net {
     }
     const bool regular = std::ranges::all_of(mesh_.edge_shares, [](double s) { return std::abs(s - 1) < 0.25; });
     const double factor = of_shares > 0 ? all_areas / of_shares : 1;
-    for (double& share : mesh_.edge_shares) share = regular ? 1 : share * factor;
+    for (double& share : mesh_.edge_shares) share = regular ? 1 : std::min(max_share, share * factor);
     join_bend_pairs(all_areas, regular);
   }
 
@@ -193,6 +193,12 @@ class Net {
 
 }  // namespace
 
-void connect_triangles(Mesh& mesh) { Net(mesh).fill(); }
+void connect_triangles(Mesh& mesh) {
+  Mesh connected;
+  connected.vertices = std::move(mesh.vertices);
+  connected.triangles = std::move(mesh.triangles);
+  Net(connected).fill();
+  mesh = std::move(connected);
+}
 
 }  // namespace softbody

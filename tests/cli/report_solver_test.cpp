@@ -81,6 +81,19 @@ TEST_F(SolverReport, SaysThatTheReferenceDoesNotModelAScene) {
   }
 }
 
+TEST(MeasureStiffness, FindsThatAMaterialSagsAndSwingsAlikeInFinerMeshes) {
+  const auto cases = app::report::measure_stiffness(true);
+  EXPECT_EQ(cases.size(), 3u);
+  for (const auto& c : cases) {
+    ASSERT_EQ(c.meshes.size(), 2u);
+    const auto &coarse = c.meshes[0], &fine = c.meshes[1];
+    EXPECT_GT(fine.particles, 3 * coarse.particles);
+    EXPECT_GT(coarse.sag, 0.05) << c.name << ": it is soft";
+    EXPECT_NEAR(fine.sag, coarse.sag, 0.1 * coarse.sag) << c.name;
+    EXPECT_NEAR(fine.period, coarse.period, 0.1 * coarse.period) << c.name;
+  }
+}
+
 TEST(SolverReportErrors, ComeBeforeAnythingRuns) {
   const TemporaryFolder folder;
   const auto empty = folder.write("empty.toml", "name = \"nothing\"\n");

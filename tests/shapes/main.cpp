@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -44,7 +45,9 @@ int main(int count, char** words) try {
   }
   std::filesystem::create_directories(words[1]);
   for (const shapes::Shape& shape : shapes::shapes) {
-    const softbody::Mesh mesh = shapes::make_mesh(shape.make(), vertices > 0 ? vertices : shape.vertices);
+    softbody::Mesh mesh = shapes::make_mesh(shape.make(), vertices > 0 ? vertices : shape.vertices);
+    softbody::connect_triangles(mesh);
+    if (!mesh.closed) throw std::runtime_error(std::string(shape.name) + ": too few vertices for its thin parts");
     const auto path = std::filesystem::path(words[1]) / (std::string(shape.name) + ".ply");
     write_ply(mesh, path);
     std::cout << path.string() << ": " << mesh.vertices.size() << " vertices, " << mesh.triangles.size()

@@ -65,7 +65,13 @@ TEST(Shapes, AreInTheFilesOfTheAssets) {
     const Distance distance = shape.make();
     for (std::size_t v = 0; v < file.x.size(); ++v) ASSERT_NEAR(distance({file.x[v], file.y[v], file.z[v]}), 0, 1e-6);
     const softbody::ImportedMesh imported = softbody::import_mesh({.path = path});
-    EXPECT_EQ(softbody::remarks(imported.findings), "");
+    const softbody::ImportFindings& f = imported.findings;
+    EXPECT_TRUE(f.closed);
+    EXPECT_EQ(f.components, 1u);
+    EXPECT_EQ(f.welded_vertices + f.unused_vertices + f.degenerate_faces + f.duplicate_faces + f.turned_faces, 0u);
+    ASSERT_TRUE(f.distance) << "it rides on a coarse mesh";
+    EXPECT_LT(*f.distance, 0.02 * f.extent);
+    EXPECT_EQ(f.crossings, 0u);
     EXPECT_NEAR(double(file.x.size()), shape.vertices, 0.05 * shape.vertices);
     EXPECT_GT(smallest_angle(imported.mesh), 28);
   }

@@ -28,20 +28,11 @@ Mesh bumpy_ball(int subdivisions, double radius = 0.5, const glm::dvec3& centre 
   return mesh;
 }
 
-/// Finds the edges of a mesh whose triangles have changed.
-void reconnect(Mesh& mesh) {
-  Mesh bare;
-  bare.vertices = std::move(mesh.vertices);
-  bare.triangles = std::move(mesh.triangles);
-  mesh = std::move(bare);
-  connect_triangles(mesh);
-}
-
 void add(Mesh& mesh, const Mesh& other) {
   const Index first = static_cast<Index>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
   for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + first, b + first, c + first});
-  reconnect(mesh);
+  connect_triangles(mesh);
 }
 
 /// A box of n x n squares on two of its sides and a tenth of n on the others: most of it is flat.
@@ -74,7 +65,7 @@ Mesh plate(int n) {
 Mesh sheet(int n) {
   Mesh mesh = quad_grid(n, n, 1, 1);
   for (glm::dvec3& v : mesh.vertices) v.y = 0.1 * std::sin(6 * v.x) * std::cos(5 * v.z);
-  reconnect(mesh);
+  connect_triangles(mesh);
   return mesh;
 }
 

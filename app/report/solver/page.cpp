@@ -208,6 +208,28 @@ void add_promise(Page& page, const SolverResults& r) {
   page.table(table);
 }
 
+void add_stiffness(Page& page, const SolverResults& r) {
+  Table table;
+  for (const StiffnessCase& c : r.stiffness)
+    for (const Stiffness& s : c.meshes) {
+      const auto beside_first = [](double value, double first) {
+        return fmt::format("{:+.1f} %", 100 * (value / first - 1));
+      };
+      table.add({{"body", c.name},
+                 {"particles", whole(double(s.particles))},
+                 {"sag, R", brief(s.sag)},
+                 {"beside the coarsest", beside_first(s.sag, c.meshes[0].sag)},
+                 {"period, ms", brief(1e3 * s.period)},
+                 {"beside it", beside_first(s.period, c.meshes[0].period)}});
+    }
+  if (table.empty()) return;
+  page.text("## Stiffness against resolution");
+  page.text(
+      "Bodies of one shape and material in meshes from coarse to fine. Sag: how much lower a body is at rest on the "
+      "ground than in free flight. Period: of its slowest swing in free flight, after it was stretched by 3 %.");
+  page.table(table);
+}
+
 void add_coarse(Page& page, const CoarseResults& coarse) {
   if (coarse.runs.empty()) return;
   Table table;
@@ -219,12 +241,11 @@ void add_coarse(Page& page, const CoarseResults& coarse) {
                {"run time", fmt::format("{:.2g}", run.cost)}});
   page.text("## Coarse against fine");
   page.text(
-      "A creature of {} vertices falls on a solid sphere, simulated by so many particles; contact by surfaces, one "
-      "second. "
-      "Surfaces apart: the largest distance of the simulated surface from the creature's, at rest. Middle, shape: the "
-      "largest differences from the last row, of the middle of its vertices, and of the vertices about it (RMS). Run "
-      "time: "
-      "of the solver, without detection, in that of the last row.",
+      "A creature of {} vertices falls on a solid sphere, simulated by so many particles, with contact by surfaces, "
+      "for "
+      "one second. Surfaces apart: the largest distance of the simulated surface from the creature's, at rest. Middle, "
+      "shape: the largest differences from the last row, of the middle of its vertices, and of the vertices about it "
+      "(RMS). Run time: of the solver, without detection, in that of the last row.",
       whole(double(coarse.vertices)));
   page.table(table);
 }
@@ -293,6 +314,7 @@ Page solver_page(const SolverResults& results) {
   page.warn(warn_of_busy_machine(results.timed));
   add_overview(page, results);
   add_promise(page, results);
+  add_stiffness(page, results);
   add_coarse(page, results.coarse);
   for (const SolverCase& c : results.cases) {
     page.text("## {}", c.name);

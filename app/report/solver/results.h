@@ -11,6 +11,7 @@
 #include "app/base/timings.h"
 #include "app/report/page.h"
 #include "app/report/solver/coarse.h"
+#include "app/report/solver/stiffness.h"
 #include "softbody/integrate/integrators.h"
 
 namespace app::report {
@@ -83,7 +84,8 @@ struct SolverResults {
   int max_substeps = 0;        // ... or with this many steps per frame
   TimedParts timed;            // the repetitions
   std::vector<SolverCase> cases;
-  CoarseResults coarse{};  // empty where a scene was asked for
+  CoarseResults coarse{};                // empty where a scene was asked for
+  std::vector<StiffnessCase> stiffness;  // empty if one scene was asked for
 };
 
 /// Returns solver.csv: a row per point. What has no meaning is empty.

@@ -132,7 +132,10 @@ void report_solver(const ReportOptions& options) {
   files::prepare_folder(options.out);
   SolverReport report(options, std::move(scenes));
   report.run();
-  if (!options.scene) report.results.coarse = measure_coarse(options.quick);
+  if (!options.scene) {
+    report.results.stiffness = measure_stiffness(options.quick);
+    report.results.coarse = measure_coarse(options.quick);
+  }
   write_report(options.out, "solver.csv", solver_table(report.results), "solver.md", solver_page(report.results));
 }
 
