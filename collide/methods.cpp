@@ -125,8 +125,9 @@ constexpr std::array table{
             "which §5 names as future work) and drops the hash. Of two near bodies it looks only at the vertices that "
             "face the other body, and it proves of most bodies that they cannot touch themselves. Choose it wherever "
             "contacts are what you need: it is the fastest here and misses nothing. Cost: linear in n and in the "
-            "pairs of near bodies. It searches from scratch in every frame, but bodies at rest keep their contacts. "
-            "Source: the paper's §2.1 and §5; the rest is ours.",
+            "pairs of near bodies. It searches from scratch in every frame, but bodies at rest keep their contacts, "
+            "and "
+            "large bodies the patches that they are cut into. Source: the paper's §2.1 and §5; the rest is ours.",
         .group = MethodGroup::paper,
         .shown = true,
         .colour = rgb(0, 158, 115),

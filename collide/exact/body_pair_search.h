@@ -1,6 +1,7 @@
 #pragma once
-// Finds all contacts of a frame, body by body. The group of a body holds every contact whose first vertex belongs to
-// the body. The groups one after another are all contacts of the frame in their order.
+// Finds all contacts of a frame, body by body, except that all threads share large bodies. The group of a body holds
+// every contact whose first vertex belongs to the body. The groups one after another are all contacts of the frame in
+// their order.
 
 #include <atomic>
 

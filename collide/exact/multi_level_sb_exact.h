@@ -6,6 +6,8 @@
 //   self_collision_culling.h  proves for most bodies that they cannot touch themselves
 //   pair_kernels.h            the vertices of two bodies that face each other, and the contacts among them
 //   overlap_tree.h            subdivides the area where two bodies overlap, level by level
+//   patch_search.h            does the work of these three inside large bodies and between them, on all threads;
+//                             patch_kernels.h has its inner loops, and contact_rows.h sorts what it finds
 //   body_pair_search.h        puts these together, body by body
 
 #include <memory>

@@ -1,8 +1,8 @@
 #pragma once
-// The inner loop over the vertices of two patches. Vectorised with Highway, which chooses the processor's instruction
-// set at run time. Every instruction set finds the same contacts in the same order.
+// The inner loops over patches: runs of at most max_lanes slots of Points, with the boxes around them. Vectorised with
+// Highway, which chooses the processor's instruction set at run time. Every instruction set finds the same contacts in
+// the same order.
 
-#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -11,43 +11,32 @@
 
 namespace collide::exact {
 
-/// The vertices of patches now and, where the shape is known, at rest.
-struct PatchPoints {
+/// The vertices of patches now and, where the shape is known, at rest. Arrays by patch go on for max_lanes values of no
+/// meaning.
+struct Patches {
   const Points* now = nullptr;
   std::vector<float> rest_x, rest_y, rest_z;  // m, by slot; NaN where the rest shape is not known
   /// The slots that a mesh edge joins to each slot, where this alone keeps the pair from being a contact.
   std::vector<Index> joined, first_joined;
+
+  std::vector<Index> first_slot;                       // of each patch, and the end of the last one
+  std::array<std::vector<float>, 3> lo, hi;            // m, of each patch: its box now
+  std::array<std::vector<float>, 3> rest_lo, rest_hi;  // at rest; everything where that is not known
+
+  Range slots(Index patch) const { return {first_slot[patch], first_slot[patch + std::size_t{1}]}; }
 };
 
-/// The boxes of some vertices now and at rest: their x, y and z, and a 0. Where a rest position is not known, the box
-/// at rest is everything.
-struct alignas(64) PatchBoxes {
-  std::array<float, 4> lo, hi, rest_lo, rest_hi;
+struct PatchContacts {
+  Index contacts = 0;            // how many were written
+  std::uint64_t pair_tests = 0;  // pairs of vertices in patches that are near each other
 };
 
-/// Returns what squared_distance() of two vertices in these boxes is at least, now. Each of its steps rounds
-/// monotonically, so that this bound needs no margin.
-inline float least_squared_distance(const PatchBoxes& a, const PatchBoxes& b) {
-  std::array<float, 4> gap;
-  for (std::size_t k = 0; k < 4; ++k) gap[k] = std::max(std::max(a.lo[k] - b.hi[k], b.lo[k] - a.hi[k]), 0.0f);
-  for (float& side : gap) side *= side;
-  return gap[0] + gap[1] + gap[2];
-}
-/// Returns what it is at most, at rest.
-inline float greatest_squared_rest_distance(const PatchBoxes& a, const PatchBoxes& b) {
-  std::array<float, 4> side;
-  for (std::size_t k = 0; k < 4; ++k) side[k] = std::max(a.rest_hi[k] - b.rest_lo[k], b.rest_hi[k] - a.rest_lo[k]);
-  for (float& length : side) length *= length;
-  return side[0] + side[1] + side[2];
-}
-
-/// Writes the contacts between two patches of one body to `contacts`, which has room for all their pairs, and returns
-/// how many there are. Leaves out what Shape::excludes() says. a and b are the same or do not overlap, and are of at
-/// most max_lanes slots. box_of_b: around all of b.
-Index patch_contacts_within(const PatchPoints& points, Range a, Range b, const PatchBoxes& box_of_b, float tolerance2,
-                            Contact* contacts);
-/// Does the same for patches of two bodies; no pair is left out.
-Index patch_contacts_between(const PatchPoints& points, Range a, Range b, const PatchBoxes& box_of_b, float tolerance2,
-                             Contact* contacts);
+/// Writes the contacts between a patch and each of some patches of the same body, which may begin with itself, to
+/// `contacts`, which has room for all their pairs. Leaves out what Shape::excludes() says.
+PatchContacts patch_contacts_within(const Patches& patches, Index patch, Range others, float tolerance2,
+                                    Contact* contacts);
+/// Does the same for patches of another body; no pair is left out.
+PatchContacts patch_contacts_between(const Patches& patches, Index patch, Range others, float tolerance2,
+                                     Contact* contacts);
 
 }  // namespace collide::exact

@@ -9,7 +9,8 @@ void TreeSearch::run(std::span<const Node> nodes, bool self, float cutoff, Conta
     return pair.a == pair.b ? a.whole_body && !self : !near(a.box, nodes[pair.b].box, cutoff);
   };
   pairs_.assign(1, {0, 0});
-  deal(nodes, pairs_, workers.threads(), apart);
+  const NodePairs node_pairs{nodes};
+  node_pairs.deal(pairs_, workers.threads(), apart);
   workers.run([&](int thread) {
     const auto test = [&](NodePair pair) {
       const Node &a = nodes[pair.a], &b = nodes[pair.b];
@@ -21,7 +22,7 @@ void TreeSearch::run(std::span<const Node> nodes, bool self, float cutoff, Conta
     };
     const auto step = static_cast<std::size_t>(workers.threads());
     for (auto k = static_cast<std::size_t>(thread); k < pairs_.size(); k += step) {
-      for_leaf_pairs(nodes, pairs_[k], apart, test);
+      node_pairs.for_each_below(pairs_[k], apart, test);
     }
   });
 }

@@ -21,53 +21,60 @@ struct NodePair {
   Index a, b;  // the same: the pairs within a node
 };
 
-/// Calls emit(pair) for the pairs one level below a pair, except those that are apart(pair). Returns false for a pair
-/// of leaves.
-template <class Apart, class Emit>
-bool go_down(std::span<const Node> nodes, NodePair pair, const Apart& apart, const Emit& emit) {
-  const Node &a = nodes[pair.a], &b = nodes[pair.b];
-  const auto emit_if_near = [&](Index one, Index other) {
-    if (!apart(NodePair{one, other})) emit(NodePair{one, other});
-  };
-  if (a.is_leaf() && b.is_leaf()) return false;
-  if (pair.a == pair.b) {
-    for (Index i = a.first; i < a.first + a.children; ++i) {
-      for (Index j = i; j < a.first + a.children; ++j) emit_if_near(i, j);
+/// Goes down a tree with pairs of nodes, down to nodes of at most `least` vertices, or to leaves.
+struct NodePairs {
+  std::span<const Node> nodes;
+  Index least = 0;  // vertices
+
+  /// Calls emit(pair) for the pairs one level below a pair, except those that are apart(pair). Returns false for a pair
+  /// of nodes that it does not go below.
+  template <class Apart, class Emit>
+  bool go_down(NodePair pair, const Apart& apart, const Emit& emit) const {
+    const Node &a = nodes[pair.a], &b = nodes[pair.b];
+    const auto is_end = [&](const Node& node) { return node.is_leaf() || node.size <= least; };
+    const auto emit_if_near = [&](Index one, Index other) {
+      if (!apart(NodePair{one, other})) emit(NodePair{one, other});
+    };
+    if (is_end(a) && is_end(b)) return false;
+    if (pair.a == pair.b) {
+      for (Index i = a.first; i < a.first + a.children; ++i) {
+        for (Index j = i; j < a.first + a.children; ++j) emit_if_near(i, j);
+      }
+    } else if (is_end(b) || (!is_end(a) && a.size >= b.size)) {
+      for (Index i = a.first; i < a.first + a.children; ++i) emit_if_near(i, pair.b);
+    } else {
+      for (Index j = b.first; j < b.first + b.children; ++j) emit_if_near(pair.a, j);
     }
-  } else if (b.is_leaf() || (!a.is_leaf() && a.size >= b.size)) {
-    for (Index i = a.first; i < a.first + a.children; ++i) emit_if_near(i, pair.b);
-  } else {
-    for (Index j = b.first; j < b.first + b.children; ++j) emit_if_near(pair.a, j);
+    return true;
   }
-  return true;
-}
 
-/// Calls test(pair) for all pairs of leaves below a pair, except those below a pair that is apart().
-template <class Apart, class Test>
-void for_leaf_pairs(std::span<const Node> nodes, NodePair pair, const Apart& apart, const Test& test) {
-  if (!go_down(nodes, pair, apart, [&](NodePair below) { for_leaf_pairs(nodes, below, apart, test); })) test(pair);
-}
+  /// Calls test(pair) for the last pairs below a pair, except those below a pair that is apart().
+  template <class Apart, class Test>
+  void for_each_below(NodePair pair, const Apart& apart, const Test& test) const {
+    if (!go_down(pair, apart, [&](NodePair below) { for_each_below(below, apart, test); })) test(pair);
+  }
 
-/// Replaces pairs by those below them, level by level, until there are enough to share the work among so many threads:
-/// one thread takes them as they are. Memory: 8 bytes for each of at most a few hundred pairs a thread.
-template <class Apart>
-void deal(std::span<const Node> nodes, std::vector<NodePair>& pairs, int threads, const Apart& apart) {
-  constexpr std::size_t pairs_a_thread = 64;
-  const std::size_t enough = threads > 1 ? pairs_a_thread * static_cast<std::size_t>(threads) : 1;
-  std::erase_if(pairs, apart);
-  std::vector<NodePair> next;
-  for (bool all_leaves = false; !all_leaves && pairs.size() < enough; pairs.swap(next)) {
-    next.clear();
-    all_leaves = true;
-    for (const NodePair pair : pairs) {
-      if (go_down(nodes, pair, apart, [&](NodePair below) { next.push_back(below); })) {
-        all_leaves = false;
-      } else {
-        next.push_back(pair);
+  /// Replaces pairs by those below them, level by level, until there are enough to share the work among so many
+  /// threads: one thread takes them as they are. Memory: 8 bytes for each of at most a few hundred pairs a thread.
+  template <class Apart>
+  void deal(std::vector<NodePair>& pairs, int threads, const Apart& apart) const {
+    constexpr std::size_t pairs_a_thread = 64;
+    const std::size_t enough = threads > 1 ? pairs_a_thread * static_cast<std::size_t>(threads) : 1;
+    std::erase_if(pairs, apart);
+    std::vector<NodePair> next;
+    for (bool at_end = false; !at_end && pairs.size() < enough; pairs.swap(next)) {
+      next.clear();
+      at_end = true;
+      for (const NodePair pair : pairs) {
+        if (go_down(pair, apart, [&](NodePair below) { next.push_back(below); })) {
+          at_end = false;
+        } else {
+          next.push_back(pair);
+        }
       }
     }
   }
-}
+};
 
 /// Finds all contacts among the vertices of a tree: goes down the tree with pairs of nodes whose boxes are near().
 class TreeSearch {

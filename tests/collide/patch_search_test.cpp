@@ -33,10 +33,10 @@ TEST_P(PatchKernels, FindWhatPlainLoopsFind) {
 
         Points points;
         points.resize(size);
-        PatchPoints patches;
+        Patches patches;
         patches.now = &points;
         patches.first_joined = {0};
-        PatchBoxes box{};
+        patches.first_slot = {0, size_a, size};
         const Range a{0, size_a}, b = size_b == 0 ? a : Range{size_a, size};
         for (Index slot = 0; slot < size + Points::padding; ++slot) {
           const Index vertex = size - 1 - std::min(slot, size - 1);  // in another order
@@ -51,17 +51,21 @@ TEST_P(PatchKernels, FindWhatPlainLoopsFind) {
           }
           patches.first_joined.push_back(static_cast<Index>(patches.joined.size()));
         }
+        const std::array patch_slots{a, Range{size_a, size}};
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const auto& now = axis == 0 ? points.x : axis == 1 ? points.y : points.z;
           const auto& at_rest = axis == 0 ? patches.rest_x : axis == 1 ? patches.rest_y : patches.rest_z;
-          box.lo[axis] = box.rest_lo[axis] = infinity;
-          box.hi[axis] = box.rest_hi[axis] = -infinity;
-          for (Index slot = b.begin; slot < b.end; ++slot) {
-            box.lo[axis] = std::min(box.lo[axis], now[slot]);
-            box.hi[axis] = std::max(box.hi[axis], now[slot]);
-            const bool known = !std::isnan(at_rest[slot]);
-            box.rest_lo[axis] = std::min(box.rest_lo[axis], known ? at_rest[slot] : -infinity);
-            box.rest_hi[axis] = std::max(box.rest_hi[axis], known ? at_rest[slot] : infinity);
+          for (auto* lo : {&patches.lo, &patches.rest_lo}) (*lo)[axis].assign(2 + max_lanes, infinity);
+          for (auto* hi : {&patches.hi, &patches.rest_hi}) (*hi)[axis].assign(2 + max_lanes, -infinity);
+          for (std::size_t patch = 0; patch < 2; ++patch) {
+            for (Index slot = patch_slots[patch].begin; slot < patch_slots[patch].end; ++slot) {
+              const float lo = std::isnan(at_rest[slot]) ? -infinity : at_rest[slot];
+              const float hi = std::isnan(at_rest[slot]) ? infinity : at_rest[slot];
+              patches.lo[axis][patch] = std::min(patches.lo[axis][patch], now[slot]);
+              patches.hi[axis][patch] = std::max(patches.hi[axis][patch], now[slot]);
+              patches.rest_lo[axis][patch] = std::min(patches.rest_lo[axis][patch], lo);
+              patches.rest_hi[axis][patch] = std::max(patches.rest_hi[axis][patch], hi);
+            }
           }
         }
 
@@ -76,12 +80,13 @@ TEST_P(PatchKernels, FindWhatPlainLoopsFind) {
             if (!shape.excludes(first, second, tolerance2)) within.push_back({first, second});
           }
         }
+        const Range others = size_b == 0 ? Range{0, 1} : Range{1, 2};
         std::vector<Contact> found(std::size_t{size_a} * b.size() + 1);
-        found.resize(patch_contacts_within(patches, a, b, box, tolerance2, found.data()));
+        found.resize(patch_contacts_within(patches, 0, others, tolerance2, found.data()).contacts);
         EXPECT_EQ(found, within) << size_a << ' ' << size_b << ' ' << side;
         if (size_b == 0) continue;
         found.resize(std::size_t{size_a} * b.size() + 1);
-        found.resize(patch_contacts_between(patches, a, b, box, tolerance2, found.data()));
+        found.resize(patch_contacts_between(patches, 0, others, tolerance2, found.data()).contacts);
         EXPECT_EQ(found, between) << size_a << ' ' << size_b << ' ' << side;
       }
     }
