@@ -45,7 +45,7 @@ Figures find(const files::MotionFiles& motion, const Options& options) {
   collide::Workers workers(options.threads);
   const auto take = [&](const std::vector<FeatureMeeting>& meetings) {
     for (const FeatureMeeting& m : meetings) {
-      figures.count(m, motion.surface_of[m.feature[0]] == motion.surface_of[m.against[0]]);
+      figures.count(m, motion.mesh.body[m.feature[0]] == motion.mesh.body[m.against[0]]);
       if (csv) csv->add(m);
     }
   };
@@ -56,7 +56,7 @@ Figures find(const files::MotionFiles& motion, const Options& options) {
 
 Json to_json(const files::MotionFiles& motion, const Figures& figures, int threads) {
   Json document{{"threads", threads},
-                {"surfaces", motion.surfaces},
+                {"surfaces", motion.bodies},
                 {"vertices", motion.mesh.vertices.size()},
                 {"edges", motion.mesh.edges.size()},
                 {"faces", motion.mesh.faces.size()}};
@@ -71,7 +71,7 @@ Json to_json(const files::MotionFiles& motion, const Figures& figures, int threa
 
 void print_table(const files::MotionFiles& motion, const Figures& figures, int threads) {
   std::cout << fmt::format("contact in motion, threads {}, surfaces {}, vertices {}, edges {}, faces {}, {:.3f} ms\n",
-                           threads, motion.surfaces, motion.mesh.vertices.size(), motion.mesh.edges.size(),
+                           threads, motion.bodies, motion.mesh.vertices.size(), motion.mesh.edges.size(),
                            motion.mesh.faces.size(), figures.ms);
   std::cout << fmt::format("{:16} {:>12} {:>12} {:>12} {:>12}\n", "pairs of", "meet, own", "others", "pass, own",
                            "others");

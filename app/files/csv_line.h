@@ -1,6 +1,7 @@
 #pragma once
 // Composes lines of tables of comma-separated values. It uses to_chars, because a table may have millions of lines.
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <string_view>

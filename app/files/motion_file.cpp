@@ -94,7 +94,7 @@ MotionFiles read_motion(const std::filesystem::path& from, const std::filesystem
   for (const auto& [a, b] : motion.mesh.edges) forest.join(a, b);
   for (Index v = 0; v < motion.mesh.points.size(); ++v) {
     const Index root = forest.root(v);
-    motion.surface_of.push_back(root == v ? static_cast<Index>(motion.surfaces++) : motion.surface_of[root]);
+    motion.mesh.body.push_back(root == v ? static_cast<Index>(motion.bodies++) : motion.mesh.body[root]);
   }
   return motion;
 }

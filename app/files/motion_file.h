@@ -12,10 +12,9 @@ namespace app::files {
 
 struct MotionFiles {
   /// All vertices as in the files. Faces are triangles; polygons are cut as they lie in the first file. Edges are the
-  /// sides of these triangles and the segments of lines.
+  /// sides of these triangles and the segments of lines. A body is what faces and lines connect; counted from 0.
   collide::oracle::MovingMesh mesh;
-  std::vector<collide::Index> surface_of;  // by vertex: a surface is what faces and lines connect; counted from 0
-  std::size_t surfaces = 0;
+  std::size_t bodies = 0;
 };
 
 /// Reads the frames, which no output may replace from now on. Throws MeshFileError if one cannot be read, and

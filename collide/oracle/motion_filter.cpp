@@ -121,15 +121,14 @@ Filtered filter(const FeatureMotion<double>& motion, double largest, std::uint64
 // ---- near the only root of the side ----
 
 /// Returns about where a cubic is 0 between two times at which its signs differ: Newton's method, or halving where it
-/// leads out of these times.
-double estimate_root(const std::array<double, 4>& c, double low, double high) {
-  const bool rises = c[0] < 0;
+/// leads out of these times. before: the sign at the first one.
+double estimate_root(const std::array<double, 4>& c, int before, double low, double high) {
   double t = (low + high) / 2;
   for (int i = 0; i < 50; ++i) {
     const double s = 1 - t;
     const double value = s * s * (c[0] * s + c[1] * t) + t * t * (c[2] * s + c[3] * t);
     const double slope = s * s * (c[1] - 3 * c[0]) + 2 * s * t * (c[2] - c[1]) + t * t * (3 * c[3] - c[2]);
-    ((value > 0) == rises ? high : low) = t;
+    ((value > 0) == (before > 0) ? low : high) = t;
     double next = t - value / slope;
     if (!(low < next && next < high)) next = (low + high) / 2;
     if (std::abs(next - t) < 0x1p-50) return next;
@@ -190,7 +189,7 @@ Filtered close_up(const Points& points, double largest, Filtered coarse) {
   std::uint64_t high = (coarse.start + 1) << (most_halvings - coarse.halvings);
   const int before = sign_at(time(low));
   if (before == 0 || sign_at(time(high)) != -before) return coarse;
-  auto step = static_cast<std::uint64_t>(estimate_root(rounded, time(low), time(high)) / length);
+  auto step = static_cast<std::uint64_t>(estimate_root(rounded, before, time(low), time(high)) / length);
   for (std::uint64_t stride = 1; high - low > 1; stride *= 2) {
     if (step <= low || step >= high) step = low + (high - low) / 2;
     const int sign = sign_at(time(step));

@@ -19,9 +19,10 @@ namespace collide::oracle {
 /// Features of a mesh, as numbers of its points. A face may name a vertex twice.
 struct MovingMesh {
   using Vertex = std::array<Index, 1>;
-  std::vector<MovingPoint> points;       // finite where a feature uses them
-  std::vector<Vertex> vertices;          // ascending
-  std::vector<surface::Edge> edges;      // ascending, each once
+  std::vector<MovingPoint> points;   // finite where a feature uses them
+  std::vector<Index> body;           // of each point; the search is faster if bodies follow one another in the lists
+  std::vector<Vertex> vertices;      // ascending
+  std::vector<surface::Edge> edges;  // ascending, each once
   std::vector<surface::Triangle> faces;  // in any order
 };
 
@@ -45,23 +46,54 @@ inline MovingPair pair_of(const surface::Edge& a, const surface::Edge& b) {
   return {MovingPair::Kind::edge_edge, a, {b[0], b[1], b[1]}};
 }
 
+template <std::size_t N>
+surface::MovingBox box_of(const MovingMesh& mesh, const std::array<Index, N>& feature) {
+  surface::MovingBox box;
+  for (const Index v : feature) box.add(mesh.points[v].from, mesh.points[v].to);
+  return box;
+}
+
+/// Trees of the boxes of features: one for each run of features of one body in their list, and one over all runs.
+class FeatureTrees {
+ public:
+  template <class Feature>
+  FeatureTrees(const MovingMesh& mesh, const std::vector<Feature>& features, Workers& workers) {
+    for (Index k = 0; k < features.size(); ++k)
+      if (k == 0 || mesh.body[features[k][0]] != mesh.body[features[k - 1][0]]) begin_.push_back(k);
+    trees_.resize(begin_.size());
+    std::vector<surface::MovingBox> boxes(begin_.size());
+    workers.run([&](int thread) {
+      std::vector<surface::MovingBox> of_run;
+      for (auto run = static_cast<std::size_t>(thread); run < trees_.size(); run += std::size_t(workers.threads())) {
+        const std::size_t end = run + 1 < begin_.size() ? begin_[run + 1] : features.size();
+        of_run.clear();
+        for (std::size_t k = begin_[run]; k < end; ++k) of_run.push_back(box_of(mesh, features[k]));
+        trees_[run] = surface::MovingBoxTree(of_run);
+        boxes[run] = trees_[run].box();
+      }
+    });
+    runs_ = surface::MovingBoxTree(boxes);
+  }
+  /// Calls take(k) for each feature k whose box overlaps `box`.
+  template <class Take>
+  void for_each_overlapping(const surface::MovingBox& box, const Take& take) const {
+    runs_.for_each_overlapping(
+        box, [&](Index run) { trees_[run].for_each_overlapping(box, [&](Index k) { take(begin_[run] + k); }); });
+  }
+
+ private:
+  std::vector<Index> begin_;  // of each run
+  std::vector<surface::MovingBoxTree> trees_;
+  surface::MovingBoxTree runs_;
+};
+
 /// Searches some features of a mesh against others.
 template <class Found, class Feature, class Other, class Ask, class Take>
 void search_features(const MovingMesh& mesh, const std::vector<Feature>& features, const std::vector<Other>& others,
                      Workers& workers, const Ask& ask, const Take& take) {
-  const auto box_of = [&](const auto& feature) {
-    surface::MovingBox box;
-    for (const Index v : feature) box.add(mesh.points[v].from, mesh.points[v].to);
-    return box;
-  };
-  const auto boxes_of_others = [&] {
-    std::vector<surface::MovingBox> boxes;
-    for (const Other& other : others) boxes.push_back(box_of(other));
-    return boxes;
-  };
-  const surface::MovingBoxTree tree(boxes_of_others());
+  const FeatureTrees trees(mesh, others, workers);
   const auto look_at = [&](const Feature& feature, std::vector<Found>& found) {
-    tree.for_each_overlapping(box_of(feature), [&](Index k) {
+    trees.for_each_overlapping(box_of(mesh, feature), [&](Index k) {
       const Other& other = others[k];
       if constexpr (std::is_same_v<Feature, Other>) {
         if (!(feature < other)) return;

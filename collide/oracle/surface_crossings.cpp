@@ -16,6 +16,7 @@ MovingMesh moving_mesh(const Frame& before, const Frame& after, const surface::S
   for (Index v = 0; v < bodies.vertex_count(); ++v)
     mesh.points.push_back({glm::dvec3(position(before, v)), glm::dvec3(position(after, v))});
   for (Index body = 0; body < bodies.count(); ++body) {
+    mesh.body.resize(bodies.first[body + 1], body);
     if (box_of_body(before, body).empty() || box_of_body(after, body).empty()) continue;
     for (Index v = bodies.first[body]; v < bodies.first[body + 1]; ++v) mesh.vertices.push_back({v});
     if (!surfaces[body]) continue;
@@ -40,8 +41,7 @@ std::vector<Crossing> find_crossings(const Frame& before, const Frame& after, co
       [&](const MovingPair& pair) -> std::optional<Crossing> {
         const std::optional<Passage> passage = passage_of(mesh, pair);
         if (!passage) return std::nullopt;
-        const auto body_of = [&](Index v) { return before.bodies->body_of(v); };
-        return Crossing{pair, body_of(pair.feature[0]), body_of(pair.against[0]), passage->time, passage->inward};
+        return Crossing{pair, mesh.body[pair.feature[0]], mesh.body[pair.against[0]], passage->time, passage->inward};
       },
       [&](const std::vector<Crossing>& found) { crossings.insert(crossings.end(), found.begin(), found.end()); });
   return crossings;

@@ -63,11 +63,13 @@ struct MovingBox {
 /// Returns false if an axis separates the boxes, in the same order at both ends and therefore always. Nothing is
 /// rounded.
 inline bool overlap(const MovingBox& a, const MovingBox& b) {
-  const auto separates = [&](int axis) {
-    return ((a.from.hi[axis] < b.from.lo[axis]) & (a.to.hi[axis] < b.to.lo[axis])) |
-           ((b.from.hi[axis] < a.from.lo[axis]) & (b.to.hi[axis] < a.to.lo[axis]));
+  const auto before = [](const MovingBox& one, const MovingBox& other, int axis) {
+    return one.from.hi[axis] < other.from.lo[axis] && one.to.hi[axis] < other.to.lo[axis];
   };
-  return !separates(0) && !separates(1) && !separates(2);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (before(a, b, axis) || before(b, a, axis)) return false;
+  }
+  return true;
 }
 
 /// Splits at the median of the axis along which the boxes are spread widest and has one item in each leaf. The nodes

@@ -63,6 +63,7 @@ MovingMesh random_mesh(Random& random, Index vertices, std::size_t faces, const 
   for (Index v = 0; v < vertices; ++v) {
     mesh.vertices.push_back({v});
     const bool coincides = v > 0 && random() % 5 == 0;
+    mesh.body.push_back(static_cast<Index>(random() % 4));
     mesh.points.push_back(coincides ? mesh.points[random() % v] : MovingPoint{position(), position()});
   }
   const auto add_edge = [&](Index a, Index b) {
@@ -143,6 +144,7 @@ TEST(FindMeetings, GivesThemInOrderPartByPart) {
     mesh.points.push_back({{x, 1, z}, {x, -1, z}});
   }
   for (Index v = 0; v < count; ++v) mesh.vertices.push_back({v});
+  mesh.body.resize(count);
   std::size_t parts = 0;
   Index next = 3;
   Workers workers(2);

@@ -1,5 +1,7 @@
-// Arbitrary bytes as an OBJ or a PLY file, which begins with the line `ply`: for `detect` and as the mesh of a soft
-// body they are read or refused in one line.
+// Arbitrary bytes as an OBJ or a PLY file, which begins with the line `ply`: for `detect`, with and without
+// --continuous, and as the mesh of a soft body they are read or refused in one line.
+
+#include <cmath>
 
 #include "app/files/body_file.h"
 #include "require.h"
@@ -18,6 +20,12 @@ void check(const app::files::BodyFile& file) {
   require(bodies.first_polygon.back() == bodies.polygons.size(), "bodies do not own all polygons");
   for (std::size_t b = 0; b < bodies.count(); ++b)
     for (const auto& [i, j] : bodies.edges(b)) require(i < bodies.size(b) && j < bodies.size(b), "an edge to nowhere");
+}
+
+void check(const softbody::FileMesh& mesh) {
+  for (const auto* axis : {&mesh.x, &mesh.y, &mesh.z})
+    for (const double x : *axis) require(std::isfinite(x), "a coordinate that is not finite");
+  for (const auto& [a, b, line] : mesh.segments) require(a < mesh.x.size() && b < mesh.x.size(), "a line to nowhere");
 }
 
 void check(const softbody::Mesh& mesh) {
@@ -42,6 +50,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::filesystem::path& file = text.write(data, size);
   for (const BodiesBy by : {BodiesBy::objects, BodiesBy::components, BodiesBy::one})
     try_to(file, [&] { return app::files::read_bodies(file, by); });
+  try_to(file, [&] { return softbody::read_file_mesh(file, {.doubles = true, .lines = true}); });
   softbody::MeshFile mesh;
   mesh.path = file;
   try_to(file, [&] { return softbody::import_mesh(mesh).mesh; });

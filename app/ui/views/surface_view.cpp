@@ -55,9 +55,10 @@ void draw_overlaps(Widgets& w, const collide::oracle::SurfaceFigures& figures) {
 }
 
 void draw_crossings(Widgets& w, const collide::oracle::SurfaceFigures& figures, const session::CrossingSums& sums) {
-  w.figure("Passed in this step", vertices_and_edges(figures.crossed_vertices, figures.edge_crossings),
-           "Vertices that passed through a face in the last step, and pairs of edges that passed through each other: they "
-           "met, and the side changed.");
+  w.figure(
+      "Passed in this step", vertices_and_edges(figures.crossed_vertices, figures.edge_crossings),
+      "Vertices that passed through a face in the last step, and pairs of edges that passed through each other: they "
+      "met, and the side changed.");
   w.figure("Passed in all checked steps", vertices_and_edges(sums.vertices, sums.edge_pairs),
            "The same, summed over all checked steps.");
   w.figure("Checked steps", grouped(static_cast<std::uint64_t>(sums.steps)),

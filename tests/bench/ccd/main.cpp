@@ -141,8 +141,7 @@ std::vector<Query> queries_of(const Motion& motion) {
 void run(int argc, char** argv) {
   std::puts(
       "| queries | number | that meet | false negatives | false positives | meets: mean, µs | slowest | passes: mean, "
-      "us "
-      "| slowest |");
+      "µs | slowest |");
   std::puts("|---|--:|--:|--:|--:|--:|--:|--:|--:|");
   for (int k = 1; k < argc; ++k) {
     const std::filesystem::path file = argv[k];
