@@ -3,7 +3,8 @@
 // A regular net of springs k is a sheet of Young's modulus times thickness 2 k / sqrt(3), however long its edges are.
 // In any other net a spring of length L between triangles of the areas A and B has the share 2 (A + B) / (sqrt(3) L^2)
 // of k (van Gelder 1998, "Approximate simulation of elastic membranes by triangulated spring meshes"), which is 1 in a
-// regular one. So a stretch that is the same everywhere takes the energy that it takes in the sheet.
+// regular one. So a stretch that is the same everywhere takes the energy that it takes in the sheet. A mesh in which
+// all shares are near 1 counts as regular, as the paper's sphere does: its springs are all alike.
 //
 // A bend spring joins the ends of a straight line on the surface, across the middle of an edge and square to it. Its
 // length decides how stiff it is: springs from corner to corner across an edge fold easier, the shorter the edges. So
