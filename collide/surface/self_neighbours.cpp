@@ -99,7 +99,7 @@ void SelfNeighbours::fit_rotation(const VertexRun& at) {
 
 /// Calls visit(corners, member of Lengths, place) for each feature.
 template <class Visit>
-void SelfNeighbours::for_each_feature(const Visit& visit) {
+void SelfNeighbours::for_each_feature(const Visit& visit) const {
   for (Index v = 0; v < surface_->vertex_count(); ++v) visit(std::array{v}, &Lengths::vertices, v);
   for (Index f = 0; f < surface_->triangles().size(); ++f) visit(surface_->triangles()[f], &Lengths::faces, f);
   for (Index e = 0; e < surface_->edges().size(); ++e) visit(surface_->edges()[e], &Lengths::edges, e);
@@ -115,7 +115,7 @@ void SelfNeighbours::measure_needs(const VertexRun& at, float near, std::span<co
   for_each_feature([&](const auto& corners, auto of, Index i) {
     const float way = largest(corners, ways);
     (need_.*of)[i] = half + largest(corners, s.deviations) + way;
-    (margin_.*of)[i] = margin + 2 * way;  // what moves fast needs more soon
+    (margin_.*of)[i] = margin + way;  // what moves fast needs more soon
   });
 }
 
@@ -127,10 +127,10 @@ bool SelfNeighbours::has_room() const {
 }
 
 void SelfNeighbours::cover(const Surface& surface, const VertexRun& at, float near, std::span<const float> ways,
-                           float margin, std::size_t max_pairs, Scratch& scratch) {
+                           float margin, Scratch& scratch) {
   assert(surface.vertex_count() == at.size && ways.size() == at.size);
   searched_ = 0;
-  if (complete_ && surface_ == &surface) {
+  if (surface_ == &surface && !vertex_faces_due_ && !edges_due_) {
     fit_rotation(at);
     measure_needs(at, near, ways, margin, scratch);
     if (has_room()) return;
@@ -163,9 +163,7 @@ void SelfNeighbours::cover(const Surface& surface, const VertexRun& at, float ne
     if (strays(corners)) (room_.*of)[i] = (need_.*of)[i] + (margin_.*of)[i];
   });
   searched_ = static_cast<Index>(std::ranges::count(strayed_, true));
-  complete_ = false;
-  list(max_pairs, scratch);
-  complete_ = true;
+  vertex_faces_due_ = edges_due_ = true;
 }
 
 template <class Corners>
@@ -173,75 +171,89 @@ bool SelfNeighbours::strays(const Corners& corners) const {
   return std::ranges::any_of(corners, [&](Index v) { return strayed_[v] != 0; });
 }
 
-void SelfNeighbours::list(std::size_t max_pairs, Scratch& s) {
-  const auto& faces = surface_->triangles();
-  const auto& edges = surface_->edges();
+/// Makes the boxes of the vertices and of other features, with their rooms, and those of what strays and of the others.
+template <std::size_t n>
+void SelfNeighbours::divide_features(const std::vector<std::array<Index, n>>& features, const std::vector<float>& rooms,
+                                     Scratch& s) const {
   s.vertices.clear();
   s.vertices.reserve(static_cast<Index>(reference_.size()));
   for (Index v = 0; v < reference_.size(); ++v) s.vertices.add({reference_[v], reference_[v]}, v);
   s.vertices.end();
-  join(s.vertices, faces, s.faces);
-  join(s.vertices, edges, s.edges);
+  join(s.vertices, features, s.features);
   grow(s.vertices, room_.vertices);
-  grow(s.faces, room_.faces);
-  grow(s.edges, room_.edges);
-  divide(
-      s.vertices, [&](Index v) { return strayed_[v] != 0; }, s.strayed_vertices, s.calm_vertices);
-  divide(
-      s.faces, [&](Index f) { return strays(faces[f]); }, s.strayed_faces, s.calm_faces);
-  divide(
-      s.edges, [&](Index e) { return strays(edges[e]); }, s.strayed_edges, s.calm_edges);
-  const auto keep_near = [&](const auto& corners, const auto& find_closest, const std::vector<float>& room_a,
-                             const std::vector<float>& room_b, std::vector<Near>& near) {
-    std::erase_if(near, [&](const Near& n) { return strays(corners(n)); });
-    for (std::size_t i = 0; i < s.found.size();) {
-      s.batch.clear();
-      for (; i < s.found.size() && !s.batch.full(); ++i) {
-        const std::array<Index, 4> c = corners(s.found[i]);
-        s.batch.add({reference_[c[0]], reference_[c[1]], reference_[c[2]], reference_[c[3]]}, static_cast<Index>(i));
-      }
-      find_closest();
-      for (Index k = 0; k < s.batch.size(); ++k) {
-        const ItemPair& f = s.found[s.batch.tag(k)];
-        const float distance = std::sqrt(s.batch.distance2(k));
-        if (distance <= room_a[f.a] + room_b[f.b]) near.push_back({f.a, f.b, distance});
-      }
+  grow(s.features, rooms);
+  const auto vertex_strays = [&](Index v) { return strayed_[v] != 0; };
+  const auto feature_strays = [&](Index i) { return strays(features[i]); };
+  divide(s.vertices, vertex_strays, s.strayed_vertices, s.calm_vertices);
+  divide(s.features, feature_strays, s.strayed, s.calm);
+}
+
+/// Replaces the pairs of what strays by those found that are near each other in the reference shape.
+template <class Corners, class FindClosest>
+void SelfNeighbours::keep_near(const Corners& corners, const FindClosest& find_closest,
+                               const std::vector<float>& room_a, const std::vector<float>& room_b,
+                               std::vector<Near>& near, Scratch& s) const {
+  std::erase_if(near, [&](const Near& n) { return strays(corners(n)); });
+  for (std::size_t i = 0; i < s.found.size();) {
+    s.batch.clear();
+    for (; i < s.found.size() && !s.batch.full(); ++i) {
+      const std::array<Index, 4> c = corners(s.found[i]);
+      s.batch.add({reference_[c[0]], reference_[c[1]], reference_[c[2]], reference_[c[3]]}, static_cast<Index>(i));
     }
-  };
+    find_closest();
+    for (Index k = 0; k < s.batch.size(); ++k) {
+      const ItemPair& f = s.found[s.batch.tag(k)];
+      const float distance = std::sqrt(s.batch.distance2(k));
+      if (distance <= room_a[f.a] + room_b[f.b]) near.push_back({f.a, f.b, distance});
+    }
+  }
+}
+
+void SelfNeighbours::list_vertex_faces(std::size_t max_pairs, Scratch& s) {
+  const auto& faces = surface_->triangles();
+  divide_features(faces, room_.faces, s);
   s.found.clear();
-  s.search.between(s.strayed_vertices, s.faces, s.found, max_pairs);
-  s.search.between(s.calm_vertices, s.strayed_faces, s.found, max_pairs);
+  s.search.between(s.strayed_vertices, s.features, s.found, max_pairs);
+  s.search.between(s.calm_vertices, s.strayed, s.found, max_pairs);
   std::erase_if(s.found, [&](const ItemPair& f) {
     const auto& [a, b, c] = faces[f.b];
     return f.a == a || f.a == b || f.a == c;
   });
-  keep_near(
-      [&](const auto& f) {
-        return std::array{f.a, faces[f.b][0], faces[f.b][1], faces[f.b][2]};
-      },
-      [&] { s.batch.find_closest_vertex_faces(); }, room_.vertices, room_.faces, vertex_faces_);
+  const auto corners = [&](const auto& f) { return std::array{f.a, faces[f.b][0], faces[f.b][1], faces[f.b][2]}; };
+  const auto find_closest = [&] { s.batch.find_closest_vertex_faces(); };
+  keep_near(corners, find_closest, room_.vertices, room_.faces, vertex_faces_, s);
   s.found.clear();
-  s.search.within(s.strayed_edges, s.found, max_pairs);
-  s.search.between(s.strayed_edges, s.calm_edges, s.found, max_pairs);
+}
+
+void SelfNeighbours::list_edges(std::size_t max_pairs, Scratch& s) {
+  const auto& edges = surface_->edges();
+  divide_features(edges, room_.edges, s);
+  s.found.clear();
+  s.search.within(s.strayed, s.found, max_pairs);
+  s.search.between(s.strayed, s.calm, s.found, max_pairs);
   std::erase_if(s.found, [&](const ItemPair& f) {
     const Edge &one = edges[f.a], &two = edges[f.b];
     return one[0] == two[0] || one[0] == two[1] || one[1] == two[0] || one[1] == two[1];
   });
   for (ItemPair& f : s.found) f = {std::min(f.a, f.b), std::max(f.a, f.b)};
-  keep_near(
-      [&](const auto& f) {
-        return std::array{edges[f.a][0], edges[f.a][1], edges[f.b][0], edges[f.b][1]};
-      },
-      [&] { s.batch.find_closest_edges(); }, room_.edges, room_.edges, edges_);
+  const auto corners = [&](const auto& f) {
+    return std::array{edges[f.a][0], edges[f.a][1], edges[f.b][0], edges[f.b][1]};
+  };
+  const auto find_closest = [&] { s.batch.find_closest_edges(); };
+  keep_near(corners, find_closest, room_.edges, room_.edges, edges_, s);
   s.found.clear();
 }
 
-void SelfNeighbours::add_vertex_faces(Scratch& s) const {
+void SelfNeighbours::add_vertex_faces(std::size_t max_pairs, Scratch& s) {
+  if (vertex_faces_due_) list_vertex_faces(max_pairs, s);
+  vertex_faces_due_ = false;
   for (const Near& n : vertex_faces_)
     if (n.distance <= need_.vertices[n.a] + need_.faces[n.b]) s.found.push_back({n.a, n.b});
 }
 
-void SelfNeighbours::add_edges(Scratch& s) const {
+void SelfNeighbours::add_edges(std::size_t max_pairs, Scratch& s) {
+  if (edges_due_) list_edges(max_pairs, s);
+  edges_due_ = false;
   for (const Near& n : edges_)
     if (n.distance <= need_.edges[n.a] + need_.edges[n.b]) s.found.push_back({n.a, n.b});
 }

@@ -29,21 +29,20 @@ class SelfNeighbours {
     std::vector<ItemPair> found;  // features that may be near each other
     std::vector<float> deviations;
     FeatureBatch batch;
-    BoxList vertices, faces, edges;
-    BoxList strayed_vertices, strayed_faces, strayed_edges, calm_vertices, calm_faces, calm_edges;
+    BoxList vertices, features, strayed_vertices, calm_vertices, strayed, calm;
   };
 
-  /// Makes sure that no pair is missing of features that come within `near` (m) while each vertex goes its way (m),
-  /// beside the rigid motion of the body. Lists anew the pairs of what has no room for that any more, with a margin
-  /// (m), which is larger for what goes far. Vertices must be finite, and the surface must stay alive until the next
-  /// call. Throws std::length_error if more than max_pairs boxes overlap.
+  /// Asks for the pairs of features that come within `near` (m) while each vertex goes its way (m), beside the rigid
+  /// motion of the body. What has no room for that any more will be searched, with a margin (m), which is larger for
+  /// what goes far. Vertices must be finite, and the surface must stay alive until the next call.
   void cover(const Surface& surface, const VertexRun& at, float near, std::span<const float> ways, float margin,
-             std::size_t max_pairs, Scratch& scratch);
-  /// Append to scratch.found the pairs that may come so near, in no particular order: perhaps others, too. Pairs that
-  /// share a vertex are left out.
-  void add_vertex_faces(Scratch& scratch) const;
-  void add_edges(Scratch& scratch) const;
-  /// Returns of how many vertices the last cover() has listed the pairs anew.
+             Scratch& scratch);
+  /// Append to scratch.found the pairs that cover() has asked for, in no particular order: perhaps others, too. Pairs
+  /// that share a vertex are left out. Two threads may call one each. Throw std::length_error if more than max_pairs
+  /// boxes overlap.
+  void add_vertex_faces(std::size_t max_pairs, Scratch& scratch);
+  void add_edges(std::size_t max_pairs, Scratch& scratch);
+  /// Returns for how many vertices the last cover() wants a search.
   Index searched() const { return searched_; }
 
  private:
@@ -61,11 +60,18 @@ class SelfNeighbours {
   void fit_rotation(const VertexRun& at);
   void measure_needs(const VertexRun& at, float near, std::span<const float> ways, float margin, Scratch& scratch);
   bool has_room() const;
-  void list(std::size_t max_pairs, Scratch& scratch);
+  void list_vertex_faces(std::size_t max_pairs, Scratch& scratch);
+  void list_edges(std::size_t max_pairs, Scratch& scratch);
+  template <std::size_t n>
+  void divide_features(const std::vector<std::array<Index, n>>& features, const std::vector<float>& rooms,
+                       Scratch& scratch) const;
+  template <class Corners, class FindClosest>
+  void keep_near(const Corners& corners, const FindClosest& find_closest, const std::vector<float>& room_a,
+                 const std::vector<float>& room_b, std::vector<Near>& near, Scratch& scratch) const;
   template <class Corners>
   bool strays(const Corners& corners) const;
   template <class Visit>
-  void for_each_feature(const Visit& visit);
+  void for_each_feature(const Visit& visit) const;
 
   const Surface* surface_ = nullptr;
   std::vector<glm::vec3> reference_;            // m, about its centre
@@ -74,10 +80,10 @@ class SelfNeighbours {
   glm::vec3 centre_{0.0f};                      // m, of the last shape
   glm::quat rotation_ = glm::quat(1, 0, 0, 0);  // from the reference shape to the last one
   Lengths need_, margin_, room_;
-  float rounding_ = 0;     // m, of distances in the reference shape
-  bool complete_ = false;  // so are the lists
+  float rounding_ = 0;  // m, of distances in the reference shape
   Index searched_ = 0;
   std::vector<Near> vertex_faces_, edges_;
+  bool vertex_faces_due_ = false, edges_due_ = false;  // those of what strays are to be listed anew
 };
 
 }  // namespace collide::surface

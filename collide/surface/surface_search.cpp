@@ -24,7 +24,7 @@ void grow(BoxList& list, const glm::vec3& lo, const glm::vec3& hi) {
 
 // Of the mean edge:
 constexpr float self_margin = 0.1f;                          // see SelfNeighbours::cover()
-constexpr float max_self_deformation = 0.125f;               // of a body that may touch itself, within one prediction
+constexpr float max_self_deformation = 0.25f;                // of a body that may touch itself, within one prediction
 constexpr std::size_t max_box_pairs = std::size_t{1} << 26;  // of two bodies: 512 MiB for each thread
 
 [[maybe_unused]] bool has_all_vertices(const Motion& motion) {
@@ -115,23 +115,23 @@ void SurfaceSearch::update(const Motion& motion, std::span<const SurfaceBody> bo
 
 void SurfaceSearch::search(const Motion& motion, float min_seconds, Workers& workers) {
   threads_.resize(static_cast<std::size_t>(workers.threads()));
+  for (Thread& t : threads_) t.candidates.pairs.clear(), t.candidates.features.clear(), t.found.clear(), t.work = 0;
   const auto in_parts = [&](std::size_t count, const auto& task) {
     workers.run([&](int thread) {
       const Part part = part_of(count, thread, workers.threads());
       for (std::size_t i = part.begin; i < part.end; ++i) task(threads_[static_cast<std::size_t>(thread)], i);
     });
   };
-  in_parts(swept_.size(), [&](Thread&, std::size_t b) {
+  in_parts(swept_.size(), [&](Thread& own, std::size_t b) {
     const float end = std::min(end_, time_ + bodies_[b].horizon);
     if (!predicted_anew_[b]) return;
     SweptBody& body = swept_[b];
     body.predict(motion, static_cast<Index>(b), bodies_[b], time_, end, min_seconds);
     may_touch_itself_[b] = query_.self && body.live() && body.moves() && !body.stays_star_shaped();
-    if (may_touch_itself_[b]) body.limit_deformation(max_self_deformation * bodies_[b].mean_edge, min_seconds);
+    if (may_touch_itself_[b]) cover_itself(own, static_cast<Index>(b), min_seconds);
   });
   find_near_bodies();
   std::swap(current_, previous_);
-  for (Thread& t : threads_) t.candidates.pairs.clear(), t.candidates.features.clear(), t.found.clear(), t.work = 0;
   in_parts(swept_.size(), [&](Thread& own, std::size_t b) {
     if (!needs_boxes_[b] || has_boxes_[b]) return;
     swept_[b].build_feature_boxes();
@@ -154,25 +154,26 @@ void SurfaceSearch::find_near_bodies() {
     if (!swept_[b].live()) continue;
     order_.push_back(b);
     predicted_until_ = std::min(predicted_until_, swept_[b].end());
-    if (may_touch_itself_[b]) near_bodies_.push_back({b, b});
+    if (!may_touch_itself_[b]) continue;
+    for (const bool edges : {false, true}) near_bodies_.push_back({b, b, edges});
   }
   sweep(
       order_, 0.0f, [&](Index b) -> const Aabb& { return swept_[b].world_box(); },
       [&](Index a, Index b) {
         if (!swept_[a].moves() && !swept_[b].moves()) return;
-        near_bodies_.push_back({std::min(a, b), std::max(a, b)});
+        near_bodies_.push_back({std::min(a, b), std::max(a, b), false});
         if (predicted_anew_[a] || predicted_anew_[b]) needs_boxes_[a] = needs_boxes_[b] = true;
       });
   std::sort(near_bodies_.begin(), near_bodies_.end());
 }
 
-void SurfaceSearch::find_candidates(Thread& own, const ItemPair& bodies) {
+void SurfaceSearch::find_candidates(Thread& own, const NearBodies& bodies) {
   const auto begin = static_cast<std::uint32_t>(own.candidates.features.size());
   SurfacePair pair{bodies.a, bodies.b, begin, begin, begin, begin};
   if (!predicted_anew_[pair.a] && !predicted_anew_[pair.b])
-    copy_previous(own, pair);
+    copy_previous(own, pair, bodies.edges);
   else if (pair.a == pair.b)
-    find_within(own, pair);
+    find_within(own, pair, bodies.edges);
   else
     find_between(own, pair);
   pair.end = static_cast<std::uint32_t>(own.candidates.features.size());
@@ -181,15 +182,17 @@ void SurfaceSearch::find_candidates(Thread& own, const ItemPair& bodies) {
   check_feature_limit(own.candidates.features.size());
 }
 
-/// Copies the candidates of two bodies from the previous search.
-void SurfaceSearch::copy_previous(Thread& own, SurfacePair& pair) const {
+/// Copies the candidates of two bodies from the previous search; of a body with itself, see NearBodies.
+void SurfaceSearch::copy_previous(Thread& own, SurfacePair& pair, bool edges) const {
   const auto old = std::lower_bound(previous_.pairs.begin(), previous_.pairs.end(), pair,
                                     [](const auto& x, const auto& y) { return x.bodies() < y.bodies(); });
   if (old == previous_.pairs.end() || old->bodies() != pair.bodies()) return;
+  const std::uint32_t begin = edges ? old->edge_edge : old->vertex_face,
+                      end = pair.a == pair.b && !edges ? old->edge_edge : old->end;
   const auto first = previous_.features.begin();
-  own.candidates.features.insert(own.candidates.features.end(), first + old->vertex_face, first + old->end);
-  pair.face_vertex += old->face_vertex - old->vertex_face;
-  pair.edge_edge += old->edge_edge - old->vertex_face;
+  own.candidates.features.insert(own.candidates.features.end(), first + begin, first + end);
+  pair.face_vertex += old->face_vertex - begin;
+  pair.edge_edge += old->edge_edge - begin;
 }
 
 /// Appends the candidates of one thread after another.
@@ -202,7 +205,10 @@ void SurfaceSearch::merge_threads() {
       for (std::uint32_t SurfacePair::*offset :
            {&SurfacePair::vertex_face, &SurfacePair::face_vertex, &SurfacePair::edge_edge, &SurfacePair::end})
         p.*offset += base;
-      current_.pairs.push_back(p);
+      if (!current_.pairs.empty() && current_.pairs.back().bodies() == p.bodies())
+        current_.pairs.back().end = p.end;  // of a body with itself: its edges
+      else
+        current_.pairs.push_back(p);
     }
     current_.features.insert(current_.features.end(), t.candidates.features.begin(), t.candidates.features.end());
   }
@@ -319,21 +325,30 @@ void SurfaceSearch::add_reachable(Thread& own, const SurfacePair& pair, const Sp
   }
 }
 
-void SurfaceSearch::find_within(Thread& own, SurfacePair& pair) {
-  const SweptBody& body = swept_[pair.a];
+/// Asks for the pairs of features of a body that may meet before its prediction ends, which is no longer than they
+/// serve.
+void SurfaceSearch::cover_itself(Thread& own, Index b, float min_seconds) {
+  SweptBody& body = swept_[b];
+  body.limit_deformation(max_self_deformation * bodies_[b].mean_edge, min_seconds);
   own.ways.clear();
   for (Index v = 0; v < body.surface().vertex_count(); ++v)
     own.ways.push_back((body.end() - time_) * glm::length(body.deformation_velocity(v)));
-  SelfNeighbours& near = near_itself_[pair.a];
-  near.cover(body.surface(), body.run(), reach(pair, 0), own.ways, self_margin * bodies_[pair.a].mean_edge,
-             max_box_pairs, own);
-  // As if searched anew: work must not depend on how long candidates were kept.
+  near_itself_[b].cover(body.surface(), body.run(), reach({b, b, 0, 0, 0, 0}, 0), own.ways,
+                        self_margin * bodies_[b].mean_edge, own);
+  // As if all were searched anew: the work must not depend on how long pairs were kept.
   own.work += body.surface().feature_count();
-  near.add_vertex_faces(own);
-  add_vertex_faces(own, pair, pair.a, pair.a);
-  pair.face_vertex = pair.edge_edge = static_cast<std::uint32_t>(own.candidates.features.size());
-  near.add_edges(own);
-  add_edges(own, pair);
+}
+
+void SurfaceSearch::find_within(Thread& own, SurfacePair& pair, bool edges) {
+  SelfNeighbours& near = near_itself_[pair.a];
+  if (edges) {
+    near.add_edges(max_box_pairs, own);
+    add_edges(own, pair);
+  } else {
+    near.add_vertex_faces(max_box_pairs, own);
+    add_vertex_faces(own, pair, pair.a, pair.a);
+    pair.face_vertex = pair.edge_edge = static_cast<std::uint32_t>(own.candidates.features.size());
+  }
 }
 
 }  // namespace collide::surface

@@ -118,13 +118,21 @@ class SurfaceSearch {
     Candidates candidates;
     std::size_t work = 0;
   };
+  /// Two bodies, or a body and itself. The latter is searched in two parts, which two threads may share: its vertices
+  /// and faces, and its edges.
+  struct NearBodies {
+    Index a, b;
+    bool edges;
+    auto operator<=>(const NearBodies&) const = default;
+  };
   void search(const Motion& motion, float min_seconds, Workers& workers);
+  void cover_itself(Thread& own, Index body, float min_seconds);
   void check_feature_limit(std::size_t features) const;
   void find_near_bodies();
-  void find_candidates(Thread& own, const ItemPair& bodies);
+  void find_candidates(Thread& own, const NearBodies& bodies);
   void find_between(Thread& own, SurfacePair& pair) const;
-  void find_within(Thread& own, SurfacePair& pair);
-  void copy_previous(Thread& own, SurfacePair& pair) const;
+  void find_within(Thread& own, SurfacePair& pair, bool edges);
+  void copy_previous(Thread& own, SurfacePair& pair, bool edges) const;
   void merge_threads();
   void add_vertex_faces(Thread& own, const SurfacePair& pair, Index vertex_body, Index face_body) const;
   void add_edges(Thread& own, const SurfacePair& pair) const;
@@ -146,7 +154,7 @@ class SurfaceSearch {
   std::vector<char> needs_boxes_;       // it is in a near pair of which a body was predicted again
   std::vector<char> has_boxes_;         // the boxes of its features are those of its last prediction
   std::vector<Index> order_;            // scratch of the sweep
-  std::vector<ItemPair> near_bodies_;   // a == b: a body with itself
+  std::vector<NearBodies> near_bodies_;
   std::vector<Thread> threads_;
   Candidates current_, previous_;
   std::size_t work_ = 0;

@@ -6,6 +6,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 namespace collide::surface {
 namespace {
@@ -75,14 +76,17 @@ void SweptBody::fit_rigid_motion() {
   centre_ = centre_ / static_cast<float>(count_);
   spin_ = glm::vec3(0.0f);
   if (!moves()) return;
-  glm::vec3 momentum(0.0f);
-  float inertia = 0;
+  glm::dvec3 momentum(0.0);
+  glm::dmat3 inertia(0.0);
+  double radius2 = 0;
   for (Index v = 0; v < count_; ++v) {
-    const glm::vec3 arm = at(v) - centre_;
-    momentum += glm::cross(arm, velocity(v) - mean_velocity_);
-    inertia += glm::dot(arm, arm) * (2.0f / 3);  // of a ball: the proof in surface_search.h holds for any spin
+    const glm::dvec3 arm(at(v) - centre_);
+    momentum += glm::cross(arm, glm::dvec3(velocity(v) - mean_velocity_));
+    inertia += glm::dmat3(glm::dot(arm, arm)) - glm::outerProduct(arm, arm);
+    radius2 += glm::dot(arm, arm);
   }
-  if (inertia > 0) spin_ = momentum / inertia;
+  inertia += glm::dmat3(1e-6 * radius2);  // vertices on a line may turn about it in any way
+  if (radius2 > 0) spin_ = glm::vec3(glm::inverse(inertia) * momentum);
 }
 
 void SweptBody::bound_velocities() {

@@ -28,15 +28,15 @@ struct Body {
   explicit Body(const SurfaceMesh& m)
       : mesh(m), surface(static_cast<Index>(m.vertices.size()), m.triangles), ways(m.vertices.size(), 0.0f) {}
 
-  void cover(float near, std::size_t max_pairs = BoxPairs::unlimited) {
+  void cover(float near) {
     x.clear(), y.clear(), z.clear();
     for (const glm::vec3& v : mesh.vertices) x.push_back(v.x), y.push_back(v.y), z.push_back(v.z);
-    neighbours.cover(surface, {x.data(), y.data(), z.data(), surface.vertex_count()}, near, ways, margin, max_pairs,
-                     scratch);
+    neighbours.cover(surface, {x.data(), y.data(), z.data(), surface.vertex_count()}, near, ways, margin, scratch);
   }
   std::vector<ItemPair> pairs(bool of_edges) {
     scratch.found.clear();
-    of_edges ? neighbours.add_edges(scratch) : neighbours.add_vertex_faces(scratch);
+    of_edges ? neighbours.add_edges(BoxPairs::unlimited, scratch)
+             : neighbours.add_vertex_faces(BoxPairs::unlimited, scratch);
     std::ranges::sort(scratch.found);
     return std::move(scratch.found);
   }
@@ -107,6 +107,7 @@ TEST(SelfNeighbours, HoldHoweverFarTheBodyFallsAndTurns) {
   Body body(valley());
   body.cover(0.05f);
   EXPECT_EQ(body.neighbours.searched(), body.surface.vertex_count());
+  body.pairs(false), body.pairs(true);
   for (int step = 0; step < 200; ++step) {
     body.mesh = moved(turned(body.mesh, {1, 2, -1}, 0.2f), {0.1f, -0.5f, 0});
     body.cover(0.05f);
@@ -117,6 +118,7 @@ TEST(SelfNeighbours, HoldHoweverFarTheBodyFallsAndTurns) {
 TEST(SelfNeighbours, SearchOnlyWhatHasStrayed) {
   Body body(sheet(20, 2));
   body.cover(0.02f);
+  body.pairs(false), body.pairs(true);
   std::vector<glm::vec3>& at = body.mesh.vertices;
   const glm::vec3 place = at[100];
   for (glm::vec3& v : at)
@@ -132,11 +134,14 @@ TEST(SelfNeighbours, SearchOnlyWhatHasStrayed) {
 TEST(SelfNeighbours, SearchAnewForAnotherSurfaceAndAfterTooManyPairs) {
   Body body(sheet(10, 1)), other(sheet(10, 2));
   body.cover(0.02f);
+  expect_complete(body, 0.02f);
   std::swap(body.neighbours, other.neighbours);
   other.cover(0.02f);
   EXPECT_EQ(other.neighbours.searched(), other.surface.vertex_count());
   expect_complete(other, 0.02f);
-  EXPECT_THROW(body.cover(0.02f, 10), std::length_error);
+  body.cover(0.02f);
+  body.pairs(false);
+  EXPECT_THROW(body.neighbours.add_edges(10, body.scratch), std::length_error);
   body.cover(0.02f);
   EXPECT_EQ(body.neighbours.searched(), body.surface.vertex_count());
   expect_complete(body, 0.02f);

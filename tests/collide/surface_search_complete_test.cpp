@@ -198,7 +198,7 @@ TEST(SurfaceSearch, PredictsFastDeformationForAShortTimeUnlessMinSecondsIsLonger
   m.whole = false;
   const SearchRun some(m, true);
   EXPECT_NEAR(some.search.predicted_until() * some.search.body(0).max_deformation_speed(),
-              0.125f * m.traits[0].mean_edge, 1e-4f);
+              0.25f * m.traits[0].mean_edge, 1e-4f);
   EXPECT_LT(some.search.features().size(), all.search.features().size() / 4);
   m.seconds = some.search.predicted_until();
   EXPECT_GT(expect_complete(m, some.search, true, random), 0u);

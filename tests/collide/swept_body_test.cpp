@@ -61,5 +61,18 @@ TEST(SweptBody, DetectsBodiesThatAreNotStarShaped) {
   EXPECT_FALSE(star_shaped(twice)) << "every face points outwards, but the surface winds around the centre twice";
 }
 
+/// What turns only deforms at no speed, whatever its shape: its features come no closer to each other.
+TEST(SweptBody, TakesAnyTurnForRigidMotion) {
+  std::mt19937 random(66);
+  const SurfaceMesh line{{{0, 0, 0}, {1, 2, 3}, {2, 4, 6}}, {{0, 1, 2}}};
+  for (const SurfaceMesh& mesh : {valley(), sheet(10, 1), box({0, 0, 0}, {10, 1, 0.1f}), line}) {
+    const std::vector<glm::vec3> r = random_points(random, 2, -5, 5);
+    MovingScene m;
+    m.add(mesh, glm::vec3(3, 1, 2), 0.01f, 0.001f, [&](const glm::vec3& v) { return r[0] + glm::cross(r[1], v); });
+    const SearchRun run(m, true);
+    EXPECT_LT(run.search.body(0).max_deformation_speed(), 1e-4f * run.search.body(0).velocity_spread());
+  }
+}
+
 }  // namespace
 }  // namespace collide::test
