@@ -284,7 +284,7 @@ void BodyPairSearch::count(Result& result) const {
     result.skip(Skip::kept_pairs) += thread.kept;
   }
   const std::uint64_t live = live_.size();
-  result.counters.boxes += live;
+  result.counters.boxes += live + (loose_.empty() ? 0 : patches_.patches());
   result.skip(Skip::far_pairs) += live * (live - std::min<std::uint64_t>(live, 1)) / 2 - near_.near_box_pairs();
   result.skip(Skip::separated_pairs) += near_.near_box_pairs() - near_.pairs();
   result.skip(Skip::lone_bodies) += near_.isolated_bodies();

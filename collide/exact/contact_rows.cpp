@@ -1,10 +1,28 @@
 #include "collide/exact/contact_rows.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "collide/core/workers.h"
 
 namespace collide::exact {
+
+namespace {
+
+/// Long rows pass through a set, which costs less than to sort them. set: empty, and so it is left.
+void sort_row(IndexSet& set, std::span<Contact> row) {
+  constexpr std::size_t few = 16;
+  if (row.size() <= few) return std::sort(row.begin(), row.end());
+  for (const Contact& contact : row) {
+    set.add(contact.b / IndexSet::word_size, IndexSet::Word{1} << contact.b % IndexSet::word_size);
+  }
+  auto at = row.begin();
+  set.take_runs(row.front().a, [&](Range run) {
+    for (Index b = run.begin; b < run.end; ++b) (at++)->b = b;
+  });
+}
+
+}  // namespace
 
 void ContactRows::begin(Index vertices, int threads) {
   vertices_ = vertices;
@@ -19,6 +37,7 @@ void ContactRows::count(int thread, std::span<const Contact> contacts) {
 }
 
 std::size_t ContactRows::place(Range vertices, std::size_t place) {
+  assert(vertices.end <= vertices_ && (runs_.empty() || runs_.back().vertices.end <= vertices.begin));
   std::size_t end = place;
   for (Index v = vertices.begin; v < vertices.end; ++v) {
     for (Thread& thread : threads_) {
@@ -51,18 +70,6 @@ void ContactRows::sort(int thread, std::span<Contact> placed) {
       sort_row(set, placed.subspan(begin, *row - begin));
     }
   }
-}
-
-void ContactRows::sort_row(IndexSet& set, std::span<Contact> row) const {
-  constexpr std::size_t few = 16;
-  if (row.size() <= few) return std::sort(row.begin(), row.end());
-  for (const Contact& contact : row) {
-    set.add(contact.b / IndexSet::word_size, IndexSet::Word{1} << contact.b % IndexSet::word_size);
-  }
-  auto at = row.begin();
-  set.take_runs(row.front().a, [&](Range run) {
-    for (Index b = run.begin; b < run.end; ++b) (at++)->b = b;
-  });
 }
 
 }  // namespace collide::exact

@@ -33,7 +33,6 @@ class ContactRows {
     Range vertices;
     std::size_t begin, end;  // of their contacts
   };
-  void sort_row(IndexSet& set, std::span<Contact> row) const;
 
   Index vertices_ = 0;
   std::vector<Thread> threads_;

@@ -25,6 +25,7 @@ class PatchSearch {
   /// Appends the contacts of a task; in no order. Throws std::length_error if `contacts` grows beyond max_contacts.
   Found find(std::size_t task, std::size_t max_contacts, std::vector<Contact>& contacts) const;
 
+  std::size_t patches() const { return node_of_patch_.size(); }
   /// Returns the boxes of the patches, for drawing.
   std::vector<DebugGeometry::Box> boxes() const;
   void forget() { trees_.forget(); }

@@ -184,18 +184,40 @@ TEST(PatchSearch, CutsABodyAnewWhoseVerticesHaveMixed) {
   EXPECT_LT(result.counters.pair_tests, 2 * tests);
 }
 
-/// Pairs that are close at rest cost nothing but at the rim of what is close.
-TEST(PatchSearch, LeavesOutPatchesThatAreCloseAtRest) {
-  const Ball ball = icosphere(4, 0.5f);
-  State state, without_rest;
-  const auto count = static_cast<Index>(ball.vertices.size());
-  state.add(std::make_shared<const Shape>(count, ball.edges, ball.vertices), ball.vertices);
-  without_rest.add(std::make_shared<const Shape>(count, ball.edges), ball.vertices);
-  Settings settings;
-  settings.tolerance = 0.9f;
-  const Result result = detect("multi-level-sb-exact", state, settings);
+/// Two bodies of a mesh whose vertices are all closer than the tolerance to many others at rest.
+class WideTolerance : public testing::Test {
+ protected:
+  /// Detects so many bodies that overlap, and expects what the oracle finds.
+  Result find(const std::shared_ptr<const Shape>& shape, float tolerance, int bodies = 1) {
+    State state;
+    for (int body = 0; body < bodies; ++body) {
+      state.add(shape, moved(ball_.vertices, glm::vec3(0.05f * static_cast<float>(body), 0, 0)));
+    }
+    Settings settings;
+    settings.tolerance = tolerance;
+    Result result = detect("multi-level-sb-exact", state, settings, 2);
+    EXPECT_TRUE(result.contacts == oracle(state, settings));
+    return result;
+  }
+
+  const Ball ball_ = icosphere(4, 0.5f);
+  const Index count_ = static_cast<Index>(ball_.vertices.size());
+  const std::shared_ptr<const Shape> shape_ = std::make_shared<const Shape>(count_, ball_.edges, ball_.vertices);
+};
+
+TEST_F(WideTolerance, LeavesOutPatchesThatAreCloseAtRest) {
+  const Result result = find(shape_, 0.9f);
   EXPECT_TRUE(result.contacts.empty());
-  EXPECT_LT(result.counters.pair_tests, detect("multi-level-sb-exact", without_rest, settings).counters.pair_tests / 2);
+  const Result without_rest = find(std::make_shared<const Shape>(count_, ball_.edges), 0.9f);
+  EXPECT_LT(result.counters.pair_tests, without_rest.counters.pair_tests / 2);
+}
+
+TEST_F(WideTolerance, LeavesOutNoPatchesOfTwoBodies) { EXPECT_GT(find(shape_, 0.75f, 2).contacts.size(), 1'000'000u); }
+
+TEST_F(WideTolerance, LeavesOutNoVertexWithoutAPlaceAtRest) {
+  std::vector<glm::vec3> rest = ball_.vertices;
+  rest[7].y = nan;
+  EXPECT_GT(find(std::make_shared<const Shape>(count_, ball_.edges, rest), 0.9f).contacts.size(), 1'000u);
 }
 
 }  // namespace
