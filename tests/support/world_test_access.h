@@ -12,7 +12,7 @@ struct WorldTestAccess {
   static double penalty_energy(const World& world) {
     PenaltyContact last = solver(world).penalty_contact();
     if (last.pairs.empty()) return 0;
-    last.locate(world.bodies(), world.state());
+    last.locate(world.parts_->particles.bodies, world.state());
     last.measure({0, last.pairs.size()});
     return last.energy();
   }
