@@ -189,15 +189,16 @@ void SelfNeighbours::divide_features(const std::vector<std::array<Index, n>>& fe
 }
 
 /// Replaces the pairs of what strays by those found that are near each other in the reference shape.
-template <class Corners, class FindClosest>
-void SelfNeighbours::keep_near(const Corners& corners, const FindClosest& find_closest,
-                               const std::vector<float>& room_a, const std::vector<float>& room_b,
-                               std::vector<Near>& near, Scratch& s) const {
+template <class Corners, class SharesVertex, class FindClosest>
+void SelfNeighbours::keep_near(const Corners& corners, const SharesVertex& shares_vertex,
+                               const FindClosest& find_closest, const std::vector<float>& room_a,
+                               const std::vector<float>& room_b, std::vector<Near>& near, Scratch& s) const {
   std::erase_if(near, [&](const Near& n) { return strays(corners(n)); });
   for (std::size_t i = 0; i < s.found.size();) {
     s.batch.clear();
     for (; i < s.found.size() && !s.batch.full(); ++i) {
       const std::array<Index, 4> c = corners(s.found[i]);
+      if (shares_vertex(c)) continue;
       s.batch.add({reference_[c[0]], reference_[c[1]], reference_[c[2]], reference_[c[3]]}, static_cast<Index>(i));
     }
     find_closest();
@@ -215,13 +216,10 @@ void SelfNeighbours::list_vertex_faces(std::size_t max_pairs, Scratch& s) {
   s.found.clear();
   s.search.between(s.strayed_vertices, s.features, s.found, max_pairs);
   s.search.between(s.calm_vertices, s.strayed, s.found, max_pairs);
-  std::erase_if(s.found, [&](const ItemPair& f) {
-    const auto& [a, b, c] = faces[f.b];
-    return f.a == a || f.a == b || f.a == c;
-  });
   const auto corners = [&](const auto& f) { return std::array{f.a, faces[f.b][0], faces[f.b][1], faces[f.b][2]}; };
+  const auto is_corner = [](const auto& c) { return c[0] == c[1] || c[0] == c[2] || c[0] == c[3]; };
   const auto find_closest = [&] { s.batch.find_closest_vertex_faces(); };
-  keep_near(corners, find_closest, room_.vertices, room_.faces, vertex_faces_, s);
+  keep_near(corners, is_corner, find_closest, room_.vertices, room_.faces, vertex_faces_, s);
   s.found.clear();
 }
 
@@ -231,16 +229,13 @@ void SelfNeighbours::list_edges(std::size_t max_pairs, Scratch& s) {
   s.found.clear();
   s.search.within(s.strayed, s.found, max_pairs);
   s.search.between(s.strayed, s.calm, s.found, max_pairs);
-  std::erase_if(s.found, [&](const ItemPair& f) {
-    const Edge &one = edges[f.a], &two = edges[f.b];
-    return one[0] == two[0] || one[0] == two[1] || one[1] == two[0] || one[1] == two[1];
-  });
   for (ItemPair& f : s.found) f = {std::min(f.a, f.b), std::max(f.a, f.b)};
   const auto corners = [&](const auto& f) {
     return std::array{edges[f.a][0], edges[f.a][1], edges[f.b][0], edges[f.b][1]};
   };
+  const auto meet = [](const auto& c) { return c[0] == c[2] || c[0] == c[3] || c[1] == c[2] || c[1] == c[3]; };
   const auto find_closest = [&] { s.batch.find_closest_edges(); };
-  keep_near(corners, find_closest, room_.edges, room_.edges, edges_, s);
+  keep_near(corners, meet, find_closest, room_.edges, room_.edges, edges_, s);
   s.found.clear();
 }
 

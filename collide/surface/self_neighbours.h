@@ -65,9 +65,10 @@ class SelfNeighbours {
   template <std::size_t n>
   void divide_features(const std::vector<std::array<Index, n>>& features, const std::vector<float>& rooms,
                        Scratch& scratch) const;
-  template <class Corners, class FindClosest>
-  void keep_near(const Corners& corners, const FindClosest& find_closest, const std::vector<float>& room_a,
-                 const std::vector<float>& room_b, std::vector<Near>& near, Scratch& scratch) const;
+  template <class Corners, class SharesVertex, class FindClosest>
+  void keep_near(const Corners& corners, const SharesVertex& shares_vertex, const FindClosest& find_closest,
+                 const std::vector<float>& room_a, const std::vector<float>& room_b, std::vector<Near>& near,
+                 Scratch& scratch) const;
   template <class Corners>
   bool strays(const Corners& corners) const;
   template <class Visit>
