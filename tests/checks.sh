@@ -125,7 +125,7 @@ install_all() {
   done
 }
 
-make_package() { in_root "$1" bash -c '. /sbcollide/app/setup.sh && install_missing "${program_packages[@]}" dpkg-dev &&
+make_package() { in_root "$1" bash -c '. /sbcollide/app/setup.sh && install_missing "${program_packages[@]}" dpkg-dev file &&
   build release package -DBUILD_TESTING=OFF'; }
 
 use_package() {

@@ -46,7 +46,10 @@ awk -F, 'NR > 1 {print $2 " of body " $4 ", " $3 " of body " $5}' "$work/out/con
 "$work/build/two_triangles" | grep -qx 'vertices 0 and 3' || fail "two_triangles"
 if command -v pkg-config >/dev/null; then
   export PKG_CONFIG_PATH=$prefix/lib/pkgconfig
-  eval cc \"\$work/examples/two_triangles.c\" -o \"\$work/by_pkg_config\" "$(pkg-config --static --cflags --libs sbcollide)"
+  private=(--static)
+  if [ -e "$prefix/lib/libsbcollide-softbody.so" ]; then private=() && export PKG_CONFIG_LIBDIR=; fi  # no other packages
+  flags=$(pkg-config "${private[@]}" --cflags --libs sbcollide) || fail "pkg-config"
+  eval cc \"\$work/examples/two_triangles.c\" -o \"\$work/by_pkg_config\" "$flags"
   LD_LIBRARY_PATH=$prefix/lib "$work/by_pkg_config" | grep -qx 'vertices 0 and 3' || fail "two_triangles by pkg-config"
 fi
 if [ -e "$prefix/lib/libsbcollide-softbody.so" ] && command -v python3 >/dev/null; then

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <thread>
 
 #include <sbcollide/softbody.h>
@@ -104,6 +105,62 @@ TEST(Scene, KeepsTheOrderOfAMesh) {
   }
   world.step();
   EXPECT_LT(world.velocities()[0][1], 0);
+}
+
+// A ring around the y axis, 1.4 m wide and 0.4 m high, of 1,800 vertices: more than are simulated one by one.
+int add_ring(Scene& scene) {
+  constexpr Index around = 60, section = 30;
+  std::vector<float> xyz;
+  std::vector<std::array<Index, 3>> triangles;
+  for (Index i = 0; i < around; ++i)
+    for (Index j = 0; j < section; ++j) {
+      const double u = 2 * M_PI * i / around, v = 2 * M_PI * j / section, r = 0.5 + 0.2 * std::cos(v);
+      for (const double c : {r * std::cos(u), 0.2 * std::sin(v), r * std::sin(u)}) xyz.push_back(static_cast<float>(c));
+      const Index k = (i + 1) % around, l = (j + 1) % section;
+      triangles.push_back({i * section + j, i * section + l, k * section + j});
+      triangles.push_back({i * section + l, k * section + l, k * section + j});
+    }
+  return scene.add_mesh(xyz, triangles);
+}
+
+TEST(ApiWorld, FindsTheContactsOfAllVerticesOfAFineMesh) {
+  Scene scene;
+  scene.add_text("[collision]\ntolerance = 0.03\n");
+  const int ring = add_ring(scene);
+  scene.add_body({.mesh = ring});
+  scene.add_body({.mesh = ring, .position = {0.1, 0.41, 0}, .velocity = {0, -1, 0}});
+  const World world = run(scene, 3);
+  const auto [x, y, z] = world.positions();
+  ASSERT_EQ(x.size(), 3600u);
+  EXPECT_EQ(world.first_vertex(1), 1800u);
+  sbcollide::ContactFinder finder({.tolerance = 0.03f, .self_collision = false});
+  for (Index body = 0; body < 2; ++body) finder.add_body({.vertices = 1800, .triangles = world.triangles(body)});
+  std::vector<sbcollide::Contact> between;
+  for (const sbcollide::Contact& c : world.contacts())
+    if (c.a < 1800 && c.b >= 1800) between.push_back(c);
+  const auto found = finder.find(x, y, z).contacts;
+  EXPECT_FALSE(found.empty());
+  EXPECT_EQ(between, std::vector(found.begin(), found.end()));
+}
+
+TEST(ApiWorld, GivesTheVelocityOfEachVertexOfAFineMesh) {
+  Scene scene;
+  scene.add_ground(-0.25);
+  scene.add_body({.mesh = add_ring(scene), .velocity = {0, -3, 0}});
+  World world(scene, {.frame_time = 0.001});
+  for (int i = 0; i < 50; ++i) world.step();
+  const std::vector before(world.positions().y.begin(), world.positions().y.end());
+  world.step();
+  const std::vector<sbcollide::Vector> velocities = world.velocities();
+  ASSERT_EQ(velocities.size(), before.size());
+  double slowest = INFINITY, fastest = -INFINITY, furthest_off = 0;
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    const double moved = (double{world.positions().y[v]} - before[v]) / 0.001;
+    slowest = std::min(slowest, moved), fastest = std::max(fastest, moved);
+    furthest_off = std::max(furthest_off, std::abs(velocities[v][1] - moved));
+  }
+  EXPECT_GT(fastest - slowest, 1);  // m/s: an impact
+  EXPECT_LT(furthest_off, 0.1 * (fastest - slowest));
 }
 
 TEST(Scene, RefusesMeshesThatAreNoSurface) {

@@ -44,7 +44,7 @@ class Scene {
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
 
-  /// Adds tables as scene files have them, such as "[collision]\ntolerance = 0.05\n".
+  /// Adds tables as scene files have them, such as "[sleep]\nspeed = 0.05\n".
   void add_text(std::string_view toml);
   /// Throws Error beyond 1000 m/s^2 along an axis.
   void set_gravity(const Vector& metres_per_second_squared);
@@ -115,7 +115,9 @@ class World {
   /// m/s, of each vertex; where a mesh of more than 1,000 vertices is simulated by fewer particles, of the places of
   /// their surface that hold its vertices.
   std::vector<Vector> velocities() const;
-  std::span<const Contact> contacts() const;  // of vertices that are closer than the tolerance; ascending
+  /// Pairs of vertices that are closer than the tolerance; ascending. The tolerance is 0.1 m unless the scene has
+  /// another: add_text("[collision]\ntolerance = 0.05\n").
+  std::span<const Contact> contacts() const;
   Energies energies() const;
   bool finite() const;               // all positions and velocities
   bool at_rest() const;              // all bodies are asleep, and none is still to come
