@@ -265,7 +265,7 @@ void print_remarks(const softbody::Scene& scene) {
     const softbody::ImportedMesh* mesh = body.mesh.imported.get();
     if (!mesh || !printed.insert(mesh).second) continue;
     if (const std::string text = remarks(mesh->findings); !text.empty())
-      std::fprintf(stderr, "note: %s: %s\n", body.mesh.file.path.string().c_str(), text.c_str());
+      std::fprintf(stderr, "note: %s: %s\n", body.mesh.file.path.lexically_normal().string().c_str(), text.c_str());
   }
 }
 

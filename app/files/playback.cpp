@@ -11,6 +11,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "collide/surface/surface.h"
 #include "softbody/world/body_model_set.h"
 
 namespace app::files {
@@ -19,10 +20,9 @@ namespace {
 /// Returns the mesh of a body with these triangles, in the shape that it has in this frame.
 softbody::Mesh mesh_of(const BodyMeshes& meshes, std::size_t body, const VertexPositions& at,
                        std::vector<softbody::Triangle> triangles) {
-  softbody::Mesh mesh, connected;
-  connected.triangles = triangles;
-  softbody::connect_triangles(connected);
-  mesh.closed = connected.closed;
+  softbody::Mesh mesh;
+  const collide::Index vertices = meshes.first[body + 1] - meshes.first[body];
+  mesh.closed = collide::surface::Surface(vertices, triangles).closed();
   mesh.triangles = std::move(triangles);
   for (collide::Index v = meshes.first[body]; v < meshes.first[body + 1]; ++v)
     mesh.vertices.emplace_back(at.x[v], at.y[v], at.z[v]);

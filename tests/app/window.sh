@@ -133,7 +133,7 @@ xdotool mousemove 150 "$field"; sleep 0.3
 xdotool click 1 type --delay 20 mesh.obj
 xdotool key Return
 sleep 1
-click 150 $((field + 87)) 1  # the field of the scene to save
+click 150 $((field + 116)) 1  # the field of the scene to save
 xdotool keydown ctrl; press a; xdotool keyup ctrl
 xdotool type --delay 300 kept.toml
 press Return

@@ -81,10 +81,11 @@ TEST_P(Hashes, AreEqualHoweverTheSceneIsRun) {
 }
 
 TEST_P(Hashes, AreThoseOfTheProgram) {
-  const nlohmann::json document =
-      cli::test::simulate({"--scene", GetParam().scene, "--contact-surface", GetParam().surface, "--integrator",
-                           GetParam().integrator, "--frames", std::to_string(GetParam().frames), "--threads", "2"});
-  EXPECT_EQ(document["state_hash"], GetParam().hash);
+  const cli::test::Outcome outcome = cli::test::run(
+      {"simulate", "--json", "--scene", GetParam().scene, "--contact-surface", GetParam().surface, "--integrator",
+       GetParam().integrator, "--frames", std::to_string(GetParam().frames), "--threads", "2"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["state_hash"], GetParam().hash);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Hashes, testing::ValuesIn(read_rows()), [](const auto& one) {
