@@ -14,7 +14,7 @@
 namespace app::report {
 namespace {
 
-constexpr int frames = 60, apart = 5;  // frames between two looks
+constexpr int fall_frames = 60, frames_between_looks = 5;
 
 /// Returns the creature of the scene over a solid sphere, by contact of surfaces.
 softbody::Scene creature() {
@@ -50,11 +50,11 @@ Fall fall(const softbody::Scene& scene) {
   softbody::World world(scene, {});
   world.set_method("sorted-grid");
   Fall done;
-  for (int frame = 1; frame <= frames; ++frame) {
+  for (int frame = 1; frame <= fall_frames; ++frame) {
     const double start = thread_seconds();
     world.step();
     done.seconds += thread_seconds() - start - 1e-3 * world.last_step().detect_ms;
-    if (frame % apart == 0) done.looks.push_back(look_at(world));
+    if (frame % frames_between_looks == 0) done.looks.push_back(look_at(world));
   }
   return done;
 }
