@@ -121,7 +121,7 @@ open_only() {
   local i open
   for i in "${!sections[@]}"; do
     open=false
-    [ "${sections[i]}" = "$1" ] && open=true && field=$((248 + 29 * i))
+    [ "${sections[i]}" = "$1" ] && open=true && field=$((248 + 29 * i)) && save=$((field + 4 * 29))
     printf '[[section]]\nname = "%s"\nopen = %s\n' "${sections[i]}" $open
   done >"$preferences"
 }
@@ -133,7 +133,7 @@ xdotool mousemove 150 "$field"; sleep 0.3
 xdotool click 1 type --delay 20 mesh.obj
 xdotool key Return
 sleep 1
-click 150 $((field + 116)) 1  # the field of the scene to save
+click 150 "$save" 1  # the field of the scene to save
 xdotool keydown ctrl; press a; xdotool keyup ctrl
 xdotool type --delay 300 kept.toml
 press Return
@@ -173,7 +173,7 @@ press 28            # that of T: the hash table is hidden
 press_with 50 40    # that of D, with Shift: twenty bodies
 press_with 37 52    # that of Z, with Ctrl: undoes them
 setxkbmap fr
-click 150 $((field + 87)) 1  # the field of the scene to save
+click 150 "$save" 1  # the field of the scene to save
 press End
 press_with 37 24    # Ctrl+A, the key of Q on a US keyboard: the next text replaces all
 setxkbmap us
@@ -225,7 +225,7 @@ press d
 until_true "another context after a reset of the driver" has_another_context
 xdotool windowfocus "$window" 2>/dev/null
 sleep 1
-click 290 $((field + 87)) 1  # Save
+click 290 "$save" 1  # Save
 until_true "the scene after a reset of the driver" test -s scene.toml
 [ "$(grep -c '^\[\[body\]\]' scene.toml)" -gt "$(grep -c '^\[\[body\]\]' "$sources/assets/scenes/drop.toml")" ] ||
   fail "the dropped body was lost with the context"
