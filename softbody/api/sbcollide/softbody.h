@@ -10,7 +10,7 @@
 //
 // Lengths are in metres, times in seconds, masses in kilograms; y points up. There is no global state: objects may work
 // on several threads at the same time, each on one of them. Equal scenes move equally, to the bit, on any number of
-// threads and on any processor.
+// threads and on any processor; with meshes of more than 1,000 vertices, for equal versions of meshoptimizer.
 
 #include <filesystem>
 #include <map>
