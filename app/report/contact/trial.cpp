@@ -133,8 +133,8 @@ class Trial {
     const softbody::SimulatedMeshes simulated = world_.simulated();
     const collide::oracle::Overlaps overlaps = oracle_.overlaps(world_);
     const auto figures = collide::oracle::figures_of(simulated.positions, overlaps);
-    const auto missed = collide::oracle::missed_by(simulated.contacts, simulated.positions,
-                                                   compare::surfaces_of(world_), overlaps);
+    const auto missed =
+        collide::oracle::missed_by(simulated.contacts, simulated.positions, compare::surfaces_of(world_), overlaps);
     ++result_.looks;
     result_.penetrations += overlaps.penetrations.size();
     result_.missed += missed.penetrations.size();
