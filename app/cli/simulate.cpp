@@ -307,7 +307,8 @@ void simulate(const Options& options) {
     if (world.frame() % stride == 0 || world.frame() == options.frames) {
       FrameRow row = measure_row(world);
       if (options.oracle)
-        row.oracle = collide::oracle::figures_of(world.positions(), oracle.overlaps(world), oracle.crossings(world));
+        row.oracle =
+            collide::oracle::figures_of(world.simulated().positions, oracle.overlaps(world), oracle.crossings(world));
       if (options.json_lines)
         print_line(to_json(row));
       else

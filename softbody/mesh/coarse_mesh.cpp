@@ -81,6 +81,16 @@ std::vector<Index> parts_of(const Mesh& mesh) {
   return part;
 }
 
+/// Returns the parts that have edges with one triangle only.
+std::set<Index> open_parts(const Mesh& mesh, const std::vector<Index>& part) {
+  std::map<Edge, int> faces;
+  for (const auto& [a, b, c] : mesh.triangles) ++faces[ordered(a, b)], ++faces[ordered(b, c)], ++faces[ordered(c, a)];
+  std::set<Index> open;
+  for (const auto& [edge, number] : faces)
+    if (number == 1) open.insert(part[edge[0]]);
+  return open;
+}
+
 std::vector<glm::vec3> rounded(const std::vector<glm::dvec3>& points) { return {points.begin(), points.end()}; }
 
 glm::vec3 normal_of(std::span<const glm::vec3> at, const Triangle& t) {
@@ -166,6 +176,7 @@ class Coarsener {
       : fine_(fine),
         at_(rounded(fine.vertices)),
         part_(parts_of(fine)),
+        open_(open_parts(fine, part_)),
         normal_(at_.size(), glm::vec3(0.0f)),
         faces_(at_, fine.triangles) {
     for (const Triangle& t : fine.triangles)
@@ -174,7 +185,7 @@ class Coarsener {
     extent_ = static_cast<float>(std::max({size.x, size.y, size.z}));
   }
 
-  std::optional<CoarseMesh> run(std::size_t vertices) {
+  std::optional<CoarseMesh> run(std::size_t vertices) const {
     std::optional<Mesh> best;
     std::vector<Index> kept;
     std::size_t least = 0;
@@ -240,7 +251,7 @@ class Coarsener {
     try {
       std::vector<Triangle> turned = mesh.triangles;
       const SurfaceFindings found = orient(turned, mesh.vertices);
-      if (found.turned_faces > 0 || (fine_.closed && found.border_edges > 0)) return false;
+      if (found.turned_faces > 0) return false;
     } catch (const SurfaceError&) {
       return false;
     }
@@ -248,11 +259,13 @@ class Coarsener {
     for (Triangle& t : outlines) std::ranges::sort(t);
     std::ranges::sort(outlines);
     if (std::ranges::adjacent_find(outlines) != outlines.end()) return false;
+    std::vector<Index> part;
+    for (const Index v : from) part.push_back(part_[v]);
     std::vector<char> there(at_.size(), false);
-    for (const Index v : from) there[part_[v]] = true;
+    for (const Index p : part) there[p] = true;
     for (Index v = 0; v < part_.size(); ++v)
       if (part_[v] == v && !there[v]) return false;
-    return true;
+    return std::ranges::includes(open_, open_parts(mesh, part));
   }
 
   static std::size_t crossings_of(const Mesh& mesh) {
@@ -303,6 +316,7 @@ class Coarsener {
   const Mesh& fine_;
   std::vector<glm::vec3> at_;      // its vertices
   std::vector<Index> part_;        // of each of them
+  std::set<Index> open_;           // parts that are not closed
   std::vector<glm::vec3> normal_;  // at each of them, of any length
   FaceTree faces_;                 // of its triangles
   float extent_;                   // m, the largest one
@@ -312,7 +326,11 @@ class Coarsener {
 
 std::optional<CoarseMesh> coarsen(const Mesh& fine, std::size_t vertices) {
   assert(vertices >= 4 && vertices < fine.vertices.size());
-  return Coarsener(fine).run(vertices);
+  const Coarsener coarsener(fine);
+  // Many parts, and thin ones, need more vertices than were asked for.
+  for (std::size_t most = vertices; most < fine.vertices.size(); most *= 2)
+    if (std::optional<CoarseMesh> coarse = coarsener.run(most)) return coarse;
+  return {};
 }
 
 }  // namespace softbody

@@ -17,12 +17,11 @@ struct CoarseMesh {
   std::size_t crossings = 0;  // edges of the coarse mesh that stick through faces of it
 };
 
-/// Returns a mesh of about so many vertices by meshoptimizer's edge collapses. It is closed where the fine mesh is, has
-/// no edge with more than two faces, and as many parts. Of some tries it is the
-/// one whose surface crosses itself least. `distance` is the largest of those of the fine vertices from the coarse
-/// triangles that hold them, and of the middles of coarse edges and faces from the fine surface. Returns nothing if no
-/// try has such a mesh.
-/// vertices: at least 4 and less than the fine mesh has.
+/// Returns a mesh of about so many vertices by meshoptimizer's edge collapses; of more where so few cannot have the
+/// form of the fine mesh. Each part is there, closed if the fine one is, and no edge has more than two faces. Of some
+/// tries it is the one whose surface crosses itself least. `distance` is the largest of those of the fine vertices from
+/// the coarse triangles that hold them, and of the middles of coarse edges and faces from the fine surface. Returns
+/// nothing if no try has such a mesh. vertices: at least 4 and less than the fine mesh has.
 std::optional<CoarseMesh> coarsen(const Mesh& fine, std::size_t vertices);
 
 }  // namespace softbody

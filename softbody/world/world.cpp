@@ -229,6 +229,7 @@ void World::step(const std::function<void()>& after_substep) {
     const Field<float> places = touching.positions.resized(touching.bodies.vertex_count());
     for (const Batch& b : s.solver.state().batches())
       s.solver.state().write_positions(b, touching.bodies.first, places);
+    s.place_fine_meshes();
     after_substep();
     looking_ms += ms_since(from);
   };

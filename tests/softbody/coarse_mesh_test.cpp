@@ -181,6 +181,28 @@ TEST(CoarseMesh, IsWithinTheStatedDistance) {
   }
 }
 
+TEST(CoarseMesh, HasAsManyVerticesAsItsPartsNeed) {
+  Mesh balls = bumpy_ball(1, 0.1);
+  for (int i = 1; i < 40; ++i) add(balls, bumpy_ball(1, 0.1, {0.3 * (i % 8), 0.3 * (i / 8), 0}));
+  const std::optional<CoarseMesh> coarse = coarsen(balls, 50);  // of 1,680 vertices
+  ASSERT_TRUE(coarse);
+  EXPECT_LT(coarse->mesh.vertices.size(), 840u);
+  std::vector<Triangle> triangles = coarse->mesh.triangles;
+  EXPECT_EQ(orient(triangles, coarse->mesh.vertices).components, 40u);
+  EXPECT_TRUE(coarse->mesh.closed);
+}
+
+TEST(CoarseMesh, KeepsAClosedPartClosedBesideAnOpenOne) {
+  Mesh both = sheet(40);
+  add(both, bumpy_ball(3, 0.2, {0, 1, 0}));
+  const CoarseMesh coarse = coarsen(both, 200).value();
+  std::map<Edge, int> faces;
+  for (const auto& [a, b, c] : coarse.mesh.triangles)
+    ++faces[ordered(a, b)], ++faces[ordered(b, c)], ++faces[ordered(c, a)];
+  for (const auto& [edge, number] : faces)
+    EXPECT_TRUE(number == 2 || coarse.mesh.vertices[edge[0]].y < 0.5) << "an open edge of the ball";
+}
+
 TEST(CoarseMesh, IsTheSameEachTime) {
   const Mesh fine = bumpy_ball(4);
   const CoarseMesh one = coarsen(fine, 300).value(), other = coarsen(fine, 300).value();
@@ -316,6 +338,22 @@ TEST_F(FineBody, GoesOnAfterASnapshotAndWithAnyThreads) {
   for (int frame = 0; frame < 30; ++frame) other.step();
   EXPECT_EQ(other.state_hash(), world.state_hash());
   EXPECT_TRUE(std::ranges::equal(other.positions().y, world.positions().y));
+}
+
+TEST_F(FineBody, IsUpToDateAfterEachSubstep) {
+  Scene late = scene(400, 2);
+  for (BodySource& body : late.bodies) body.appear = 1;
+  World world(late, {.integrator = {.key = "semi-implicit-euler", .substeps = 4}});
+  int looks = 0;
+  world.step();
+  float before = INFINITY;
+  world.step([&] {
+    ++looks;
+    ASSERT_EQ(world.positions().y.size(), world.bodies().vertex_count());
+    EXPECT_LT(world.positions().y[0], before);
+    before = world.positions().y[0];
+  });
+  EXPECT_EQ(looks, 4);
 }
 
 TEST_F(FineBody, JoinsBodiesThatShowTheirOwnMesh) {

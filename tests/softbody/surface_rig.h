@@ -31,8 +31,8 @@ class Judge {
   }
   /// What overlaps now.
   collide::oracle::SurfaceFigures look() {
-    return collide::oracle::figures_of(world_.positions(),
-                                       collide::oracle::find_overlaps(world_.positions(), surfaces_, workers_));
+    const collide::Frame at = world_.simulated().positions;
+    return collide::oracle::figures_of(at, collide::oracle::find_overlaps(at, surfaces_, workers_));
   }
   void expect_clean(const std::string& when) {
     const collide::oracle::SurfaceFigures f = look();

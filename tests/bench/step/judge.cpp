@@ -64,7 +64,7 @@ void Judge::not_finite(double seconds) {
 
 void Judge::look_inside(const softbody::World& world) {
   const collide::oracle::Overlaps overlaps = oracle_.overlaps(world);
-  const collide::oracle::SurfaceFigures found = collide::oracle::figures_of(world.positions(), overlaps);
+  const collide::oracle::SurfaceFigures found = collide::oracle::figures_of(world.simulated().positions, overlaps);
   figures_.inside = std::max(figures_.inside, found.deepest / radius_);
   figures_.vertices_inside = std::max(figures_.vertices_inside, found.penetrating_vertices);
 }
