@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace collide::exact {
 
@@ -88,7 +89,7 @@ void PatchSearch::number_patches() {
     Aabb rest{glm::vec3(infinity), glm::vec3(-infinity)};
     for (Index slot = slots.begin; slot < slots.end; ++slot) {
       const glm::vec3 p(patches_.rest_x[slot], patches_.rest_y[slot], patches_.rest_z[slot]);
-      const bool known = p == p;  // no coordinate is NaN
+      const bool known = !glm::any(glm::isnan(p));
       rest = joint(rest, known ? Aabb{p, p} : Aabb{glm::vec3(-infinity), glm::vec3(infinity)});
     }
     put(patches_.rest_lo, patch, rest.lo);
