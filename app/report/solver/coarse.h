@@ -11,7 +11,7 @@ struct CoarseRun {
   double distance;  // R, between the two surfaces at rest, see softbody::coarsen(); 0: the mesh itself is simulated
   double middle;    // R: the most that its middle is away from that of the finest run
   double shape;     // R, the same of its vertices about the middle, RMS
-  double cost;      // processor time of the solver, in that of the finest run
+  double cost;      // time of the solver, in that of the finest run
 };
 
 struct CoarseResults {
