@@ -148,8 +148,8 @@ void flip_edges(Mesh& mesh) {
     for (const auto& [edge, both] : faces) {
       if (both.size() != 2 || flipped[both[0]] || flipped[both[1]]) continue;
       Triangle &left = mesh.triangles[both[0]], &right = mesh.triangles[both[1]];
-      while (edge != ordered(left[0], left[1])) std::ranges::rotate(left, left.begin() + 1);
-      while (edge != ordered(right[0], right[1])) std::ranges::rotate(right, right.begin() + 1);
+      while (edge != ordered(left[0], left[1])) std::rotate(left.begin(), left.begin() + 1, left.end());
+      while (edge != ordered(right[0], right[1])) std::rotate(right.begin(), right.begin() + 1, right.end());
       const auto [a, b, c] = left;
       const Index d = right[2];
       const Edge across = ordered(c, d);
