@@ -81,13 +81,19 @@ std::vector<Index> parts_of(const Mesh& mesh) {
   return part;
 }
 
+/// Returns the triangles at each edge; ascending.
+std::map<Edge, std::vector<Index>> faces_at_edges(const std::vector<Triangle>& triangles) {
+  std::map<Edge, std::vector<Index>> faces;
+  for (Index f = 0; f < triangles.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k) faces[ordered(triangles[f][k], triangles[f][(k + 1) % 3])].push_back(f);
+  return faces;
+}
+
 /// Returns the parts that have edges with one triangle only.
 std::set<Index> open_parts(const Mesh& mesh, const std::vector<Index>& part) {
-  std::map<Edge, int> faces;
-  for (const auto& [a, b, c] : mesh.triangles) ++faces[ordered(a, b)], ++faces[ordered(b, c)], ++faces[ordered(c, a)];
   std::set<Index> open;
-  for (const auto& [edge, number] : faces)
-    if (number == 1) open.insert(part[edge[0]]);
+  for (const auto& [edge, faces] : faces_at_edges(mesh.triangles))
+    if (faces.size() == 1) open.insert(part[edge[0]]);
   return open;
 }
 
@@ -100,9 +106,7 @@ glm::vec3 normal_of(std::span<const glm::vec3> at, const Triangle& t) {
 /// Removes blisters: a few triangles that hang together and are joined to many others along edges of more than two
 /// triangles only. Edge collapses leave them, mostly as two triangles with the same corners.
 void cut_off_blisters(std::vector<Triangle>& triangles) {
-  std::map<Edge, std::vector<Index>> faces;
-  for (Index f = 0; f < triangles.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k) faces[ordered(triangles[f][k], triangles[f][(k + 1) % 3])].push_back(f);
+  const std::map<Edge, std::vector<Index>> faces = faces_at_edges(triangles);
   Sets joined(triangles.size());
   for (const auto& [edge, at] : faces)
     if (at.size() == 2) joined.unite(at[0], at[1]);
@@ -139,10 +143,7 @@ void flip_edges(Mesh& mesh) {
   const auto slimness = [&](const Triangle& t) { return cosine_of_smallest_angle(at[t[0]], at[t[1]], at[t[2]]); };
   for (int pass = 0, flips = 1; pass < max_passes && flips > 0; ++pass) {
     flips = 0;
-    std::map<Edge, std::vector<Index>> faces;
-    for (Index f = 0; f < mesh.triangles.size(); ++f)
-      for (std::size_t k = 0; k < 3; ++k)
-        faces[ordered(mesh.triangles[f][k], mesh.triangles[f][(k + 1) % 3])].push_back(f);
+    const std::map<Edge, std::vector<Index>> faces = faces_at_edges(mesh.triangles);
     std::vector<char> flipped(mesh.triangles.size(), false);
     std::set<Edge> made;
     for (const auto& [edge, both] : faces) {
