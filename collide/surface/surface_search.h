@@ -26,10 +26,12 @@
 // features come closer by at most t times the largest |s_i - s_j| of their corners, and by the slack of each; the
 // search tests the pairs that are near each other in the shape of the body: see self_neighbours.h.
 
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "collide/core/workers.h"
+#include "collide/surface/pair_sort.h"
 #include "collide/surface/self_neighbours.h"
 #include "collide/surface/swept_body.h"
 
@@ -103,9 +105,9 @@ class SurfaceSearch {
   /// Returns the last prediction of a body, and its largest deviation in any check_valid() since.
   const SweptBody& body(Index body) const { return swept_[body]; }
 
-  /// Returns an upper bound (m/s) of the relative speed of any vertices of the two bodies, as predicted; of a body and
+  /// Returns an upper bound (m/s) of the relative speed of any vertices of two bodies, as predicted; of a body and
   /// itself, without its rigid motion.
-  float max_relative_speed(const SurfacePair& pair) const;
+  float max_relative_speed(Index a, Index b) const;
 
  private:
   struct Candidates {
@@ -113,35 +115,36 @@ class SurfaceSearch {
     std::vector<FeaturePair> features;
   };
   struct alignas(64) Thread : SelfNeighbours::Scratch {
-    BoxList vertices_a, faces_a, edges_a, vertices_b, faces_b, edges_b;
+    BoxList boxes_a, boxes_b;
     std::vector<float> ways;  // see SelfNeighbours::cover()
-    Candidates candidates;
+    PairSort<ItemPair> sort;
+    std::vector<FeaturePair> features;
     std::size_t work = 0;
   };
-  /// Two bodies, or a body and itself. The latter is searched in two parts, which two threads may share: its vertices
-  /// and faces, and its edges.
-  struct NearBodies {
+  /// One kind of candidates of two bodies, or of a body and itself (a == b, without face_vertex), as in SurfacePair.
+  /// Threads take tasks as they come; found candidates are put in the order of the tasks.
+  struct Task {
+    enum class Kind : std::uint8_t { vertex_face, face_vertex, edge_edge };
     Index a, b;
-    bool edges;
-    auto operator<=>(const NearBodies&) const = default;
+    Kind kind;
+    const std::vector<FeaturePair>* in = nullptr;  // where its candidates are
+    std::size_t begin = 0, end = 0;
+    auto key() const { return std::tuple(a, b, kind); }
   };
   void search(const Motion& motion, float min_seconds, Workers& workers);
   void cover_itself(Thread& own, Index body, float min_seconds);
   void check_feature_limit(std::size_t features) const;
-  void find_near_bodies();
-  void find_candidates(Thread& own, const NearBodies& bodies);
-  void find_between(Thread& own, SurfacePair& pair) const;
-  void find_within(Thread& own, SurfacePair& pair, bool edges);
-  void copy_previous(Thread& own, SurfacePair& pair, bool edges) const;
-  void merge_threads();
-  void add_vertex_faces(Thread& own, const SurfacePair& pair, Index vertex_body, Index face_body) const;
-  void add_edges(Thread& own, const SurfacePair& pair) const;
-  template <std::size_t n, std::size_t m>
-  float max_squared_speed(Index a, const std::array<Index, n>& one, Index b, const std::array<Index, m>& two) const;
-  float reach(const SurfacePair& pair, float speed) const;
-  template <class Speed>
-  void add_reachable(Thread& own, const SurfacePair& pair, const Speed& squared_speed) const;
-  glm::vec3 at(Index body, Index v) const { return swept_[body].at(v, time_); }
+  void find_tasks();
+  void find_candidates(Thread& own, Task& task);
+  void find_between(Thread& own, const Task& task) const;
+  void find_within(Thread& own, const Task& task);
+  void reuse_previous(Task& task) const;
+  void merge_tasks();
+  float reach(Index a, Index b, float speed) const;
+  void add_reachable(Thread& own, const Task& task) const;
+  template <std::size_t ones, class Corners, class FindClosest>
+  void add_reachable(Thread& own, Index a, Index b, Index end_a, Index end_b, const Corners& corners,
+                     const FindClosest& find_closest) const;
 
   std::span<const SurfaceBody> bodies_;
   SurfaceQuery query_;
@@ -154,7 +157,7 @@ class SurfaceSearch {
   std::vector<char> needs_boxes_;       // it is in a near pair of which a body was predicted again
   std::vector<char> has_boxes_;         // the boxes of its features are those of its last prediction
   std::vector<Index> order_;            // scratch of the sweep
-  std::vector<NearBodies> near_bodies_;
+  std::vector<Task> tasks_;
   std::vector<Thread> threads_;
   Candidates current_, previous_;
   std::size_t work_ = 0;

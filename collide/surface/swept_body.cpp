@@ -91,9 +91,11 @@ void SweptBody::fit_rigid_motion() {
 
 void SweptBody::bound_velocities() {
   float spread2 = 0, deformation2 = 0;
+  deforming_points_.clear();
   for (Index v = 0; v < count_; ++v) {
     const glm::vec3 relative = velocity(v) - mean_velocity_,
                     deformation = relative - glm::cross(spin_, at(v) - centre_);
+    deforming_points_.push_back({at(v), deformation});
     spread2 = std::max(spread2, glm::dot(relative, relative));
     deformation2 = std::max(deformation2, glm::dot(deformation, deformation));
   }
@@ -133,6 +135,11 @@ void SweptBody::build_feature_boxes() {
   vertex_boxes_.end();
   join(vertex_boxes_, surface().triangles(), face_boxes_);
   join(vertex_boxes_, surface().edges(), edge_boxes_);
+}
+
+void SweptBody::place_points(float time) {
+  points_.clear();
+  for (Index v = 0; v < count_; ++v) points_.push_back({at(v, time), velocity(v)});
 }
 
 /// Tests that every face turns its outer side away from the centre: det(a, b, c) > 0 for its corners as seen from the

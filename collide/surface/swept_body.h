@@ -33,6 +33,11 @@ struct SurfaceBody {
   float horizon = std::numeric_limits<float>::infinity();
 };
 
+struct MovingPoint {
+  glm::vec3 at;        // m
+  glm::vec3 velocity;  // m/s
+};
+
 /// Predicts that each vertex moves on a straight path, x + v t, from which it deviates by at most the slack. All times
 /// are in seconds since one common instant.
 class SweptBody {
@@ -57,22 +62,23 @@ class SweptBody {
   const Aabb& world_box() const { return world_box_; }
   /// Computes the swept boxes of all features in the body's frame, grown by the skin. Precondition: live().
   void build_feature_boxes();
+  /// Computes where the vertices are at `time`.
+  void place_points(float time);
   const BoxList& vertex_boxes() const { return vertex_boxes_; }
   const BoxList& face_boxes() const { return face_boxes_; }
   const BoxList& edge_boxes() const { return edge_boxes_; }
+  const std::vector<MovingPoint>& points() const { return points_; }
   /// Returns how far (m) the mean velocity has carried the body from begin() to `time`.
   glm::vec3 drift(float time) const { return (time - begin_) * mean_velocity_; }
   glm::vec3 mean_velocity() const { return mean_velocity_; }
   float velocity_spread() const { return velocity_spread_; }              // m/s: largest |v - mean velocity|
-  float max_deformation_speed() const { return max_deformation_speed_; }  // m/s: largest |deformation_velocity()|
+  float max_deformation_speed() const { return max_deformation_speed_; }  // m/s: largest of deforming_points()
   VertexRun run() const { return {start_[0].data(), start_[1].data(), start_[2].data(), count_}; }
   glm::vec3 at(Index v) const { return {start_[0][v], start_[1][v], start_[2][v]}; }
   glm::vec3 velocity(Index v) const { return {velocity_[0][v], velocity_[1][v], velocity_[2][v]}; }
   glm::vec3 at(Index v, float time) const { return at(v) + (time - begin_) * velocity(v); }
-  /// Returns the velocity of a vertex (m/s) minus the rigid motion of the body.
-  glm::vec3 deformation_velocity(Index v) const {
-    return velocity(v) - mean_velocity_ - glm::cross(spin_, at(v) - centre_);
-  }
+  /// Return the vertices at begin(), with their velocities minus the rigid motion of the body.
+  const std::vector<MovingPoint>& deforming_points() const { return deforming_points_; }
 
   /// Returns true if the surface is closed and star-shaped around its centre, and stays so until end(): then the body
   /// cannot touch itself. Precondition: live().
@@ -106,6 +112,7 @@ class SweptBody {
   float holds_until_ = std::numeric_limits<float>::infinity();
   Aabb local_box_{}, world_box_{};
   BoxList vertex_boxes_, face_boxes_, edge_boxes_;
+  std::vector<MovingPoint> points_, deforming_points_;
 };
 
 /// Compute the boxes of faces or edges from the boxes of their vertices.

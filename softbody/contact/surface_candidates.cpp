@@ -142,7 +142,7 @@ void SurfaceCandidates::predict_speeds() {
   std::vector<float> fastest(bodies_.size(), 0);
   rate_ = 0;
   for (const Pair& p : pairs_) {
-    const float speed = search_.max_relative_speed(p.range),
+    const float speed = search_.max_relative_speed(p.range.a, p.range.b),
                 edge = std::min(traits_[p.range.a].mean_edge, traits_[p.range.b].mean_edge);
     for (const Index body : {p.range.a, p.range.b}) fastest[body] = std::max(fastest[body], speed);
     rate_ = std::max(rate_, speed / (step_share * edge));
