@@ -1,12 +1,9 @@
 #include "collide/core/workers.h"
 
 #include <atomic>
-#include <barrier>
-#include <condition_variable>
 #include <cstdint>
 #include <exception>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -17,63 +14,71 @@ namespace collide {
 namespace {
 /// Thrown by barrier() where another thread's task has failed; never leaves run().
 struct Cancelled {};
+
+/// Waits while `value` is `old`. To be woken from sleep takes many times as long as most waits here last.
+void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
+  constexpr int looks = 200;  // about as long as it takes to be woken
+  for (int i = 0; i < looks; ++i) {
+    if (value != old) return;
+    std::this_thread::yield();
+  }
+  value.wait(old);
+}
 }  // namespace
 
 struct Workers::Shared {
-  std::mutex mutex;
-  std::condition_variable wake, done;
-  const std::function<void(int)>* task = nullptr;
-  std::uint64_t run_number = 0;  // a change wakes the threads
-  int busy = 0;                  // threads other than the caller that have not finished the run
-  bool stopping = false;
-  std::exception_ptr error;  // the first one of the run
+  const std::function<void(int)>* task = nullptr;  // none: the threads are to end
+  std::atomic<std::uint32_t> run_number = 0;       // a change wakes the threads
+  std::atomic<std::uint32_t> busy = 0;             // threads other than the caller that have not finished the run
+  std::atomic<std::uint32_t> barriers = 0;         // that all have reached, or left because a task has failed
+  std::atomic<std::uint32_t> arrived = 0;          // at the next barrier
   std::atomic<bool> failed = false;
-  std::optional<std::barrier<>> barrier;
+  std::mutex mutex;
+  std::exception_ptr error;           // the first one of the run
   std::vector<std::jthread> threads;  // last, so that they are joined before the rest goes
 
   void perform(int thread) {
     try {
       (*task)(thread);
     } catch (const Cancelled&) {
-      barrier->arrive_and_drop();
     } catch (...) {
       {
         const std::lock_guard lock(mutex);
         if (!error) error = std::current_exception();
       }
       failed = true;
-      barrier->arrive_and_drop();  // the others must not wait for this thread
+      pass_barrier();  // the others must not wait for this thread
     }
   }
 
+  void pass_barrier() {
+    ++barriers;
+    barriers.notify_all();
+  }
+
+  void begin_run(const std::function<void(int)>* next) {
+    task = next;
+    ++run_number;
+    run_number.notify_all();
+  }
+
   void serve(int thread) {
-    std::uint64_t seen = 0;
-    for (;;) {
-      {
-        std::unique_lock lock(mutex);
-        wake.wait(lock, [&] { return stopping || run_number != seen; });
-        if (stopping) return;
-        seen = run_number;
-      }
+    for (std::uint32_t seen = 0;; ++seen) {
+      wait_while(run_number, seen);
+      if (!task) return;
       perform(thread);
-      const std::lock_guard lock(mutex);
-      if (--busy == 0) done.notify_one();
+      if (--busy == 0) busy.notify_one();
     }
   }
 
   void stop() {
-    {
-      const std::lock_guard lock(mutex);
-      stopping = true;
-    }
-    wake.notify_all();
+    begin_run(nullptr);
     threads.clear();
   }
 };
 
 Workers::Workers(int threads) : threads_(threads), shared_(std::make_unique<Shared>()) {
   if (threads < 1) throw std::invalid_argument("Workers: at least one thread");
-  shared_->barrier.emplace(threads);
   try {
     for (int thread = 1; thread < threads; ++thread) {
       shared_->threads.emplace_back([shared = shared_.get(), thread] { shared->serve(thread); });
@@ -88,26 +93,28 @@ Workers::~Workers() { shared_->stop(); }
 
 void Workers::run(const std::function<void(int thread)>& task) {
   Shared& shared = *shared_;
-  {
-    const std::lock_guard lock(shared.mutex);
-    shared.task = &task;
-    shared.busy = threads_ - 1;
-    ++shared.run_number;
-  }
-  shared.wake.notify_all();
+  shared.busy = static_cast<std::uint32_t>(threads_ - 1);
+  shared.begin_run(&task);
   shared.perform(0);
-  std::unique_lock lock(shared.mutex);
-  shared.done.wait(lock, [&] { return shared.busy == 0; });
+  for (std::uint32_t busy; (busy = shared.busy) != 0;) wait_while(shared.busy, busy);
   if (!shared.failed) return;
 
   shared.failed = false;
-  shared.barrier.emplace(threads_);  // the failed threads have left the old one for good
+  shared.arrived = 0;
   std::rethrow_exception(std::exchange(shared.error, nullptr));
 }
 
 void Workers::barrier() {
-  shared_->barrier->arrive_and_wait();
-  if (shared_->failed) throw Cancelled();
+  Shared& shared = *shared_;
+  const std::uint32_t before = shared.barriers;  // read first: a thread that fails from here on changes it
+  if (shared.failed) throw Cancelled();
+  if (++shared.arrived == static_cast<std::uint32_t>(threads_)) {
+    shared.arrived = 0;
+    shared.pass_barrier();
+  } else {
+    wait_while(shared.barriers, before);
+  }
+  if (shared.failed) throw Cancelled();
 }
 
 }  // namespace collide
