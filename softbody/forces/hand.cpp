@@ -54,14 +54,14 @@ glm::dvec3 Hand::force(const HeldBody& body, double h, const glm::dvec3& velocit
   return pull(p.stiffness, p.damping, point_mass, h, grab_->target - point(body), velocity);
 }
 
-void Hand::note_point(State& state) { noted_point_ = point(held_body(state, grab_->body)); }
+void Hand::note_point(State& state) {
+  noted_point_ = point(held_body(state, grab_->body));
+  force_ = glm::dvec3(0.0);
+}
 
-/// By the force that pull() has at the end of a step.
-void Hand::book_work(State& state, double h) const {
-  const HeldBody body = held_body(state, grab_->body);
-  const Pull p = pull_of(body.model);
-  const glm::dvec3 now = point(body), moved = now - noted_point_;
-  state.ledger.book(WorkBy::hand, glm::dot(p.stiffness * (grab_->target - now) - p.damping / h * moved, moved));
+/// Contacts act after the hand: the velocity that its force was found for may not be the one that the point moves with.
+void Hand::book_work(State& state) const {
+  state.ledger.book(WorkBy::hand, glm::dot(force_, point(held_body(state, grab_->body)) - noted_point_));
 }
 
 void Hand::add_force(const HeldBody& body, double h, const glm::dvec3& gravity) const {
@@ -72,15 +72,16 @@ void Hand::add_force(const HeldBody& body, double h, const glm::dvec3& gravity) 
     const std::size_t corner = grab_->corners[std::size_t(i)];
     velocity += grab_->weights[i] * (body.v(corner) + h_over_mass * body.f(corner));
   }
-  const glm::dvec3 pulled = force(body, h, velocity);
-  for (int i = 0; i < 3; ++i) body.f.add(grab_->corners[std::size_t(i)], grab_->weights[i] * pulled);
+  force_ = force(body, h, velocity);
+  for (int i = 0; i < 3; ++i) body.f.add(grab_->corners[std::size_t(i)], grab_->weights[i] * force_);
 }
 
 void Hand::add_impulse(const HeldBody& body, double h) const {
   assert(grab_ && h > 0);
   glm::dvec3 velocity(0.0);
   for (int i = 0; i < 3; ++i) velocity += grab_->weights[i] * body.v(grab_->corners[std::size_t(i)]);
-  const glm::dvec3 change = h / body.model.particle_mass * force(body, h, velocity);
+  force_ = force(body, h, velocity);
+  const glm::dvec3 change = h / body.model.particle_mass * force_;
   for (int i = 0; i < 3; ++i) body.v.add(grab_->corners[std::size_t(i)], grab_->weights[i] * change);
 }
 

@@ -29,8 +29,8 @@ class Hand {
 
   /// Notes where the point is that the hand holds. Call it before a substep ...
   void note_point(State& state);
-  /// ... and after it, of h seconds: books the work that its force did.
-  void book_work(State& state, double h) const;
+  /// ... and after it: books the work that its force did.
+  void book_work(State& state) const;
 
   /// Takes a body in another's place; none: lets go.
   void take(const std::optional<Grab>& grab);
@@ -59,7 +59,8 @@ class Hand {
   glm::dvec3 force(const HeldBody& body, double h, const glm::dvec3& velocity) const;
 
   std::optional<Grab> grab_;
-  glm::dvec3 noted_point_{0.0};  // m
+  glm::dvec3 noted_point_{0.0};    // m
+  mutable glm::dvec3 force_{0.0};  // N, the last one since; only the thread that integrates the held body sets it
 };
 
 }  // namespace softbody

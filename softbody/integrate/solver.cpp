@@ -244,7 +244,7 @@ void Solver::run(int count, float h, bool first, const std::function<void()>& af
     const bool holds = std::ranges::any_of(worker.batches(), holds_body);
     if (holds) hand_.note_point(state_);
     integrator.advance(motion_, worker, {h, first && s == 0});
-    if (holds) hand_.book_work(state_, double(h));
+    if (holds) hand_.book_work(state_);
   };
   share_batches(bool(after_substep));
   std::atomic<std::size_t> next = 0;
