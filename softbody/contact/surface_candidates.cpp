@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include <glm/common.hpp>
 
@@ -20,6 +19,7 @@ using collide::surface::SurfaceSearch;
 
 constexpr float step_share = 0.15f;  // of the shorter mean edge: how far two bodies may pass each other in a substep
 constexpr float patience = 2;        // a motion is foreseen for so many times as long as the last one has lasted
+constexpr float unknown = -1;
 constexpr float separation_depth = 0.25f;  // of the shorter mean edge: deeper bodies are parted as a whole
 
 /// m: how far a body may stray, if it strayed so far before.
@@ -106,10 +106,8 @@ void SurfaceCandidates::take_candidates(const collide::Frame& now) {
   pairs_.clear();
   for (const collide::surface::SurfacePair& range : search_.pairs()) pairs_.push_back(make_pair(range));
   cached_.assign(search_.features().size(), {});
-  max_gap_.assign(search_.features().size(), std::numeric_limits<float>::max());
+  rest_gap_.assign(search_.features().size(), unknown);
   carry_over();
-  for (const Pair& p : pairs_)
-    if (p.range.a == p.range.b) limit_gaps_at_rest(p);
   interior_.clear();
   Shells shells;
   for (Pair& p : pairs_)
@@ -119,21 +117,25 @@ void SurfaceCandidates::take_candidates(const collide::Frame& now) {
 }
 
 /// Within a body, what is closer at rest than the distance that surfaces keep is not pushed apart.
-void SurfaceCandidates::limit_gaps_at_rest(const Pair& pair) {
+float SurfaceCandidates::max_gap(const Pair& pair, std::uint32_t feature) {
+  if (pair.range.a != pair.range.b) return pair.distance;
   constexpr float share = 0.9f;
-  const Surface& surface = *traits_[pair.range.a].surface;
-  const std::vector<glm::vec3>& rest = *bodies_[pair.range.a].rest;
-  const auto max_gap = [&](const Closest& c) { return std::min(pair.distance, share * glm::length(c.separation)); };
-  for (std::uint32_t i = pair.range.vertex_face; i < pair.range.end; ++i) {
-    const FeaturePair& f = search_.features()[i];
-    if (i < pair.range.edge_edge) {
-      const auto& [a, b, c] = surface.triangles()[f.b];
-      max_gap_[i] = max_gap(collide::surface::closest_vertex_face(rest[f.a], rest[a], rest[b], rest[c]));
-    } else {
+  float& gap = rest_gap_[feature];
+  if (gap == unknown) {
+    const Surface& surface = *traits_[pair.range.a].surface;
+    const std::vector<glm::vec3>& rest = *bodies_[pair.range.a].rest;
+    const FeaturePair& f = search_.features()[feature];
+    const auto closest = [&] {
+      if (feature < pair.range.edge_edge) {
+        const auto& [a, b, c] = surface.triangles()[f.b];
+        return collide::surface::closest_vertex_face(rest[f.a], rest[a], rest[b], rest[c]);
+      }
       const collide::surface::Edge &one = surface.edges()[f.a], &two = surface.edges()[f.b];
-      max_gap_[i] = max_gap(collide::surface::closest_edges(rest[one[0]], rest[one[1]], rest[two[0]], rest[two[1]]));
-    }
+      return collide::surface::closest_edges(rest[one[0]], rest[one[1]], rest[two[0]], rest[two[1]]);
+    };
+    gap = share * glm::length(closest().separation);
   }
+  return std::min(pair.distance, gap);
 }
 
 /// A pair may be hit through its neighbours within one substep: it is looked at as far as either body's fastest pair

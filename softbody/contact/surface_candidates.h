@@ -104,8 +104,9 @@ class SurfaceCandidates {
   /// Returns the places of the pairs in pairs(), so that those of one colour share no body.
   const std::vector<std::vector<std::uint32_t>>& colours() const { return colours_; }
   CachedContact& cached(std::uint32_t feature) { return cached_[feature]; }
-  /// Returns how far (m) the two features of a candidate are kept from each other at most.
-  float max_gap(std::uint32_t feature) const { return max_gap_[feature]; }
+  /// Returns how far (m) the two features of a candidate of the pair are kept from each other at most. Each thread may
+  /// ask for pairs of its own.
+  float max_gap(const Pair& pair, std::uint32_t feature);
   /// Returns the vertices of a pair that lie inside the other body.
   std::span<const InteriorVertex> interior(const Pair& pair) const {
     return std::span(interior_).subspan(pair.interior, pair.interior_end - pair.interior);
@@ -128,7 +129,6 @@ class SurfaceCandidates {
   void carry_over();
   Pair make_pair(const collide::surface::SurfacePair& range) const;
   void find_interior_vertices(Pair& pair, const collide::Frame& now, Shells& shells);
-  void limit_gaps_at_rest(const Pair& pair);
   void predict_speeds();
   void colour();
 
@@ -137,7 +137,7 @@ class SurfaceCandidates {
   collide::surface::SurfaceSearch search_;
   std::vector<Pair> pairs_, pairs_before_;             // before: the last find() or update()
   std::vector<CachedContact> cached_, cached_before_;  // of each candidate
-  std::vector<float> max_gap_;                         // m, of each candidate
+  std::vector<float> rest_gap_;                        // m, of each candidate within a body, where it is known
   std::vector<InteriorVertex> interior_;
   std::vector<std::vector<std::uint32_t>> colours_;
   float rate_ = 0;

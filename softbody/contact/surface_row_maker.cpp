@@ -238,8 +238,8 @@ void SurfaceRowMaker::add_row(const Pair& pair, const ContactRow& corners, const
   for (std::size_t k = 0; k < 4; ++k) mobility += corners.weight[k] * corners.mobility[k];
   if (mobility <= 0) return;
   const float speed = glm::dot(relative_velocity(corners, step_.v), normal);
-  const float max_gap = corners.feature == uncached ? pair.distance : candidates_.max_gap(corners.feature);
-  const float distance = std::min(pair.distance, max_gap), gap = apart - distance;
+  const float distance = corners.feature == uncached ? pair.distance : candidates_.max_gap(pair, corners.feature);
+  const float gap = apart - distance;
   ContactRow& row = rows_.emplace_back(corners);
   row.normal = normal;
   row.mass = 1 / mobility;
