@@ -106,13 +106,25 @@ Json integrator_json(const softbody::World& world) {
 
 std::string hex(std::uint64_t value) { return fmt::format("{:016x}", value); }
 
+/// Returns what is likely to be wrong with the detector's settings, or with the contact of vertices.
+std::vector<std::string> world_warnings(const softbody::World& world) {
+  std::vector<std::string> list = warnings(world.method(), world.collision());
+  const double safe = softbody::safe_vertex_tolerance(world), tolerance = double{world.collision().tolerance};
+  if (tolerance < safe)
+    list.push_back(
+        fmt::format("vertices can slip through faces: the tolerance is {:.2g} m, below {:.2g} m; see "
+                    "--tolerance and --contact-surface",
+                    tolerance, safe));
+  return list;
+}
+
 /// Returns the document of a world after its last frame; without `frames`, its other fields.
 Json document_json(const softbody::World& world, std::optional<Json> frames) {
   Json document{{"scene", world.scene().key},
                 {"method", world.method().key},
                 {"integrator", integrator_json(world)},
                 {"plan", plan_json(world)},
-                {"warnings", warnings(world.method(), world.collision())}};
+                {"warnings", world_warnings(world)}};
   if (frames) document["frames"] = std::move(*frames);
   document["state_hash"] = hex(world.state_hash());
   return document;
@@ -141,8 +153,7 @@ void print_table(const softbody::World& world, const std::vector<FrameRow>& rows
   std::cout << fmt::format("{}, {}, bodies: {}, vertices: {}; contacts between bodies, inside one, with solids\n",
                            world.scene().name, world.method().name, world.bodies().count(),
                            world.bodies().vertex_count());
-  for (const std::string& warning : warnings(world.method(), world.collision()))
-    std::cout << "note: " << warning << '\n';
+  for (const std::string& warning : world_warnings(world)) std::cout << "note: " << warning << '\n';
   std::cout
       << "  frame  detect ms  solve ms  between  inside   solid     energy J   V min   V max    deepest m  speed m/s\n";
   for (const FrameRow& r : rows) {

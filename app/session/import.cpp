@@ -28,8 +28,7 @@ using softbody::Material;
 namespace {
 
 constexpr std::size_t many_particles = 3000;
-// In tolerances. A vertex above the centre of a regular face has a distance of edge / sqrt(3) to the corners.
-constexpr double finest_edge = 0.2, coarsest_edge = 1.732;
+constexpr double finest_edge = 0.2;  // in tolerances
 
 /// Returns the lowest height from `at` upwards at which a ball of this radius is clear of bodies and solids.
 double clear_height(const softbody::World& world, glm::dvec3 at, double radius) {
@@ -52,10 +51,10 @@ std::vector<std::string> lines_about(const FileReader::Mesh& read, const softbod
   const std::string changed = softbody::remarks(f);
   if (f.particles > many_particles) lines.push_back("so many particles that the world may run slower than real time");
   if (world.scene().contact_surface == softbody::ContactSurface::vertices) {
-    const double edge = read.model->mean_edge, tolerance = static_cast<double>(world.collision().tolerance);
-    if (edge < finest_edge * tolerance)
+    const double tolerance = static_cast<double>(world.collision().tolerance);
+    if (read.model->mean_edge < finest_edge * tolerance)
       lines.push_back("much finer than the tolerance: vertex-vertex contact may let others sink in, F is for surfaces");
-    if (edge > coarsest_edge * tolerance)
+    if (read.model->covering > tolerance)
       lines.push_back("faces wider than the tolerance: vertices may slip in between vertices, F is for surfaces");
   }
   lines.push_back(changed.empty() ? "closed, in one piece, taken as it is" : changed);

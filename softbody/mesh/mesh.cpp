@@ -1,6 +1,7 @@
 #include "softbody/mesh/mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -96,6 +97,23 @@ double bounding_radius(const Mesh& mesh) {
   for (const auto& v : mesh.vertices) mean += v / double(mesh.vertices.size());
   double radius = 0;
   for (const auto& v : mesh.vertices) radius = std::max(radius, glm::distance(v, mean));
+  return radius;
+}
+
+/// The farthest point is the circumcentre, or lies on the longest side of an obtuse face, as far from the end of the
+/// second longest side as from the opposite corner.
+double covering_radius(const Mesh& mesh) {
+  double radius = 0;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const glm::dvec3 &x = mesh.vertices[i], &y = mesh.vertices[j], &z = mesh.vertices[k];
+    std::array sides{glm::distance(x, y), glm::distance(y, z), glm::distance(z, x)};
+    std::sort(sides.begin(), sides.end());
+    const auto [a, b, c] = sides;
+    if (c == 0) continue;
+    const bool obtuse = c * c >= a * a + b * b;
+    radius = std::max(
+        radius, obtuse ? b * b * c / (b * b + c * c - a * a) : a * b * c / (2 * glm::length(glm::cross(y - x, z - x))));
+  }
   return radius;
 }
 

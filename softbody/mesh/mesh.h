@@ -48,4 +48,7 @@ double volume(const std::vector<glm::dvec3>& vertices, const std::vector<Triangl
 /// Returns the largest distance of a vertex from the mean of all vertices, in m.
 double bounding_radius(const Mesh& mesh);
 
+/// Returns how far (m) a point of a face is from the nearest corner of the face, at most.
+double covering_radius(const Mesh& mesh);
+
 }  // namespace softbody

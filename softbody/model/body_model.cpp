@@ -27,6 +27,7 @@ BodyMesh body_mesh(Mesh mesh) {
   const std::vector<glm::vec3> rest(mesh.vertices.begin(), mesh.vertices.end());
   const Index count = static_cast<Index>(rest.size());
   made.radius = bounding_radius(mesh);
+  made.covering = covering_radius(mesh);
   made.surface = std::make_shared<collide::surface::Surface>(count, mesh.triangles);
   for (const auto& [i, j] : made.surface->edges()) made.mean_edge += glm::distance(rest[i], rest[j]);
   made.mean_edge /= double(std::max<std::size_t>(1, made.surface->edges().size()));

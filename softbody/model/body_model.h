@@ -34,6 +34,7 @@ struct BodyMesh {
   std::shared_ptr<const collide::surface::Surface> surface;  // for surface contact and the oracle
   double mean_edge = 0;                                      // m, at rest
   double radius = 0;                                         // m, bounding radius of the mesh
+  double covering = 0;                                       // m, covering radius of the mesh
 };
 
 /// A fine mesh that rides on the mesh of a body model.

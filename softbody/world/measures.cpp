@@ -141,6 +141,13 @@ Measures total(std::span<const BodyMeasures> bodies) {
   return m;
 }
 
+double safe_vertex_tolerance(const World& world) {
+  if (world.scene().contact_surface != ContactSurface::vertices || !world.plan().has(Stage::integrate)) return 0;
+  double widest = 0;
+  for (BodyId body = 0; body < world.bodies().count(); ++body) widest = std::max(widest, world.model(body).covering);
+  return widest;
+}
+
 std::vector<SolidContactPoint> solid_contacts(const World& world) {
   constexpr double rounding = 1e-4;  // m: where a particle rests on a solid it keeps its thickness only up to rounding
   const collide::Frame at = world.simulated().positions;

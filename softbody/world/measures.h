@@ -41,6 +41,11 @@ struct SolidDepth {
 /// Returns the largest depth of a point in one of the scene's solids; -infinity if the scene has none.
 SolidDepth solid_depth(const Scene& scene, const glm::dvec3& point);
 
+/// Returns the tolerance (m) below which contact of vertices leaves room for a vertex to slip through a face: the
+/// largest covering radius of a simulated mesh. 0 where nothing of the kind can happen: surfaces keep the bodies apart,
+/// or the motion is recorded.
+double safe_vertex_tolerance(const World& world);
+
 struct SolidContactPoint {
   Index vertex;      // of the simulated meshes
   glm::vec3 normal;  // out of the solid

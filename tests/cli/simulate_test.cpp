@@ -294,6 +294,16 @@ TEST(Simulate, AppliesPrimesAndWarnsOfPoorOnes) {
   EXPECT_EQ(simulate({"--scene", "drop", "--frames", "1"})["warnings"], json::array());
 }
 
+TEST(Simulate, WarnsOfAToleranceThatLetsVerticesThroughFaces) {
+  const std::vector<std::string> low{"--scene", "drop", "--frames", "1", "--tolerance", "0.09"};
+  EXPECT_EQ(simulate(low)["warnings"],
+            json({"vertices can slip through faces: the tolerance is 0.09 m, below 0.094 m; see --tolerance and "
+                  "--contact-surface"}));
+  auto by_surfaces = low;
+  by_surfaces.insert(by_surfaces.end(), {"--contact-surface", "surface"});
+  EXPECT_EQ(simulate(by_surfaces)["warnings"], json::array());
+}
+
 TEST(Simulate, SaysWhichStagesActAsForcesInXpbd) {
   const std::vector<std::string> drop{"simulate", "--scene", "drop", "--frames", "1", "--integrator", "xpbd"};
   EXPECT_NE(run(drop).out.find("XPBD\n  contact-response acts as a force\nstages left out"), std::string::npos);

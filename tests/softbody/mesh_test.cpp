@@ -51,6 +51,27 @@ TEST_P(Icosphere, LiesOnItsSphereAndFacesOutward) {
   EXPECT_NEAR(bounding_radius(mesh), 0.7, 1e-12);
 }
 
+/// Against points all over each face.
+TEST(CoveringRadius, IsTheLargestDistanceFromTheNearestCorner) {
+  constexpr int cuts = 200;
+  for (const glm::dvec3 top : {glm::dvec3(0.5, 0.9, 0), glm::dvec3(0.5, 0.5, 0), glm::dvec3(0.3, 0.1, 0.1),
+                               glm::dvec3(-0.7, 0.2, 0), glm::dvec3(1.9, 0, 0), glm::dvec3(0)}) {
+    Mesh mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, top};
+    mesh.triangles = {{0, 1, 2}};
+    double farthest = 0;
+    for (int i = 0; i <= cuts; ++i)
+      for (int j = 0; i + j <= cuts; ++j) {
+        const glm::dvec3 p = double(i) / cuts * mesh.vertices[1] + double(j) / cuts * top;
+        double nearest = glm::length(p);
+        for (const glm::dvec3& corner : mesh.vertices) nearest = std::min(nearest, glm::distance(p, corner));
+        farthest = std::max(farthest, nearest);
+      }
+    EXPECT_GE(covering_radius(mesh), farthest - 1e-12) << top.x;
+    EXPECT_LE(covering_radius(mesh), farthest + 0.02) << top.x;
+  }
+}
+
 TEST_P(Icosphere, EdgesAndBendPairsAreAscendingAndUnique) {
   const Mesh mesh = icosphere(GetParam(), 1.0);
   for (const auto* pairs : {&mesh.edges, &mesh.bend_pairs}) {

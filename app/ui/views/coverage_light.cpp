@@ -1,13 +1,12 @@
 #include "app/ui/views/coverage_light.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include <fmt/core.h>
 #include <glm/common.hpp>
 
 #include "app/render/palette.h"
-#include "softbody/model/body_model.h"
+#include "softbody/world/measures.h"
 
 namespace app::ui {
 namespace {
@@ -37,13 +36,6 @@ void draw_meaning(Widgets& w, collide::Coverage coverage, bool active) {
 
 }  // namespace
 
-double safe_vertex_tolerance(const softbody::World& world) {
-  double widest = 0;
-  for (softbody::BodyId body = 0; body < world.bodies().count(); ++body)
-    widest = std::max(widest, world.model(body).mean_edge);
-  return widest / std::numbers::sqrt3;
-}
-
 SurfaceRemark surface_remark(const Session& session) {
   if (session.surfaces.on) {
     const compare::SurfaceReport& report = session.surfaces.report();
@@ -54,10 +46,8 @@ SurfaceRemark surface_remark(const Session& session) {
     if (inside == 1) return {"But 1 vertex is inside another body", true};
     return {fmt::format("But {} vertices are inside other bodies", grouped(inside)), true};
   }
-  const double safe = safe_vertex_tolerance(session.world());
-  const bool by_vertices = session.world().scene().contact_surface == softbody::ContactSurface::vertices;
-  if (!by_vertices || !session.why_no_solver().empty() || double{session.world().collision().tolerance} >= safe)
-    return {};
+  const double safe = softbody::safe_vertex_tolerance(session.world());
+  if (double{session.world().collision().tolerance} >= safe) return {};
   return {fmt::format("Tolerance below {:.2g} m: vertices can slip through faces", safe)};
 }
 

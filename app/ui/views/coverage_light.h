@@ -5,10 +5,6 @@
 
 namespace app::ui {
 
-/// Returns the tolerance (m) below which vertices in contact cannot keep a vertex from slipping through a face: the
-/// circumradius of an equilateral face with the longest mean edge of all bodies.
-double safe_vertex_tolerance(const softbody::World& world);
-
 /// What contacts of vertices do not tell of the surfaces; no text if there is nothing to tell.
 struct SurfaceRemark {
   std::string text;
