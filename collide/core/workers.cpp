@@ -15,31 +15,32 @@ namespace {
 /// Thrown by barrier() where another thread's task has failed; never leaves run().
 struct Cancelled {};
 
-/// Waits while `value` is `old`. To be woken from sleep takes many times as long as most waits here last.
+/// Waits while `value` is `old`. To be woken from sleep takes many times as long as most waits here last. But whoever
+/// looks for long takes the processor from others, and then comes last.
 void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
-  constexpr int looks = 200;  // about as long as it takes to be woken
-  for (int i = 0; i < looks; ++i) {
+  constexpr int looks = 2000;  // some microseconds
+  for (int i = 0; i < looks; ++i)
     if (value != old) return;
-    std::this_thread::yield();
-  }
   value.wait(old);
 }
 }  // namespace
 
 struct Workers::Shared {
-  const std::function<void(int)>* task = nullptr;  // none: the threads are to end
-  std::atomic<std::uint32_t> run_number = 0;       // a change wakes the threads
-  std::atomic<std::uint32_t> busy = 0;             // threads other than the caller that have not finished the run
-  std::atomic<std::uint32_t> barriers = 0;         // that all have reached, or left because a task has failed
-  std::atomic<std::uint32_t> arrived = 0;          // at the next barrier
+  std::mutex mutex;                                // of task, by_all, stopping and error
+  const std::function<void(int)>* task = nullptr;  // none: it is too late to take part
+  bool by_all = true;                              // all threads; else those that come in time
+  bool stopping = false;
+  std::exception_ptr error;                   // the first one of the run
+  std::atomic<std::uint32_t> run_number = 0;  // a change wakes the threads
+  std::atomic<std::uint32_t> at_work = 0;     // threads beside the caller's that do their part, or will if it is by all
+  std::atomic<std::uint32_t> barriers = 0;    // that all have reached, or left because a task has failed
+  std::atomic<std::uint32_t> arrived = 0;     // at the next barrier
   std::atomic<bool> failed = false;
-  std::mutex mutex;
-  std::exception_ptr error;           // the first one of the run
   std::vector<std::jthread> threads;  // last, so that they are joined before the rest goes
 
-  void perform(int thread) {
+  void perform(const std::function<void(int)>& part, int thread) {
     try {
-      (*task)(thread);
+      part(thread);
     } catch (const Cancelled&) {
     } catch (...) {
       {
@@ -56,24 +57,53 @@ struct Workers::Shared {
     barriers.notify_all();
   }
 
-  void begin_run(const std::function<void(int)>* next) {
-    task = next;
-    ++run_number;
-    run_number.notify_all();
-  }
-
   void serve(int thread) {
-    for (std::uint32_t seen = 0;; ++seen) {
+    for (std::uint32_t seen = 0;;) {
       wait_while(run_number, seen);
-      if (!task) return;
-      perform(thread);
-      if (--busy == 0) busy.notify_one();
+      const std::function<void(int)>* part = nullptr;
+      {
+        const std::lock_guard lock(mutex);
+        if (stopping) return;
+        seen = run_number;
+        part = task;
+        if (part && !by_all) ++at_work;
+      }
+      if (!part) continue;
+      perform(*part, thread);
+      if (--at_work == 0) at_work.notify_one();
     }
   }
 
   void stop() {
-    begin_run(nullptr);
+    {
+      const std::lock_guard lock(mutex);
+      stopping = true;
+      ++run_number;
+    }
+    run_number.notify_all();
     threads.clear();
+  }
+
+  /// The caller's thread takes part.
+  void run(const std::function<void(int)>& next, bool all) {
+    {
+      const std::lock_guard lock(mutex);
+      task = &next;
+      by_all = all;
+      if (all) at_work = static_cast<std::uint32_t>(threads.size());
+      ++run_number;
+    }
+    run_number.notify_all();
+    perform(next, 0);
+    if (!all) {
+      const std::lock_guard lock(mutex);
+      task = nullptr;
+    }
+    for (std::uint32_t others; (others = at_work) != 0;) wait_while(at_work, others);
+    if (!failed) return;
+    failed = false;
+    arrived = 0;
+    std::rethrow_exception(std::exchange(error, nullptr));
   }
 };
 
@@ -91,17 +121,15 @@ Workers::Workers(int threads) : threads_(threads), shared_(std::make_unique<Shar
 
 Workers::~Workers() { shared_->stop(); }
 
-void Workers::run(const std::function<void(int thread)>& task) {
-  Shared& shared = *shared_;
-  shared.busy = static_cast<std::uint32_t>(threads_ - 1);
-  shared.begin_run(&task);
-  shared.perform(0);
-  for (std::uint32_t busy; (busy = shared.busy) != 0;) wait_while(shared.busy, busy);
-  if (!shared.failed) return;
+void Workers::run(const std::function<void(int thread)>& task) { shared_->run(task, true); }
 
-  shared.failed = false;
-  shared.arrived = 0;
-  std::rethrow_exception(std::exchange(shared.error, nullptr));
+void Workers::share(std::size_t count, const std::function<void(int thread, std::size_t item)>& use) {
+  std::atomic<std::size_t> next = 0;
+  shared_->run(
+      [&](int thread) {
+        for (std::size_t item; (item = next++) < count;) use(thread, item);
+      },
+      false);
 }
 
 void Workers::barrier() {

@@ -1,6 +1,5 @@
 #pragma once
-// A pool of threads. It uses no clock and no work stealing: which thread does what depends only on the number of
-// threads, and callers store their results so that not even that shows.
+// A pool of threads. Callers store their results so that it does not show which thread did what.
 
 #include <cassert>
 #include <cstddef>
@@ -25,6 +24,12 @@ class Workers {
   /// on until their next barrier(), which then throws too: do not catch that exception. Not reentrant; only one thread
   /// may call it at a time.
   void run(const std::function<void(int thread)>& task);
+
+  /// Calls use(thread, item) once for each item below `count`, in any order: on the caller's thread, and on those
+  /// others that wake up before it is done. So it takes no longer than on one thread, whatever else the machine does.
+  /// If a call throws, share() rethrows the first exception; some items may then have been left out. Not reentrant, as
+  /// run().
+  void share(std::size_t count, const std::function<void(int thread, std::size_t item)>& use);
 
   /// Waits until every thread of the current run() has called it. Only for use inside a task, by all threads.
   void barrier();

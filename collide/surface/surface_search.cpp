@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <stdexcept>
@@ -113,10 +112,7 @@ void SurfaceSearch::search(const Motion& motion, float min_seconds, Workers& wor
   threads_.resize(static_cast<std::size_t>(workers.threads()));
   for (Thread& t : threads_) t.features.clear(), t.found.clear(), t.work = 0;
   const auto share = [&](std::size_t count, const auto& task) {
-    std::atomic<std::size_t> next = 0;
-    workers.run([&](int thread) {
-      for (std::size_t i; (i = next++) < count;) task(threads_[static_cast<std::size_t>(thread)], i);
-    });
+    workers.share(count, [&](int thread, std::size_t i) { task(threads_[static_cast<std::size_t>(thread)], i); });
   };
   share(swept_.size(), [&](Thread& own, std::size_t b) {
     const float end = std::min(end_, time_ + bodies_[b].horizon);

@@ -1,7 +1,6 @@
 #include "softbody/integrate/crew.h"
 
 #include <algorithm>
-#include <atomic>
 
 namespace softbody {
 
@@ -43,10 +42,10 @@ std::span<const Batch* const> Crew::joined(int thread) const {
 }
 
 void Crew::for_each(std::size_t count, const std::function<void(std::size_t)>& use) const {
-  std::atomic<std::size_t> next = 0;
-  run([&](const Worker&) {
-    for (std::size_t i; (i = next++) < count;) use(i);
-  });
+  if (active_ == 1)
+    for (std::size_t i = 0; i < count; ++i) use(i);
+  else
+    workers_.share(count, [&](int, std::size_t i) { use(i); });
 }
 
 void Crew::run(const std::function<void(const Worker&)>& task) const {

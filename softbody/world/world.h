@@ -61,8 +61,8 @@ class World {
     int threads = 1;
     double frame_time = 1.0 / 60.0;  // s
     IntegratorChoice integrator{};
-    /// With fewer particles of moving bodies, one thread moves them all: that takes no longer.
-    std::size_t min_shared_particles = 2'000;
+    /// With fewer particles of moving bodies, one thread moves them all: it is done before other threads have woken up.
+    std::size_t min_shared_particles = 20'000;
     WorkBudget budget{};
     MaxCandidates max_candidates{};
   };

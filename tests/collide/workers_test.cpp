@@ -4,6 +4,7 @@
 
 #include <array>
 #include <atomic>
+#include <numeric>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -60,6 +61,38 @@ TEST(Workers, RethrowAndCanBeUsedAgain) {
   std::atomic<int> calls = 0;
   workers.run([&](int) { ++calls; });
   EXPECT_EQ(calls, 3);
+}
+
+TEST(Workers, ShareItemsEachDoneOnce) {
+  for (const int threads : {1, 2, 3, 8}) {
+    Workers workers(threads);
+    for (std::size_t count = 0; count < 300; ++count) {
+      std::vector<std::atomic<int>> done(count);
+      std::vector<int> own(static_cast<std::size_t>(threads), 0);  // no two threads have one number
+      workers.share(count, [&](int thread, std::size_t item) {
+        ++done[item];
+        ++own[static_cast<std::size_t>(thread)];
+      });
+      for (const std::atomic<int>& times : done) ASSERT_EQ(times, 1);
+      ASSERT_EQ(std::accumulate(own.begin(), own.end(), 0), static_cast<int>(count));
+      if (count % 7 == 0) {  // those that came too late take part in what all do
+        std::atomic<int> calls = 0;
+        workers.run([&](int) { ++calls; });
+        ASSERT_EQ(calls, threads);
+      }
+    }
+  }
+}
+
+TEST(Workers, ShareRethrows) {
+  Workers workers(3);
+  for (std::size_t bad = 0; bad < 50; ++bad) {
+    const auto fail = [&](int, std::size_t item) {
+      if (item == bad) throw std::length_error("too much");
+    };
+    EXPECT_THROW(workers.share(50, fail), std::length_error);
+    EXPECT_NO_THROW(workers.share(bad, fail));
+  }
 }
 
 TEST(Workers, DoNotWaitAtABarrierForOneThatHasThrown) {
