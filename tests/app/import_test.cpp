@@ -366,7 +366,7 @@ TEST_F(ImportTest, ReportsWhyAFileIsRefused) {
     std::filesystem::path file;
     const char* says;
   };
-  const std::vector<Case> cases{{folder.write("fan.obj", fan), "change weld (in the window under Files"},
+  const std::vector<Case> cases{{folder.write("fan.obj", fan), "delete all but two of these faces"},
                                 {folder.write("points.obj", "v 0 0 0\n"), "no face"},
                                 {folder.path() / "none.obj", "cannot be read"},
                                 {folder.write("bad.obj", "v 0 zero 0\n"), "bad.obj:1"},
