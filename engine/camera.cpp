@@ -20,6 +20,8 @@ glm::vec3 eye_direction(const Orbit& orbit) {
   return {level * std::sin(orbit.azimuth), std::sin(orbit.elevation), level * std::cos(orbit.azimuth)};
 }
 
+glm::vec3 right_of(const Orbit& orbit) { return {std::cos(orbit.azimuth), 0.0f, -std::sin(orbit.azimuth)}; }
+
 /// Returns the sum of the differences of the angles (radians) and of the relative differences of distance and target.
 float difference(const Orbit& a, const Orbit& b) {
   return glm::distance(a.target, b.target) / b.distance + std::abs(a.distance / b.distance - 1.0f) +
@@ -56,6 +58,19 @@ void Camera::glide_to(const glm::vec3& centre, float radius, glm::ivec2 size) {
   goal_ = fitting_orbit(centre, 2.0f * radius, size);
 }
 
+void Camera::glide_back_to_show(const glm::vec3& centre, float radius, glm::ivec2 size) {
+  const glm::vec3 back = eye_direction(goal_), right = right_of(goal_), way = centre - goal_.target;
+  // Returns the distance from which the sphere touches a side of the picture, whose half angle has this tangent.
+  const auto touching = [&](const glm::vec3& across, float tangent) {
+    const float reach = std::abs(glm::dot(way, across)) + radius * std::sqrt(1.0f + tangent * tangent);
+    return glm::dot(way, back) + reach / tangent;
+  };
+  const float tangent = std::tan(0.5f * fov);
+  goal_.distance =
+      std::max({goal_.distance, touching(right, tangent * aspect(size)), touching(glm::cross(back, right), tangent)});
+  goal_ = clamped(goal_);
+}
+
 void Camera::fit(const glm::vec3& centre, float radius, glm::ivec2 size) {
   scene_radius_ = std::max(radius, 1e-4f);
   scene_centre_ = centre;
@@ -76,8 +91,7 @@ void Camera::rotate(glm::vec2 pixels, glm::ivec2 size) {
 
 void Camera::pan(glm::vec2 pixels, glm::ivec2 size) {
   const float per_pixel = 2.0f * std::tan(0.5f * fov) * goal_.distance / static_cast<float>(std::max(size.y, 1));
-  const glm::vec3 back = eye_direction(goal_);
-  const glm::vec3 right(std::cos(goal_.azimuth), 0.0f, -std::sin(goal_.azimuth));
+  const glm::vec3 back = eye_direction(goal_), right = right_of(goal_);
   goal_.target += per_pixel * (pixels.y * glm::cross(back, right) - pixels.x * right);
   goal_ = clamped(goal_);
 }

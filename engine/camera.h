@@ -38,6 +38,8 @@ class Camera {
   void fit(const glm::vec3& centre, float radius, glm::ivec2 size);
   /// Glides to where the sphere fills half of the viewport; keeps the angles, the limits and the depth range.
   void glide_to(const glm::vec3& centre, float radius, glm::ivec2 size);
+  /// Glides back from the target until the sphere is in the picture, too, if it is not; keeps target and angles.
+  void glide_back_to_show(const glm::vec3& centre, float radius, glm::ivec2 size);
   /// Glides to `orbit`, clamped to the limits.
   void glide_to(const Orbit& orbit) { goal_ = clamped(orbit); }
 

@@ -25,7 +25,7 @@ inline constexpr glm::vec3 status_green{0.00f, 0.62f, 0.35f}, status_amber{0.93f
 
 // Okabe and Ito's set, which suits all kinds of colour vision.
 inline constexpr glm::vec3 contact_between_colour{0.835f, 0.369f, 0.000f};  // vermilion
-inline constexpr glm::vec3 contact_inside_colour{0.000f, 0.447f, 0.698f};   // blue
+inline constexpr glm::vec3 contact_inside_colour{0.000f, 0.000f, 0.000f};   // black: seen on a body of any colour
 inline constexpr glm::vec3 contact_solid_colour{0.000f, 0.620f, 0.451f};    // bluish green
 inline constexpr glm::vec3 same_cell_colour{0.000f, 0.447f, 0.698f};        // blue: true sharing of a bucket
 inline constexpr glm::vec3 aliased_colour{0.902f, 0.624f, 0.000f};          // orange: sharing by the modulo alone

@@ -266,12 +266,15 @@ void Import::join(Session& session, FileReader::Mesh read) {
   const std::string name = read.mesh.file.path.filename().string();
   std::vector<std::string> lines = lines_about(read, session.world());
   Material material = imported_material(read.mesh.imported->findings.extent);
-  session.bodies.add(place_above(session.world(), std::move(read.mesh)), std::move(material));
+  softbody::BodySource body = place_above(session.world(), std::move(read.mesh));
+  const JoinedAt place{body.position, softbody::bounding_radius(body.mesh.imported->mesh)};
+  session.bodies.add(std::move(body), std::move(material));
   Notice& notice = session.simulation.notice;
   if (notice.is_error()) {
     refuse(name + ": " + notice.text());
     return notice.clear();  // once is enough
   }
+  joined_ = place;
   add({.lines = std::move(lines)});
 }
 

@@ -82,6 +82,10 @@ class Import {
     std::vector<std::string> lines;
     bool refused = false;
   };
+  struct JoinedAt {
+    glm::dvec3 centre;
+    double radius;  // m
+  };
   static constexpr float min_size = 0.05f, max_size = 20;   // m
   static constexpr double min_weld = 1e-7, max_weld = 0.1;  // times a mesh's size
 
@@ -106,6 +110,9 @@ class Import {
   // The answers to question().
   void play(Session& session);
   void import_each(Session& session);
+
+  /// Returns a sphere around the place where the last mesh has joined the scene, once: it may be out of sight.
+  std::optional<JoinedAt> take_joined() { return std::exchange(joined_, std::nullopt); }
 
   /// Returns true while something is read; not while question() waits for the user.
   bool busy() const { return reading_ || (!frames_ && !dropped_.empty()); }
@@ -145,6 +152,7 @@ class Import {
   std::vector<std::string> dropped_;   // not yet loaded
   std::vector<std::string> together_;  // what is read now, if it may be frames
   std::optional<Frames> frames_;       // what question() is about
+  std::optional<JoinedAt> joined_;
   bool reading_ = false;
   std::chrono::steady_clock::time_point began_;
   std::shared_ptr<FileReader::Progress> progress_;  // of what is read

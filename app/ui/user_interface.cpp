@@ -15,7 +15,7 @@
 namespace app::ui {
 
 void UserInterface::draw(Session& session, UiState& ui, float scale, double seconds, WidgetRecorder* recorder) {
-  if (recorder) recorder->widgets.clear();
+  if (recorder) *recorder = {};
   Widgets widgets(scale, mouse_, ui.sections, recorder);
   ui.import.update(session);
   sweep_view_.update();

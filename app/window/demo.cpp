@@ -325,6 +325,9 @@ class Demo {
     }
     if (std::exchange(ui_.focus_body, false) && session_.bodies.selected())
       focus_on(*session_.bodies.selected(), session_, camera_, viewport.size);
+    if (const auto joined = ui_.import.take_joined())
+      camera_.glide_back_to_show(glm::vec3(joined->centre), joined_margin * static_cast<float>(joined->radius),
+                                 viewport.size);
   }
 
   void draw_scene(const engine::Viewport& viewport) {
@@ -364,6 +367,7 @@ class Demo {
             .between = shows_present_state(session_, ui_.overlays) ? 1.0f : session_.simulation.between()};
   }
 
+  static constexpr float joined_margin = 1.25f;      // of the radius of an imported body
   static constexpr float tour_radius_factor = 0.6f;  // glide_to() leaves half of the picture free, the tour less
   static constexpr double min_context_seconds = 10;  // between two losses
   static constexpr double long_step_ms = 50;

@@ -191,18 +191,41 @@ class Importer {
     for (std::size_t i = 1; i < listed; ++i)
       places.append(i + 1 < listed ? ", " : " and ").append(std::to_string(mesh_file_.number_of(faces[i])));
     if (!mesh_file_.has_lines()) places += " (counted from 0)";
-    const std::string what =
-        error.triangles.size() == 2 ? "the surface " : "the edge between vertices " + edge_in(first, error.edge) + " ";
-    return what + error.what() + ": see " + places + "; repair the mesh, or change weld " + where_weld_is;
+    const bool one_sided = error.triangles.size() == 2;
+    std::string text = one_sided ? "the surface " : "the edge between vertices " + edge_in(first, error.edge) + " ";
+    text.append(error.what()).append(": see ").append(places);
+    text += one_sided ? "; repair the mesh"
+                      : "; delete all but two of these faces, or give parts that touch there vertices of their own";
+    const bool moved = one_sided ? std::ranges::any_of(mesh_file_.corners, [&](Index v) { return moved_by_weld(v); })
+                                 : end_moved_by_weld(error.edge, faces);
+    return moved ? text + ", or lower weld " + where_weld_is : text;
+  }
+
+  /// Returns true for a vertex that the weld has brought to another place, where a smaller weld may leave it.
+  bool moved_by_weld(Index vertex) const { return position_[vertex] != position_[welded_to_[vertex]]; }
+
+  /// Returns true if the weld has moved a corner of these faces that became an end of this edge of the mesh.
+  bool end_moved_by_weld(const Edge& edge, const std::vector<std::size_t>& faces) const {
+    const auto is_moved_end = [&](Index corner) {
+      const Index to = welded_to_[corner];
+      return (to == in_file_[edge[0]] || to == in_file_[edge[1]]) && moved_by_weld(corner);
+    };
+    return std::ranges::any_of(faces,
+                               [&](std::size_t face) { return std::ranges::any_of(corners_of(face), is_moved_end); });
+  }
+
+  std::span<const Index> corners_of(std::size_t face) const {
+    const std::size_t begin = face > 0 ? mesh_file_.faces[face - 1].end : 0;
+    return std::span(mesh_file_.corners).subspan(begin, mesh_file_.faces[face].end - begin);
   }
 
   /// Returns the vertex numbers that a face of the file has at its side that became this edge of the mesh.
   std::string edge_in(std::size_t face, const Edge& edge) const {
-    const std::size_t begin = face > 0 ? mesh_file_.faces[face - 1].end : 0, end = mesh_file_.faces[face].end;
+    const std::span<const Index> corners = corners_of(face);
     const Edge welded = ordered(in_file_[edge[0]], in_file_[edge[1]]);
     Edge ends = welded;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Index a = mesh_file_.corners[i], b = mesh_file_.corners[i + 1 < end ? i + 1 : begin];
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Index a = corners[i], b = corners[(i + 1) % corners.size()];
       if (ordered(welded_to_[a], welded_to_[b]) == welded) ends = ordered(a, b);
     }
     const std::uint64_t from = mesh_file_.first_number();

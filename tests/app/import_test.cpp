@@ -108,6 +108,19 @@ TEST_F(ImportTest, AddsAMeshClearOfEverything) {
   expect_finite_after(30);
 }
 
+TEST_F(ImportTest, SaysOnceWhereAMeshHasJoined) {
+  EXPECT_FALSE(import.take_joined());
+  load(folder.write("ball.obj", obj_of({})));
+  const auto joined = import.take_joined();
+  ASSERT_TRUE(joined);
+  EXPECT_FALSE(import.take_joined());
+  const collide::Frame p = session.world().positions();
+  for (std::size_t i = session.world().bodies().first[2]; i < p.x.size(); ++i)
+    EXPECT_LT(glm::distance(glm::dvec3(p.x[i], p.y[i], p.z[i]), joined->centre), 1.01 * joined->radius);
+  load(folder.write("points.obj", "v 0 0 0\n"));
+  EXPECT_FALSE(import.take_joined()) << "it was refused";
+}
+
 TEST_F(ImportTest, ReportsAnOpenMesh) {
   load(folder.write("bowl.obj", obj_of({.scale = 500, .open = true})));
   ASSERT_EQ(session.world().bodies().count(), 3u);
@@ -353,7 +366,7 @@ TEST_F(ImportTest, ReportsWhyAFileIsRefused) {
     std::filesystem::path file;
     const char* says;
   };
-  const std::vector<Case> cases{{folder.write("fan.obj", fan), "change weld (in the window under Files"},
+  const std::vector<Case> cases{{folder.write("fan.obj", fan), "delete all but two of these faces"},
                                 {folder.write("points.obj", "v 0 0 0\n"), "no face"},
                                 {folder.path() / "none.obj", "cannot be read"},
                                 {folder.write("bad.obj", "v 0 zero 0\n"), "bad.obj:1"},

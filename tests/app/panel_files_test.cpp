@@ -67,6 +67,19 @@ TEST(FilesPanel, SetsTheWeldDistanceOfTheNextMesh) {
   EXPECT_TRUE(import_is_closed());
 }
 
+TEST(FilesPanel, SaysWhichMeshesAreSimulatedByHowManyParticles) {
+  PanelRig rig;
+  open_only(rig, "Files");
+  const ui::WidgetRecorder::Widget resolution = rig.widget("Auto resolution");
+  rig.move(resolution.min.x + 5, resolution.min.y + 5);
+  rig.frames(60);
+  EXPECT_NE(rig.recorder.tooltip.find("more than " + grouped(softbody::max_simulated_vertices) + " vertices"),
+            std::string::npos)
+      << rig.recorder.tooltip;
+  EXPECT_NE(rig.recorder.tooltip.find("by " + grouped(softbody::default_resolution) + " particles"), std::string::npos)
+      << rig.recorder.tooltip;
+}
+
 TEST(ImportReport, ListsEveryFileBelowTheStatus) {
   PanelRig rig;
   rig.resize(800, 600);

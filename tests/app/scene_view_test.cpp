@@ -227,6 +227,11 @@ TEST(Palette, HasDistinctColoursForDozensOfBodies) {
   }
 }
 
+TEST(Palette, ShowsSelfContactsOnABodyOfAnyColour) {
+  for (std::uint32_t body = 0; body < 200; ++body)
+    EXPECT_GT(glm::distance(render::contact_inside_colour, render::body_colour(body)), 0.5f) << body;
+}
+
 TEST(Palette, GetsLighterWithTheLoad) {
   const auto lightness = [](const glm::vec3& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; };
   for (int i = 1; i <= 32; ++i) {

@@ -219,7 +219,7 @@ has_another_context() { [ "$(wc -l <"$contexts")" = 2 ] && has_window; }
 export ASAN_OPTIONS="$ASAN_OPTIONS:verify_asan_link_order=0"
 rm -f scene.toml
 open_only Files
-LOST_CONTEXT_LOG=$contexts LD_PRELOAD=$lost_context start --mesh mesh.obj
+LOST_CONTEXT_LOG=$contexts LD_PRELOAD=$lost_context start --mesh mesh.obj --view 0,1,0,2,0,0
 xdotool windowfocus "$window" 2>/dev/null
 press d
 until_true "another context after a reset of the driver" has_another_context
@@ -230,6 +230,7 @@ until_true "the scene after a reset of the driver" test -s scene.toml
 [ "$(grep -c '^\[\[body\]\]' scene.toml)" -gt "$(grep -c '^\[\[body\]\]' "$sources/assets/scenes/drop.toml")" ] ||
   fail "the dropped body was lost with the context"
 grep -q 'path = "mesh.obj"' scene.toml || fail "the mesh of the command line is not in the scene"
+awk '$1 == "distance" && $3 > 2.5 {far = 1} END {exit !far}' scene.toml || fail "the camera does not show the mesh"
 click 1100 400 1
 press p
 until_true "a picture after a reset of the driver" test -s picture_0002.png

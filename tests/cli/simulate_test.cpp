@@ -341,6 +341,44 @@ TEST(Simulate, CountsOverlapsAndCrossingsByTheOracle) {
   EXPECT_EQ(second["penetrating_vertices"], first["penetrating_vertices"]) << "and below them after";
 }
 
+/// Returns a closed OBJ mesh of 1,162 vertices around the origin: more than are simulated.
+std::string fine_ball() {
+  constexpr int rings = 30, across = 40;
+  std::ostringstream vertices, faces;
+  for (int i = 0; i <= rings; ++i)
+    for (int j = 0; j < across; ++j) {
+      const double polar = M_PI * i / rings, around = 2 * M_PI * j / across;
+      const int k = across * i + j + 1, next = across * i + (j + 1) % across + 1;
+      vertices << "v " << std::sin(polar) * std::cos(around) << ' ' << std::cos(polar) << ' '
+               << std::sin(polar) * std::sin(around) << '\n';
+      if (i < rings) faces << "f " << k << ' ' << next << ' ' << next + across << ' ' << k + across << '\n';
+    }
+  return vertices.str() + faces.str();
+}
+
+TEST(SimulateJsonLines, CountByTheOracleWhatIsSimulatedOfFineMeshes) {
+  const TemporaryFolder folder;  // a ball that is held inside another
+  folder.write("ball.obj", fine_ball());
+  const std::string body = "[[body]]\nrelease = 99\nmesh = {kind = \"file\", path = \"ball.obj\", size = ";
+  const auto scene = folder.write("within.toml", body + "2}\n" + body + "0.5, resolution = 200}\n");
+  const Outcome o = run({"simulate", "--scene", scene, "--frames", "2", "--oracle", "--json-lines"});
+  EXPECT_EQ(o.status, 0);
+  const std::regex remark("simulated by ([0-9]+) particles");
+  const std::vector<std::smatch> remarks{std::sregex_iterator(o.err.begin(), o.err.end(), remark), {}};
+  ASSERT_EQ(remarks.size(), 2u) << o.err;
+  const int particles = std::stoi(remarks[1][1]);
+  EXPECT_NEAR(particles, 200, 20);
+  const std::vector<json> lines = parse_lines(o.out);
+  ASSERT_EQ(lines.size(), 3u);
+  for (const int frame : {0, 1}) {
+    const json& found = lines[static_cast<std::size_t>(frame)]["oracle"];
+    EXPECT_EQ(found["penetrating_vertices"], particles) << "all of the inner ball, none of its fine mesh";
+    EXPECT_EQ(found["overlapping_pairs"], 1);
+    EXPECT_EQ(found["self_intersecting_bodies"], 0);
+    EXPECT_EQ(found["crossed_vertices"], 0);
+  }
+}
+
 TEST(Simulate, PrintsAShortTableWithoutJson) {
   const Outcome o = run({"simulate", "--scene", "drop", "--frames", "100"});
   EXPECT_EQ(o.status, 0);

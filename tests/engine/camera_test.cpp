@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace engine {
@@ -118,6 +120,46 @@ TEST(Camera, FitShowsTheWholeSphereInAnyViewport) {
       EXPECT_LE(pixel->y, static_cast<float>(shape.y));
     }
   }
+}
+
+/// Where something is in a picture, in parts of the viewport's size.
+struct Extent {
+  glm::vec2 low{1e9f}, high{-1e9f};
+};
+Extent extent_of_sphere(const Camera& camera, const glm::vec3& centre, float radius, glm::ivec2 shape) {
+  Extent extent;
+  for (int i = 0; i < 4000; ++i) {  // points of a spiral all over the sphere
+    const float y = 1.0f - 2.0f * (static_cast<float>(i) + 0.5f) / 4000.0f, angle = 2.4f * static_cast<float>(i);
+    const glm::vec3 way(std::sqrt(1 - y * y) * std::cos(angle), y, std::sqrt(1 - y * y) * std::sin(angle));
+    const auto pixel = camera.project(centre + radius * way, shape);
+    if (!pixel) continue;
+    extent.low = glm::min(extent.low, glm::vec2(*pixel) / glm::vec2(shape));
+    extent.high = glm::max(extent.high, glm::vec2(*pixel) / glm::vec2(shape));
+  }
+  return extent;
+}
+
+TEST(Camera, GlidesBackJustSoFarThatASphereIsInThePicture) {
+  for (const glm::ivec2 shape : {size, glm::ivec2(300, 900)})
+    for (const glm::vec3 centre : {glm::vec3(0, 9, 0), glm::vec3(-7, 1, 2), glm::vec3(2, 1, 8)}) {
+      Camera camera = scene_camera();
+      camera.set_orbit({{0, 1, 0}, 3});
+      camera.glide_back_to_show(centre, 0.5f, shape);
+      camera.finish_glide();
+      EXPECT_EQ(camera.orbit().target, glm::vec3(0, 1, 0));
+      EXPECT_EQ(camera.orbit().azimuth, Orbit{}.azimuth);
+      const Extent extent = extent_of_sphere(camera, centre, 0.5f, shape);
+      const glm::vec2 room = glm::min(extent.low, 1.0f - extent.high);
+      EXPECT_NEAR(std::min(room.x, room.y), 0.0f, 0.01f) << centre.x;
+    }
+}
+
+TEST(Camera, StaysWhereItIsIfTheSphereIsInThePicture) {
+  Camera camera = scene_camera();
+  const float distance = camera.orbit().distance;
+  camera.glide_back_to_show({0.5f, 1.5f, 0}, 0.5f, size);
+  camera.finish_glide();
+  EXPECT_EQ(camera.orbit().distance, distance);
 }
 
 TEST(Camera, GlideEndsAndTheViewThenStaysBitEqual) {

@@ -322,7 +322,7 @@ TEST(MeshImport, RefusalsNameTheFilesOwnLinesAndVertices) {
   };
   says(cube_vertices + cube_faces + "f 1 2 7\n",
        "a.obj: the edge between vertices 1 and 2 (counted from 1) has more than two faces: see lines 9, 11 and 15; "
-       "repair the mesh, or change weld (in the window under Files, ");
+       "delete all but two of these faces, or give parts that touch there vertices of their own");
   const std::string blade = "v 0 0 0\nv 1 0 0\nv 0 ";
   says(blade + "1 0\nf 1 2 3\n" + blade + "0 1\nf -3 -2 -1\n" + blade + "-1 0\nf 7 8 9\n",
        "between vertices 1 and 2 (counted from 1) has more than two faces: see lines 4, 8 and 12;");
@@ -337,6 +337,37 @@ TEST(MeshImport, RefusalsNameTheFilesOwnLinesAndVertices) {
   }
   says(band + "f 1 2 4 3\nf 3 4 6 5\nf 5 6 8 7\nf 7 8 10 9\nf 9 10 1 2\n",
        "a.obj: the surface has only one side: see lines 13 and 14; ");
+}
+
+TEST(MeshImport, RefusalsAdviseALowerWeldWhereItCanHelp) {
+  const auto advises_it = [](const std::string& obj, double weld) {
+    return error_of(obj, {.weld = weld}).find(", or lower weld (in the window under Files, ") != std::string::npos;
+  };
+  const auto fan = [](double gap) {  // three faces at an edge, each with vertices of its own
+    std::string text;
+    for (int i = 0; i < 3; ++i)
+      text += vertex({0, 0, i * gap}) + vertex({1, 0, i * gap}) + vertex({0.5, i - 1, i}) + face({-3, -2, -1});
+    return text;
+  };
+  EXPECT_TRUE(advises_it(fan(1e-4), 1e-3));
+  EXPECT_EQ(read(fan(1e-4)).findings.components, 3u) << "it does help";
+  EXPECT_FALSE(advises_it(fan(0), 1e-3)) << "the places are the same";
+  const std::string seam = vertex({5, 5, 0}) + vertex({6, 5, 0}) + vertex({5, 6, 0}) + face({-3, -2, -1}) +
+                           vertex({5, 5, 1e-4}) + vertex({6, 5, 1e-4}) + vertex({5, 4, 0}) + face({-2, -3, -1});
+  EXPECT_FALSE(advises_it(cube_vertices + cube_faces + "f 1 2 7\n" + seam, 1e-3)) << "it joins other faces";
+
+  const auto band = [](double gap) {  // of Moebius; its ends are `gap` apart
+    std::string text;
+    for (int i = 0; i < 6; ++i) {
+      const double a = 1.2566 * i + (i == 5 ? gap : 0), low = i < 5 ? 1 : 2, high = 3 - low;
+      text +=
+          vertex({low * std::cos(a), low, low * std::sin(a)}) + vertex({high * std::cos(a), high, high * std::sin(a)});
+    }
+    for (int i = 0; i < 5; ++i) text += face({2 * i + 1, 2 * i + 2, 2 * i + 4, 2 * i + 3});
+    return text;
+  };
+  EXPECT_TRUE(advises_it(band(1e-3), 1e-2));
+  EXPECT_EQ(read(band(1e-3)).findings.components, 1u) << "it does help";
 }
 
 /// Returns the cube as a PLY file. more: a further face.

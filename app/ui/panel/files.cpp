@@ -4,6 +4,9 @@
 #include <cfloat>
 #include <cmath>
 
+#include <fmt/core.h>
+
+#include "app/base/text.h"
 #include "app/render/palette.h"
 #include "app/ui/panel/panel.h"
 
@@ -64,7 +67,9 @@ void draw_mesh_settings(Widgets& w, session::Import& import) {
   w.row_label("Particles", w.px(narrow_column));
   bool automatic = import.resolution == 0;
   if (w.checkbox("Auto###Auto resolution", automatic,
-                 "A mesh of more than 1,000 vertices is simulated by 800 particles; its vertices follow them."))
+                 fmt::format("A mesh of more than {} vertices is simulated by {} particles; its vertices follow them.",
+                             grouped(softbody::max_simulated_vertices), grouped(softbody::default_resolution))
+                     .c_str()))
     import.resolution = automatic ? 0 : softbody::default_resolution;
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);

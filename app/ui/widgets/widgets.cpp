@@ -120,7 +120,10 @@ void Widgets::show_tooltip(const char* text) const {
   const bool list = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   const float max_shift = list ? ImGui::GetIO().DisplaySize.y : px(80);
   const ImVec2 at = tooltip_position(size, px(6), max_shift, mouse_.last_results);
-  if (recorder_) recorder_->widgets.push_back({"Tooltip", at, {at.x + size.x, at.y + size.y}, true});
+  if (recorder_) {
+    recorder_->widgets.push_back({"Tooltip", at, {at.x + size.x, at.y + size.y}, true});
+    recorder_->tooltip = text;
+  }
   ImGui::SetNextWindowPos(at);
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, usual_alpha_);  // the tooltip of a disabled widget is not faint
   ImGui::BeginTooltip();

@@ -24,6 +24,7 @@ struct WidgetRecorder {
     bool enabled;
   };
   std::vector<Widget> widgets;
+  std::string tooltip;  // the text of the one that is shown
 
   const Widget* find(std::string_view label) const;
 };
