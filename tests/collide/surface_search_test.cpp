@@ -59,6 +59,7 @@ TEST(SurfaceSearch, BodiesFarApartHaveNoCandidates) {
   EXPECT_TRUE(SearchRun(m, false).search.features().empty());
   m.traits[0].moves = m.traits[1].moves = false;
   m.scene = Scene{ball(0.5f), ball(0.5f)};
+  for (const Index body : {0u, 1u}) m.traits[body].surface = m.scene.surfaces[body].get();
   EXPECT_TRUE(SearchRun(m, true).search.pairs().empty()) << "nor have bodies at rest, wherever they are";
 }
 
