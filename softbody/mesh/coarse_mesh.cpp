@@ -257,13 +257,12 @@ class Coarsener {
   static std::size_t crossings_of(const Mesh& mesh) {
     const auto surface =
         std::make_shared<const collide::surface::Surface>(static_cast<Index>(mesh.vertices.size()), mesh.triangles);
-    std::vector<float> x, y, z;
-    for (const glm::dvec3& v : mesh.vertices)
-      x.push_back(static_cast<float>(v.x)), y.push_back(static_cast<float>(v.y)), z.push_back(static_cast<float>(v.z));
+    Points at;
+    at.add(mesh.vertices);
     collide::Bodies bodies;
     bodies.add(std::make_shared<collide::Shape>(surface->vertex_count(), surface->edges()));
     collide::Workers workers(1);
-    return collide::oracle::find_overlaps({x, y, z, &bodies}, {surface}, workers).piercings.size();
+    return collide::oracle::find_overlaps({at.x, at.y, at.z, &bodies}, {surface}, workers).piercings.size();
   }
 
   CoarseMesh embedded(Mesh mesh, const std::vector<Index>& from, std::size_t crossings) const {

@@ -32,10 +32,9 @@ std::vector<glm::vec3> normals(const std::vector<Triangle>& triangles, const Con
 
 Embedding::Embedding(const Mesh& coarse, std::vector<Hold> holds)
     : holds_(std::move(holds)), triangles_(coarse.triangles), tangent_(coarse.vertices.size(), 0) {
-  std::vector<float> x, y, z;
-  for (const glm::dvec3& v : coarse.vertices)
-    x.push_back(static_cast<float>(v.x)), y.push_back(static_cast<float>(v.y)), z.push_back(static_cast<float>(v.z));
-  const ConstPoints at{x, y, z};
+  Points rest;
+  rest.add(coarse.vertices);
+  const ConstPoints at = rest;
   const std::vector<glm::vec3> normal = normals(triangles_, at);
   // The neighbour that stands out least from the plane of the tangents, relative to its distance.
   std::vector<float> steepest(tangent_.size(), INFINITY);

@@ -9,14 +9,9 @@
 #include <glm/mat3x3.hpp>
 
 #include "softbody/mesh/mesh.h"
+#include "softbody/mesh/points.h"
 
 namespace softbody {
-
-/// Positions (m) as detectors take them.
-struct ConstPoints {
-  std::span<const float> x, y, z;
-  glm::vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
-};
 
 /// Each fine vertex is held by the corners of one coarse triangle. With its closest point on the triangle, of
 /// barycentric coordinates w_i, and its offset d from there, both at rest, it stands at

@@ -22,9 +22,8 @@ glm::vec3 rest_cell_size(const BodyModelSet& models, int levels, float tolerance
   collide::Bodies bodies;
   Coordinates rest;
   for (const auto& p : models.all()) {
-    const std::vector<glm::dvec3>& shape = p->fine ? p->fine->mesh.vertices : p->start;
     bodies.add(p->shown().shape);
-    for (const glm::dvec3& v : shape) rest.add(glm::vec3(v));
+    rest.add(p->fine ? p->fine->mesh.vertices : p->start);
   }
   return collide::default_cell_size(rest.frame(bodies), levels, tolerance);
 }
