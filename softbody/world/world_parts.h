@@ -103,6 +103,7 @@ struct World::Parts : WorldValues {
 
   DetectedMeshes particles;            // the meshes that are simulated; their contacts act
   std::optional<DetectedMeshes> fine;  // the meshes that are shown, if they are others
+  std::vector<Embedding::Scratch> placing{std::size_t(workers.threads())};  // of each thread
 };
 
 struct Snapshot::Values {

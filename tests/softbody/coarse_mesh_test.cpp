@@ -115,14 +115,19 @@ std::vector<Shape> shapes() {
 }
 
 /// Returns where the fine vertices are if the coarse ones are `at` these places.
-std::vector<glm::dvec3> placed(const CoarseMesh& coarse, const std::vector<glm::dvec3>& at) {
+std::vector<glm::dvec3> placed(const CoarseMesh& coarse, const std::vector<glm::dvec3>& at,
+                               Embedding::Scratch& scratch) {
   Points from, to;
   from.add(at);
   std::vector<glm::dvec3> fine(coarse.embedding.size(), glm::dvec3(0.0));
   to.add(fine);
-  coarse.embedding.place(from, to.x, to.y, to.z);
+  coarse.embedding.place(from, to.x, to.y, to.z, scratch);
   for (std::size_t v = 0; v < fine.size(); ++v) fine[v] = glm::dvec3(ConstPoints(to)[v]);
   return fine;
+}
+std::vector<glm::dvec3> placed(const CoarseMesh& coarse, const std::vector<glm::dvec3>& at) {
+  Embedding::Scratch scratch;
+  return placed(coarse, at, scratch);
 }
 
 TEST(CoarseMesh, KeepsTheFormOfTheFineOne) {
@@ -241,6 +246,14 @@ TEST(Embedding, StaysFiniteWhereTheCoarseMeshCollapses) {
   const CoarseMesh coarse = coarsen(bumpy_ball(4), 300).value();
   const std::vector at = placed(coarse, std::vector(coarse.mesh.vertices.size(), glm::dvec3(1, 2, 3)));
   for (std::size_t v = 0; v < coarse.embedding.size(); ++v) ASSERT_LT(glm::distance(at[v], {1, 2, 3}), 1e-5);
+}
+
+TEST(Embedding, TakesScratchThatOtherMeshesHaveUsed) {
+  Embedding::Scratch scratch;
+  for (const std::size_t vertices : {300, 600, 200}) {
+    const CoarseMesh coarse = coarsen(bumpy_ball(4), vertices).value();
+    EXPECT_EQ(placed(coarse, coarse.mesh.vertices, scratch), placed(coarse, coarse.mesh.vertices));
+  }
 }
 
 /// Worlds of bodies whose mesh is a file of 2,562 vertices.
