@@ -51,7 +51,8 @@ app: app/base app/files app/cli app/report app/window collide softbody engine
 
 # They include only each other of softbody, so that no change of the solver reaches app.
 public="
-mesh/coarse_mesh mesh/embedding mesh/file_mesh mesh/limits mesh/mesh mesh/mesh_import mesh/mesh_source mesh/polygon
+mesh/coarse_mesh mesh/embedding mesh/file_mesh mesh/limits mesh/mesh mesh/mesh_import mesh/mesh_source
+mesh/points mesh/polygon
 state/best_rotation state/body state/energy_ledger state/lane_math state/lanes state/simd
 model/key model/material model/body_model model/scene_error
 contact/contacts contact/keys contact/law contact/solid contact/solid_surface

@@ -100,6 +100,23 @@ class BoundsTree {
   void for_each_overlapping(const Bounds& box, const Take& take) const {
     walk([&](const Bounds& other) { return overlap(box, other); }, take);
   }
+  struct Nearest {
+    double distance;  // m
+    Index item;
+    auto operator<=>(const Nearest&) const = default;
+  };
+  /// Returns the item with the smallest distance(item) from a point; the first one if several are equally near.
+  /// distance: how far what the box of the item holds is from the point, which floats may round; infinite if the item
+  /// does not count. guess: an item; the nearer it is, the shorter is the search. Only for trees of Box.
+  template <class Distance>
+  Nearest nearest(const glm::dvec3& point, Index guess, const Distance& distance) const {
+    Nearest best{distance(guess), guess};
+    const auto may_be_nearer = [&](const Bounds& box) {
+      return squared_distance_to(box, point) <= best.distance * best.distance * (1 + 1e-6);
+    };
+    walk(may_be_nearer, [&](Index item) { best = std::min(best, Nearest{distance(item), item}); });
+    return best;
+  }
   /// Returns the box around all items; empty if there are none.
   Bounds box() const { return nodes_.empty() ? Bounds{} : nodes_.front().box; }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -52,17 +51,11 @@ bool ClosedShell::inside(const glm::vec3& point) const {
 
 ClosedShell::Nearest ClosedShell::nearest_face(const glm::vec3& point) const {
   assert(!faces_.box().empty());
-  Nearest nearest{0, std::numeric_limits<float>::infinity()};  // squared distance until the end
-  faces_.walk([&](const Box& box) { return squared_distance_to(box, glm::dvec3(point)) <= double(nearest.distance); },
-              [&](Index t) {
-                const glm::vec3 separation =
-                    closest_vertex_face(point, corner(t, 0), corner(t, 1), corner(t, 2)).separation;
-                const float squared = glm::dot(separation, separation);
-                if (squared < nearest.distance || (squared == nearest.distance && t < nearest.face))
-                  nearest = {t, squared};
-              });
-  nearest.distance = std::sqrt(nearest.distance);
-  return nearest;
+  const auto [distance, face] = faces_.nearest(glm::dvec3(point), 0, [&](Index t) {
+    const glm::vec3 separation = closest_vertex_face(point, corner(t, 0), corner(t, 1), corner(t, 2)).separation;
+    return std::sqrt(double(glm::dot(separation, separation)));  // in double: equal for equal squares only
+  });
+  return {face, static_cast<float>(distance)};
 }
 
 }  // namespace collide::surface

@@ -88,7 +88,10 @@ void check_corners(std::span<const std::array<Index, 3>> triangles, std::size_t 
     if (!used[v]) throw Error("mesh: vertex " + std::to_string(v) + " is in no triangle; leave it out");
 }
 
-softbody::MeshSource mesh_source(std::span<const float> xyz, std::span<const std::array<Index, 3>> triangles) {
+softbody::MeshSource mesh_source(std::span<const float> xyz, std::span<const std::array<Index, 3>> triangles,
+                                 int resolution) {
+  if (resolution < 0 || (resolution > 0 && std::size_t(resolution) < softbody::min_resolution))
+    throw Error("resolution: must be 0 (automatic) or at least " + std::to_string(softbody::min_resolution));
   auto imported = std::make_shared<softbody::ImportedMesh>();
   softbody::Mesh& mesh = imported->mesh;
   place(*imported, xyz);
@@ -108,7 +111,7 @@ softbody::MeshSource mesh_source(std::span<const float> xyz, std::span<const std
   if (imported->findings.closed && softbody::volume(mesh.vertices, mesh.triangles) < 1e-9 * extent * extent * extent)
     throw Error("mesh: is closed but holds no volume");
   softbody::connect_triangles(mesh);
-  softbody::add_coarse_mesh(*imported, 0);
+  softbody::add_coarse_mesh(*imported, std::size_t(resolution));
   return {.kind = "file", .file = {}, .imported = std::move(imported)};
 }
 
@@ -173,9 +176,9 @@ void Scene::add_solid_capsule(const Vector& from, const Vector& to, double radiu
   add_text(table("[[solid_capsule]]", {{"from", from}, {"to", to}, {"radius", radius}, {"friction", friction}}));
 }
 
-int Scene::add_mesh(std::span<const float> xyz, std::span<const std::array<Index, 3>> triangles) {
+int Scene::add_mesh(std::span<const float> xyz, std::span<const std::array<Index, 3>> triangles, int resolution) {
   return translated([&] {
-    impl_->meshes.push_back(mesh_source(xyz, triangles));
+    impl_->meshes.push_back(mesh_source(xyz, triangles, resolution));
     return static_cast<int>(impl_->meshes.size()) - 1;
   });
 }

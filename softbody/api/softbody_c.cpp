@@ -56,13 +56,19 @@ sbcollide_status sbcollide_world_add_text(sbcollide_world* world, const char* to
 
 sbcollide_status sbcollide_world_add_mesh(sbcollide_world* world, const float* xyz, size_t vertex_count,
                                           const uint32_t* triangles, size_t triangle_count, int* mesh) {
+  return sbcollide_world_add_fine_mesh(world, xyz, vertex_count, triangles, triangle_count, 0, mesh);
+}
+
+sbcollide_status sbcollide_world_add_fine_mesh(sbcollide_world* world, const float* xyz, size_t vertex_count,
+                                               const uint32_t* triangles, size_t triangle_count, int resolution,
+                                               int* mesh) {
   return guarded(world, [&] {
     require_pointer(xyz, vertex_count, "xyz");
     require_pointer(triangles, triangle_count, "triangles");
     require_pointer(mesh, 1, "mesh");
     std::vector<std::array<sbcollide::Index, 3>> corners(triangle_count);
     for (std::size_t i = 0; i < 3 * triangle_count; ++i) corners[i / 3][i % 3] = triangles[i];
-    *mesh = world->scene.add_mesh({xyz, 3 * vertex_count}, corners);
+    *mesh = world->scene.add_mesh({xyz, 3 * vertex_count}, corners, resolution);
   });
 }
 

@@ -38,32 +38,17 @@ class FaceTree {
 
   collide::surface::Box box() const { return tree_.box(); }
 
-  struct Nearest {
-    Index face = absent;
-    glm::vec3 weight{0.0f};
-    float distance = INFINITY;  // m
-  };
-  /// Returns the nearest triangle for which may(face) is true; face: absent if there is none. guess: a triangle that
-  /// is likely to be near.
-  Nearest nearest(const glm::vec3& point, Index guess, const auto& may) const {
-    Nearest best;
-    const auto look = [&](Index face) {
-      if (!may(face)) return;
-      const auto& [a, b, c] = triangles_[face];
-      const collide::surface::Closest closest =
-          collide::surface::closest_vertex_face(point, vertices_[a], vertices_[b], vertices_[c]);
-      const float distance = glm::length(closest.separation);
-      if (distance < best.distance || (distance == best.distance && face < best.face))
-        best = {face, {closest.weight[1], closest.weight[2], closest.weight[3]}, distance};
-    };
-    if (guess < triangles_.size()) look(guess);
-    tree_.walk(
-        [&](const collide::surface::Box& box) {
-          return collide::surface::squared_distance_to(box, glm::dvec3(point)) <=
-                 double(best.distance) * double(best.distance) * (1 + 1e-6);
-        },
-        look);
-    return best;
+  collide::surface::Closest closest(const glm::vec3& point, Index face) const {
+    const auto& [a, b, c] = triangles_[face];
+    return collide::surface::closest_vertex_face(point, vertices_[a], vertices_[b], vertices_[c]);
+  }
+
+  /// Returns the nearest triangle for which may(face) is true; its distance (m) is infinite if there is none. guess: a
+  /// triangle that is likely to be near.
+  auto nearest(const glm::vec3& point, Index guess, const auto& may) const {
+    return tree_.nearest(glm::dvec3(point), guess, [&](Index face) {
+      return may(face) ? double(glm::length(closest(point, face).separation)) : double{INFINITY};
+    });
   }
 
  private:
@@ -272,20 +257,19 @@ class Coarsener {
   static std::size_t crossings_of(const Mesh& mesh) {
     const auto surface =
         std::make_shared<const collide::surface::Surface>(static_cast<Index>(mesh.vertices.size()), mesh.triangles);
-    std::vector<float> x, y, z;
-    for (const glm::dvec3& v : mesh.vertices)
-      x.push_back(static_cast<float>(v.x)), y.push_back(static_cast<float>(v.y)), z.push_back(static_cast<float>(v.z));
+    Points at;
+    at.add(mesh.vertices);
     collide::Bodies bodies;
     bodies.add(std::make_shared<collide::Shape>(surface->vertex_count(), surface->edges()));
     collide::Workers workers(1);
-    return collide::oracle::find_overlaps({x, y, z, &bodies}, {surface}, workers).piercings.size();
+    return collide::oracle::find_overlaps({at.x, at.y, at.z, &bodies}, {surface}, workers).piercings.size();
   }
 
   CoarseMesh embedded(Mesh mesh, const std::vector<Index>& from, std::size_t crossings) const {
     const std::vector<glm::vec3> coarse = rounded(mesh.vertices);
     const FaceTree tree(coarse, mesh.triangles);
     std::vector<Embedding::Hold> holds;
-    float farthest = 0;
+    double farthest = 0;
     Index guess = 0;
     for (Index v = 0; v < at_.size(); ++v) {
       const auto same_part = [&](Index face) { return part_[from[mesh.triangles[face][0]]] == part_[v]; };
@@ -293,25 +277,27 @@ class Coarsener {
       const auto same_side = [&](Index face) {
         return same_part(face) && glm::dot(normal_of(coarse, mesh.triangles[face]), normal_[v]) > 0;
       };
-      FaceTree::Nearest nearest = tree.nearest(at_[v], guess, same_side);
-      if (nearest.face == absent) nearest = tree.nearest(at_[v], guess, same_part);
-      guess = nearest.face;
-      const Triangle& t = mesh.triangles[nearest.face];
+      auto nearest = tree.nearest(at_[v], guess, same_side);
+      if (nearest.distance == INFINITY) nearest = tree.nearest(at_[v], guess, same_part);
+      guess = nearest.item;
+      const Triangle& t = mesh.triangles[guess];
+      const collide::surface::Closest closest = tree.closest(at_[v], guess);
+      const glm::vec3 weight(closest.weight[1], closest.weight[2], closest.weight[3]);
       glm::dvec3 foot(0.0);
-      for (int k = 0; k < 3; ++k) foot += double(nearest.weight[k]) * mesh.vertices[t[std::size_t(k)]];
-      holds.push_back({t, nearest.weight, glm::vec3(fine_.vertices[v] - foot)});
+      for (int k = 0; k < 3; ++k) foot += double(weight[k]) * mesh.vertices[t[std::size_t(k)]];
+      holds.push_back({t, weight, glm::vec3(fine_.vertices[v] - foot)});
       farthest = std::max(farthest, nearest.distance);
     }
     for (const Triangle& t : mesh.triangles) {
       const glm::vec3 &a = coarse[t[0]], &b = coarse[t[1]], &c = coarse[t[2]];
       for (const glm::vec3& p : {0.5f * (a + b), 0.5f * (b + c), 0.5f * (c + a), (a + b + c) / 3.0f}) {
         const auto nearest = faces_.nearest(p, guess, [](Index) { return true; });
-        guess = nearest.face;
+        guess = nearest.item;
         farthest = std::max(farthest, nearest.distance);
       }
     }
     Embedding embedding(mesh, std::move(holds));
-    return {std::move(mesh), std::move(embedding), double(farthest), crossings};
+    return {std::move(mesh), std::move(embedding), farthest, crossings};
   }
 
   const Mesh& fine_;

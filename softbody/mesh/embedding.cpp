@@ -19,24 +19,24 @@ glm::mat3 orthonormal(const glm::vec3& normal, const glm::vec3& tangent) {
   return {glm::cross(s, n), s, n};
 }
 
-std::vector<glm::vec3> normals(const std::vector<Triangle>& triangles, const ConstPoints& at) {
-  std::vector<glm::vec3> sum(at.x.size(), glm::vec3(0.0f));
+/// Writes the normal at each vertex, of any length.
+void find_normals(const std::vector<Triangle>& triangles, const ConstPoints& at, std::vector<glm::vec3>& sum) {
+  sum.assign(at.x.size(), glm::vec3(0.0f));
   for (const auto& [a, b, c] : triangles) {
     const glm::vec3 area = glm::cross(at[b] - at[a], at[c] - at[a]);
     sum[a] += area, sum[b] += area, sum[c] += area;
   }
-  return sum;
 }
 
 }  // namespace
 
 Embedding::Embedding(const Mesh& coarse, std::vector<Hold> holds)
     : holds_(std::move(holds)), triangles_(coarse.triangles), tangent_(coarse.vertices.size(), 0) {
-  std::vector<float> x, y, z;
-  for (const glm::dvec3& v : coarse.vertices)
-    x.push_back(static_cast<float>(v.x)), y.push_back(static_cast<float>(v.y)), z.push_back(static_cast<float>(v.z));
-  const ConstPoints at{x, y, z};
-  const std::vector<glm::vec3> normal = normals(triangles_, at);
+  Points rest;
+  rest.add(coarse.vertices);
+  const ConstPoints at = rest;
+  std::vector<glm::vec3> normal;
+  find_normals(triangles_, at, normal);
   // The neighbour that stands out least from the plane of the tangents, relative to its distance.
   std::vector<float> steepest(tangent_.size(), INFINITY);
   for (const Edge& edge : coarse.edges)
@@ -49,17 +49,14 @@ Embedding::Embedding(const Mesh& coarse, std::vector<Hold> holds)
     rest_inverse_.push_back(glm::transpose(orthonormal(normal[i], at[tangent_[i]] - at[i])));
 }
 
-std::vector<Embedding::Frame> Embedding::frames(const ConstPoints& at) const {
-  const std::vector<glm::vec3> normal = normals(triangles_, at);
-  std::vector<Frame> frames(normal.size());
-  for (std::size_t i = 0; i < frames.size(); ++i)
-    frames[i] = {at[i], orthonormal(normal[i], at[tangent_[i]] - at[i]) * rest_inverse_[i]};
-  return frames;
-}
-
-void Embedding::place(const ConstPoints& coarse, std::span<float> x, std::span<float> y, std::span<float> z) const {
+void Embedding::place(const ConstPoints& coarse, std::span<float> x, std::span<float> y, std::span<float> z,
+                      Scratch& scratch) const {
   assert(coarse.x.size() == tangent_.size() && x.size() == holds_.size());
-  const std::vector<Frame> frame = frames(coarse);
+  auto& [normal, frame] = scratch;
+  find_normals(triangles_, coarse, normal);
+  frame.resize(normal.size());
+  for (std::size_t i = 0; i < frame.size(); ++i)
+    frame[i] = {coarse[i], orthonormal(normal[i], coarse[tangent_[i]] - coarse[i]) * rest_inverse_[i]};
   for (std::size_t i = 0; i < holds_.size(); ++i) {
     const Hold& hold = holds_[i];
     const Frame &a = frame[hold.corner[0]], &b = frame[hold.corner[1]], &c = frame[hold.corner[2]];

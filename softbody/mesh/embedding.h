@@ -9,14 +9,9 @@
 #include <glm/mat3x3.hpp>
 
 #include "softbody/mesh/mesh.h"
+#include "softbody/mesh/points.h"
 
 namespace softbody {
-
-/// Positions (m) as detectors take them.
-struct ConstPoints {
-  std::span<const float> x, y, z;
-  glm::vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
-};
 
 /// Each fine vertex is held by the corners of one coarse triangle. With its closest point on the triangle, of
 /// barycentric coordinates w_i, and its offset d from there, both at rest, it stands at
@@ -27,12 +22,25 @@ struct ConstPoints {
 /// tangent along. So a rigid motion of the coarse mesh moves the fine one rigidly, and the fine surface has no crease
 /// where its vertices change from one triangle to the next.
 class Embedding {
+  /// Of one coarse vertex.
+  struct Frame {
+    glm::vec3 origin;
+    glm::mat3 turn;
+  };
+
  public:
   /// Of one fine vertex.
   struct Hold {
     std::array<Index, 3> corner;  // vertices of the coarse mesh
     glm::vec3 weight;             // their sum is 1
     glm::vec3 offset;             // m, at rest
+  };
+
+  /// What place() works with. It keeps its memory, so use it again.
+  class Scratch {
+    friend Embedding;
+    std::vector<glm::vec3> normal_;  // at each coarse vertex
+    std::vector<Frame> frame_;
   };
 
   Embedding() = default;
@@ -42,15 +50,10 @@ class Embedding {
   std::size_t size() const { return holds_.size(); }
   const Hold& operator[](std::size_t vertex) const { return holds_[vertex]; }
   /// Writes where the fine vertices are. Around a coarse vertex whose faces have no area, offsets are left out.
-  void place(const ConstPoints& coarse, std::span<float> x, std::span<float> y, std::span<float> z) const;
+  void place(const ConstPoints& coarse, std::span<float> x, std::span<float> y, std::span<float> z,
+             Scratch& scratch) const;
 
  private:
-  struct Frame {
-    glm::vec3 origin;
-    glm::mat3 turn;
-  };
-  std::vector<Frame> frames(const ConstPoints& coarse) const;
-
   std::vector<Hold> holds_;
   std::vector<Triangle> triangles_;      // of the coarse mesh
   std::vector<Index> tangent_;           // of each coarse vertex: the neighbour to which its tangent points

@@ -22,9 +22,8 @@ glm::vec3 rest_cell_size(const BodyModelSet& models, int levels, float tolerance
   collide::Bodies bodies;
   Coordinates rest;
   for (const auto& p : models.all()) {
-    const std::vector<glm::dvec3>& shape = p->fine ? p->fine->mesh.vertices : p->start;
     bodies.add(p->shown().shape);
-    for (const glm::dvec3& v : shape) rest.add(glm::vec3(v));
+    rest.add(p->fine ? p->fine->mesh.vertices : p->start);
   }
   return collide::default_cell_size(rest.frame(bodies), levels, tolerance);
 }
@@ -183,7 +182,7 @@ void World::Parts::place_fine_meshes() {
       const auto from = spans(particles.positions, particles.bodies, id);
       const auto to = spans(fine->positions, fine->bodies, id);
       if (const auto& mesh = solver.state().model(id).fine)
-        mesh->embedding().place({from[0], from[1], from[2]}, to[0], to[1], to[2]);
+        mesh->embedding().place({from[0], from[1], from[2]}, to[0], to[1], to[2], placing[std::size_t(thread)]);
       else
         for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(from[k], to[k].begin());
     }

@@ -2,6 +2,7 @@
 // Parts of a world. Only the files that implement World and tests of the solver include this.
 
 #include "softbody/integrate/solver.h"
+#include "softbody/mesh/points.h"
 #include "softbody/world/body_model_set.h"
 #include "softbody/world/sleep.h"
 #include "softbody/world/snapshot.h"
@@ -9,14 +10,8 @@
 
 namespace softbody {
 
-/// Positions in the layout that detectors take.
-struct Coordinates {
-  std::vector<float> x, y, z;
-  void add(const glm::vec3& p) {
-    x.push_back(p.x);
-    y.push_back(p.y);
-    z.push_back(p.z);
-  }
+/// Positions that the solver writes and detectors read.
+struct Coordinates : Points {
   Field<float> resized(std::size_t size) {
     x.resize(size), y.resize(size), z.resize(size);
     return {x.data(), y.data(), z.data()};
@@ -108,6 +103,7 @@ struct World::Parts : WorldValues {
 
   DetectedMeshes particles;            // the meshes that are simulated; their contacts act
   std::optional<DetectedMeshes> fine;  // the meshes that are shown, if they are others
+  std::vector<Embedding::Scratch> placing{std::size_t(workers.threads())};  // of each thread
 };
 
 struct Snapshot::Values {

@@ -7,6 +7,7 @@
 #include <sbcollide/softbody_c.h>
 
 #include "tests/api/recorded_bodies.h"
+#include "tests/api/ring.h"
 
 namespace api::test {
 namespace {
@@ -105,6 +106,30 @@ TEST(CWorld, MovesAsTheOneOfCpp) {
   EXPECT_EQ(sbcollide_world_first_vertex(world, 1), 162u);
 }
 
+TEST(CWorld, TakesMeshesAsTheOneOfCpp) {
+  const Ring ring;
+  for (const int resolution : {0, 200}) {
+    sbcollide::Scene scene;
+    scene.add_body({.mesh = ring.add_to(scene, resolution)});
+    sbcollide::World expected(scene);
+    expected.step();
+
+    const World handle = make_world();
+    sbcollide_world* world = handle.get();
+    int mesh = -1;
+    const uint32_t* corners = ring.triangles.front().data();
+    ASSERT_EQ(resolution == 0
+                  ? sbcollide_world_add_mesh(world, ring.xyz.data(), 1800, corners, 3600, &mesh)
+                  : sbcollide_world_add_fine_mesh(world, ring.xyz.data(), 1800, corners, 3600, resolution, &mesh),
+              SBCOLLIDE_OK);
+    ASSERT_EQ(sbcollide_world_add_body(world, mesh, nullptr, nullptr, nullptr), SBCOLLIDE_OK);
+    ASSERT_EQ(sbcollide_world_start(world, 1, nullptr), SBCOLLIDE_OK);
+    ASSERT_EQ(sbcollide_world_step(world, 1), SBCOLLIDE_OK);
+    EXPECT_EQ(sbcollide_world_state_hash(world), expected.state_hash());
+    EXPECT_EQ(sbcollide_world_vertices(world), 1800u);
+  }
+}
+
 TEST(CWorld, KeepsWhyACallFailed) {
   const World handle = make_world();
   sbcollide_world* world = handle.get();
@@ -116,6 +141,7 @@ TEST(CWorld, KeepsWhyACallFailed) {
   refuses(sbcollide_world_step(world, 1), "sbcollide_world_start");
   refuses(sbcollide_world_load(world, "/nowhere.toml"), "cannot be read");
   refuses(sbcollide_world_add_sphere_mesh(world, -1, 2, &mesh), "radius");
+  refuses(sbcollide_world_add_fine_mesh(world, nullptr, 0, nullptr, 0, 10, &mesh), "resolution");
   ASSERT_EQ(sbcollide_world_load(world, SBCOLLIDE_SCENES "/A.toml"), SBCOLLIDE_OK);
   ASSERT_EQ(sbcollide_world_start(world, 1, nullptr), SBCOLLIDE_OK);
   refuses(sbcollide_world_start(world, 1, "best"), "integrator");

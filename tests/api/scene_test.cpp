@@ -1,11 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iomanip>
+#include <limits>
+#include <set>
+#include <sstream>
 #include <thread>
 
 #include <sbcollide/softbody.h>
 
 #include "tests/api/expect_error.h"
+#include "tests/api/ring.h"
 #include "tests/cli/process.h"
 
 namespace api::test {
@@ -107,26 +112,38 @@ TEST(Scene, KeepsTheOrderOfAMesh) {
   EXPECT_LT(world.velocities()[0][1], 0);
 }
 
-// A ring around the y axis, 1.4 m wide and 0.4 m high, of 1,800 vertices: more than are simulated one by one.
-int add_ring(Scene& scene) {
-  constexpr Index around = 60, section = 30;
-  std::vector<float> xyz;
-  std::vector<std::array<Index, 3>> triangles;
-  for (Index i = 0; i < around; ++i)
-    for (Index j = 0; j < section; ++j) {
-      const double u = 2 * M_PI * i / around, v = 2 * M_PI * j / section, r = 0.5 + 0.2 * std::cos(v);
-      for (const double c : {r * std::cos(u), 0.2 * std::sin(v), r * std::sin(u)}) xyz.push_back(static_cast<float>(c));
-      const Index k = (i + 1) % around, l = (j + 1) % section;
-      triangles.push_back({i * section + j, i * section + l, k * section + j});
-      triangles.push_back({i * section + l, k * section + l, k * section + j});
-    }
-  return scene.add_mesh(xyz, triangles);
+TEST(Scene, LetsAsManyParticlesSimulateAMeshAsItsFileDoes) {
+  const Ring ring;
+  std::ostringstream obj;
+  obj << std::setprecision(std::numeric_limits<double>::max_digits10);
+  for (std::size_t i = 0; i < ring.xyz.size(); i += 3)
+    obj << "v " << double{ring.xyz[i]} << ' ' << double{ring.xyz[i + 1]} << ' ' << double{ring.xyz[i + 2]} << '\n';
+  for (const auto& [a, b, c] : ring.triangles) obj << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+  const tests::TemporaryFolder folder;
+  const std::string file = folder.write("ring.obj", obj.str()).string();
+  std::set<std::uint64_t> hashes;
+  for (const int resolution : {0, 200, 1800}) {
+    Scene code, text;
+    code.add_ground(-0.3);
+    text.add_text("[ground]\nheight = -0.3\nfriction = 0.6\n[[body]]\nmesh = {kind = \"file\", path = \"" + file +
+                  "\", resolution = " + std::to_string(resolution) + "}\nposition = [0, 0, 0]\n");
+    code.add_body({.mesh = ring.add_to(code, resolution)});
+    const World world = run(code, 20);
+    EXPECT_EQ(world.state_hash(), run(text, 20).state_hash()) << resolution;
+    EXPECT_EQ(world.positions().x.size(), 1800u);
+    hashes.insert(world.state_hash());
+  }
+  EXPECT_EQ(hashes.size(), 3u);
+  for (const int resolution : {-1, 49}) {
+    Scene scene;
+    expect_error("resolution", [&] { ring.add_to(scene, resolution); });
+  }
 }
 
 TEST(ApiWorld, FindsTheContactsOfAllVerticesOfAFineMesh) {
   Scene scene;
   scene.add_text("[collision]\ntolerance = 0.03\n");
-  const int ring = add_ring(scene);
+  const int ring = Ring().add_to(scene);
   scene.add_body({.mesh = ring});
   scene.add_body({.mesh = ring, .position = {0.1, 0.41, 0}, .velocity = {0, -1, 0}});
   const World world = run(scene, 3);
@@ -146,7 +163,7 @@ TEST(ApiWorld, FindsTheContactsOfAllVerticesOfAFineMesh) {
 TEST(ApiWorld, GivesTheVelocityOfEachVertexOfAFineMesh) {
   Scene scene;
   scene.add_ground(-0.25);
-  scene.add_body({.mesh = add_ring(scene), .velocity = {0, -3, 0}});
+  scene.add_body({.mesh = Ring().add_to(scene), .velocity = {0, -3, 0}});
   World world(scene, {.frame_time = 0.001});
   for (int i = 0; i < 50; ++i) world.step();
   const std::vector before(world.positions().y.begin(), world.positions().y.end());

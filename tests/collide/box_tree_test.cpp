@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "states.h"
 
 namespace collide::test {
@@ -48,6 +50,31 @@ TEST(BoxTree, FindsEqualBoxesAndBoxesThatOnlyTouch) {
   EXPECT_EQ(found({glm::dvec3(1), glm::dvec3(2)}), 9);
   EXPECT_EQ(found({glm::dvec3(1, 1, 1.0000001), glm::dvec3(2)}), 0);
   EXPECT_EQ(found({}), 0);
+}
+
+TEST(BoxTree, FindsTheNearestItemThatCounts) {
+  std::mt19937 random(24);
+  std::vector<Box> boxes = random_boxes(random, 200);
+  for (std::size_t i = 0; i < 100; ++i) boxes.push_back(boxes[i]);  // equally near
+  const BoxTree tree(boxes);
+  for (const glm::vec3& point : random_points(random, 50, -1, 5))
+    for (const Index step : {1u, 3u, 1000u}) {  // every item counts, every third one, and none
+      int looks = 0;
+      const auto distance = [&](Index item) {
+        ++looks;
+        const double squared = squared_distance_to(boxes[item], glm::dvec3(point));
+        return item % step == step - 1 ? double{std::sqrt(float(squared))} : INFINITY;
+      };
+      BoxTree::Nearest expected{INFINITY, 0};
+      for (Index i = 0; i < boxes.size(); ++i)
+        if (distance(i) < expected.distance) expected = {distance(i), i};
+      for (const Index guess : {0u, 299u}) {
+        looks = 0;
+        const BoxTree::Nearest found = tree.nearest(glm::dvec3(point), guess, distance);
+        EXPECT_EQ(found.distance, expected.distance);
+        EXPECT_TRUE(step == 1000 || (found.item == expected.item && looks < 150)) << looks;
+      }
+    }
 }
 
 /// Returns where a moving box is at a time.

@@ -1,9 +1,16 @@
 // Worlds of every value that a scene file may hold, in frames of any length, under changing hands: such a scene reads
 // back as it was written, is refused in one line or moves, stays finite in every step that the program chooses by
-// itself, and goes on from a snapshot to the bit, also in a world of other threads and instructions.
+// itself, and goes on from a snapshot to the bit, also in a world of other threads and instructions. Fine meshes, which
+// only code can make here, follow the coarse ones that are simulated.
 
 #include <hwy/targets.h>
 
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <tuple>
+#include <vector>
+
+#include "collide/core/vertex_run.h"
 #include "random_scene.h"
 #include "require.h"
 #include "softbody/scene/limits.h"
@@ -75,6 +82,9 @@ void change(softbody::World& world, Bytes& bytes) {
         world.set_integrator({std::string(all[std::size_t(bytes.below(int(all.size())))].key)});
         break;
       }
+      case 11:
+        world.add(read_fine_body(bytes, int(world.scene().materials.size())));
+        break;
       default:
         break;
     }
@@ -84,16 +94,47 @@ void change(softbody::World& world, Bytes& bytes) {
   }
 }
 
+/// Requires of all fine vertices that they are no farther from their places on the coarse surface than at rest.
+void require_followers(const softbody::World& world) {
+  const collide::Frame fine = world.positions(), coarse = world.simulated().positions;
+  const auto at = [](const collide::Frame& frame, softbody::BodyId body, softbody::Index vertex) {
+    return glm::dvec3(collide::vertices_of(frame, body)[vertex]);
+  };
+  for (softbody::BodyId body = 0; body < world.bodies().count(); ++body) {
+    if (!world.model(body).fine) continue;
+    const softbody::Embedding& embedding = world.model(body).fine->embedding();
+    for (softbody::Index v = 0; v < embedding.size(); ++v) {
+      const softbody::Embedding::Hold& hold = embedding[v];
+      glm::dvec3 foot(0.0);
+      double farthest = 0;  // from the origin: floats round by its millionth
+      for (int k = 0; k < 3; ++k) {
+        const glm::dvec3 corner = at(coarse, body, hold.corner[std::size_t(k)]);
+        foot += double(hold.weight[k]) * corner;
+        farthest = std::max(farthest, glm::length(corner));
+      }
+      const double most = 1.001 * double(glm::length(hold.offset)) + 1e-6 * farthest;
+      require(glm::distance(at(fine, body, v), foot) <= most, "a fine vertex does not follow");
+    }
+  }
+}
+
+/// Returns the state and what is shown of it.
+auto outcome(const softbody::World& world) {
+  const auto [x, y, z, bodies] = world.positions();
+  return std::tuple(world.state_hash(), std::vector(x.begin(), x.end()), std::vector(y.begin(), y.end()),
+                    std::vector(z.begin(), z.end()));
+}
+
 /// One step. At times it is done three times from a snapshot of before: here, here again and in a world of its own.
 /// start: a scene that options are good for.
 void step(softbody::World& world, bool thrice, const softbody::Scene& start, const softbody::World::Options& options) {
   if (!thrice) return world.step();
   const softbody::Snapshot snapshot = world.snapshot();
   world.step();
-  const std::uint64_t once = world.state_hash();
+  const auto once = outcome(world);
   world.restore(snapshot);
   world.step();
-  require(world.state_hash() == once, "it goes on from a snapshot in another way");
+  require(outcome(world) == once, "it goes on from a snapshot in another way");
   softbody::World::Options other_way = options;
   other_way.threads = 2;
   other_way.min_shared_particles = 1;
@@ -102,16 +143,18 @@ void step(softbody::World& world, bool thrice, const softbody::Scene& start, con
   twin.restore(snapshot);
   twin.step();
   hwy::SetSupportedTargetsForTest(0);
-  require(twin.state_hash() == once, "two threads of baseline code go on in another way");
+  require(outcome(twin) == once, "two threads of baseline code go on in another way");
 }
 
 void run(Bytes bytes) {
   static TextFile file(".toml");
-  const softbody::Scene scene = read_scene(bytes, file.path().stem().string());
+  softbody::Scene scene = read_scene(bytes, file.path().stem().string());
   require(through_file(scene, file) == scene, "a scene does not read back as it was written");
   softbody::World::Options options;
   options.budget = budget;
-  if (bytes.below(4) == 0) options.integrator.key = "implicit";
+  const int choice = bytes.below(32);
+  if (choice % 4 == 0) options.integrator.key = "implicit";
+  if (choice >= 1 && choice <= 8) scene.bodies.push_back(read_fine_body(bytes, int(scene.materials.size())));
   options.frame_time = bytes.one_of({1.0 / 600, 1.0 / 600, 1.0 / 600, 1.0 / 60, 1.0 / 60, 0.0});
   if (options.frame_time == 0) options.frame_time = bytes.one_of({1e-6, 0.1, 1.0});
   std::optional<softbody::World> world;
@@ -124,6 +167,7 @@ void run(Bytes bytes) {
     step(*world, bytes.below(8) == 0, scene, options);
     substeps += world->last_step().substeps;
     require(softbody::measure(*world).finite, "not finite");
+    require_followers(*world);
     change(*world, bytes);
   }
 }

@@ -71,6 +71,25 @@ softbody::MeshSource read_mesh(Bytes& bytes) {
   return mesh;
 }
 
+/// Returns a ball or a sheet, rough or smooth, round or flat; of 162 vertices on 50 particles or more, and rarely of so
+/// many that 800 simulate it.
+softbody::MeshSource read_fine_mesh(Bytes& bytes) {
+  const auto imported = std::make_shared<softbody::ImportedMesh>();
+  const bool large = bytes.below(16) == 1, ball = bytes.below(4) != 0;
+  const double size = read(bytes, sizes), roughness = bytes.one_of({0.0, 0.1, 0.3}), flat = bytes.one_of({1.0, 0.1});
+  softbody::Mesh& mesh = imported->mesh;
+  mesh = ball ? softbody::icosphere(large ? 4 : 2, 1) : softbody::quad_grid(large ? 32 : 12, large ? 32 : 12, 1, 1);
+  std::mt19937 random = bytes.random();
+  for (glm::dvec3& v : mesh.vertices) {
+    const double more = roughness * random() / std::mt19937::max();
+    v = size * glm::dvec3(1, flat, 1) * (ball ? (1 + more) * v : v + glm::dvec3(0, more, 0));
+  }
+  softbody::connect_triangles(mesh);
+  softbody::add_coarse_mesh(*imported, large ? 0 : bytes.one_of({50u, 60u, 100u, 150u}));
+  imported->findings.closed = mesh.closed;
+  return {.kind = "file", .imported = imported};
+}
+
 glm::dvec3 read_place(Bytes& bytes) {
   switch (bytes.below(32)) {
     case 1:
@@ -163,13 +182,20 @@ softbody::Material read_material(Bytes& bytes, const std::string& name) {
   return m;
 }
 
-softbody::BodySource read_body(Bytes& bytes, int materials) {
+/// Reads all of it but its mesh.
+softbody::BodySource read_body_of(softbody::MeshSource mesh, Bytes& bytes, int materials) {
   softbody::BodySource body;
-  body.mesh = read_mesh(bytes);
+  body.mesh = std::move(mesh);
   body.material = bytes.below(materials);
   body.position = read_place(bytes);
   body.velocity = read_vector(bytes, bytes.one_of({0.0, 1.0, 10.0, 100.0, 1000.0}));
   return body;
+}
+
+softbody::BodySource read_body(Bytes& bytes, int materials) { return read_body_of(read_mesh(bytes), bytes, materials); }
+
+softbody::BodySource read_fine_body(Bytes& bytes, int materials) {
+  return read_body_of(read_fine_mesh(bytes), bytes, materials);
 }
 
 softbody::Scene read_scene(Bytes& bytes, const std::string& key) {

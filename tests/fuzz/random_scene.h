@@ -11,6 +11,8 @@ softbody::Scene read_scene(Bytes& bytes, const std::string& key);
 
 softbody::Material read_material(Bytes& bytes, const std::string& name);
 softbody::BodySource read_body(Bytes& bytes, int materials);
+/// Its mesh is made here, not in a scene file, and rides on a coarse one.
+softbody::BodySource read_fine_body(Bytes& bytes, int materials);
 glm::dvec3 read_vector(Bytes& bytes, double size);
 
 }  // namespace fuzz

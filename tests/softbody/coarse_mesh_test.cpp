@@ -114,21 +114,20 @@ std::vector<Shape> shapes() {
   return list;
 }
 
-/// Points of the coarse mesh, as place() takes them.
-struct Points {
-  std::vector<float> x, y, z;
-  explicit Points(std::size_t size) : x(size), y(size), z(size) {}
-  explicit Points(const std::vector<glm::dvec3>& points) {
-    for (const glm::dvec3& p : points) x.push_back(float(p.x)), y.push_back(float(p.y)), z.push_back(float(p.z));
-  }
-  glm::dvec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
-};
-
-Points placed(const CoarseMesh& coarse, const std::vector<glm::dvec3>& at) {
-  const Points from(at);
-  Points to(coarse.embedding.size());
-  coarse.embedding.place({from.x, from.y, from.z}, to.x, to.y, to.z);
-  return to;
+/// Returns where the fine vertices are if the coarse ones are `at` these places.
+std::vector<glm::dvec3> placed(const CoarseMesh& coarse, const std::vector<glm::dvec3>& at,
+                               Embedding::Scratch& scratch) {
+  Points from, to;
+  from.add(at);
+  std::vector<glm::dvec3> fine(coarse.embedding.size(), glm::dvec3(0.0));
+  to.add(fine);
+  coarse.embedding.place(from, to.x, to.y, to.z, scratch);
+  for (std::size_t v = 0; v < fine.size(); ++v) fine[v] = glm::dvec3(ConstPoints(to)[v]);
+  return fine;
+}
+std::vector<glm::dvec3> placed(const CoarseMesh& coarse, const std::vector<glm::dvec3>& at) {
+  Embedding::Scratch scratch;
+  return placed(coarse, at, scratch);
 }
 
 TEST(CoarseMesh, KeepsTheFormOfTheFineOne) {
@@ -232,7 +231,7 @@ TEST(Embedding, FollowsARigidMotion) {
     const CoarseMesh coarse = coarsen(shape.mesh, 300).value();
     std::vector<glm::dvec3> moved;
     for (const glm::dvec3& v : coarse.mesh.vertices) moved.push_back(turn * v + way);
-    const Points rest = placed(coarse, coarse.mesh.vertices), now = placed(coarse, moved);
+    const std::vector rest = placed(coarse, coarse.mesh.vertices), now = placed(coarse, moved);
     double at_rest = 0, in_motion = 0;
     for (std::size_t v = 0; v < coarse.embedding.size(); ++v) {
       at_rest = std::max(at_rest, glm::distance(rest[v], shape.mesh.vertices[v]));
@@ -245,8 +244,16 @@ TEST(Embedding, FollowsARigidMotion) {
 
 TEST(Embedding, StaysFiniteWhereTheCoarseMeshCollapses) {
   const CoarseMesh coarse = coarsen(bumpy_ball(4), 300).value();
-  const Points at = placed(coarse, std::vector(coarse.mesh.vertices.size(), glm::dvec3(1, 2, 3)));
+  const std::vector at = placed(coarse, std::vector(coarse.mesh.vertices.size(), glm::dvec3(1, 2, 3)));
   for (std::size_t v = 0; v < coarse.embedding.size(); ++v) ASSERT_LT(glm::distance(at[v], {1, 2, 3}), 1e-5);
+}
+
+TEST(Embedding, TakesScratchThatOtherMeshesHaveUsed) {
+  Embedding::Scratch scratch;
+  for (const std::size_t vertices : {300, 600, 200}) {
+    const CoarseMesh coarse = coarsen(bumpy_ball(4), vertices).value();
+    EXPECT_EQ(placed(coarse, coarse.mesh.vertices, scratch), placed(coarse, coarse.mesh.vertices));
+  }
 }
 
 /// Worlds of bodies whose mesh is a file of 2,562 vertices.

@@ -10,7 +10,7 @@
 //
 // Lengths are in metres, times in seconds, masses in kilograms; y points up. There is no global state: objects may work
 // on several threads at the same time, each on one of them. Equal scenes move equally, to the bit, on any number of
-// threads and on any processor; with meshes of more than 1,000 vertices, for equal versions of meshoptimizer.
+// threads and on any processor; with meshes that ride on fewer particles, for equal versions of meshoptimizer.
 
 #include <filesystem>
 #include <map>
@@ -63,9 +63,10 @@ class Scene {
 
   /// Adds a mesh for bodies and returns its number. The order of vertices and triangles stays. xyz: three coordinates
   /// of each vertex; the middle of their bounding box becomes the mesh's origin. Each edge must have one or two
-  /// triangles, each vertex at least one; triangles are turned if their neighbours or the volume ask for it. More
-  /// than 1,000 vertices ride on about 800 particles that are simulated. Throws Error.
-  int add_mesh(std::span<const float> xyz, std::span<const std::array<Index, 3>> triangles);
+  /// triangles, each vertex at least one; triangles are turned if their neighbours or the volume ask for it.
+  /// resolution: about so many particles simulate the mesh if it has more vertices, which then ride on them; 50 or
+  /// more. 0: 800, if it has more than 1,000 vertices. Throws Error.
+  int add_mesh(std::span<const float> xyz, std::span<const std::array<Index, 3>> triangles, int resolution = 0);
   /// Adds an icosphere of 10 * 4^subdivisions + 2 vertices. Throws Error.
   int add_sphere_mesh(double radius, int subdivisions = 2);
   void add_body(const Body& body);
@@ -112,8 +113,7 @@ class World {
   Index first_vertex(Index body) const;  // throws Error if there is no such body, as triangles() does
   std::span<const std::array<Index, 3>> triangles(Index body) const;  // of the body's own vertices, counted from 0
   Positions positions() const;
-  /// m/s, of each vertex; where a mesh of more than 1,000 vertices is simulated by fewer particles, of the places of
-  /// their surface that hold its vertices.
+  /// m/s, of each vertex; where fewer particles simulate a mesh, of the places of their surface that hold its vertices.
   std::vector<Vector> velocities() const;
   /// Pairs of vertices that are closer than the tolerance; ascending. The tolerance is 0.1 m unless the scene has
   /// another: add_text("[collision]\ntolerance = 0.05\n").

@@ -28,6 +28,11 @@ sbcollide_status sbcollide_world_add_text(sbcollide_world* world, const char* to
    vertices each. */
 sbcollide_status sbcollide_world_add_mesh(sbcollide_world* world, const float* xyz, size_t vertex_count,
                                           const uint32_t* triangles, size_t triangle_count, int* mesh);
+/* Does the same, and says by about how many particles the mesh is simulated if it has more vertices: 50 or more. 0: as
+   sbcollide_world_add_mesh(), by 800 if it has more than 1,000. */
+sbcollide_status sbcollide_world_add_fine_mesh(sbcollide_world* world, const float* xyz, size_t vertex_count,
+                                               const uint32_t* triangles, size_t triangle_count, int resolution,
+                                               int* mesh);
 sbcollide_status sbcollide_world_add_sphere_mesh(sbcollide_world* world, double radius, int subdivisions, int* mesh);
 /* Adds a body; once the world is started, at once. material: a name, or NULL for the first one. position (m), velocity
    (m/s): three numbers each, or NULL for zeros. */
