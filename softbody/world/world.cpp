@@ -177,15 +177,14 @@ void World::Parts::place_fine_meshes() {
     return std::array{part(of.x), part(of.y), part(of.z)};
   };
   fine->positions.resized(fine->bodies.vertex_count());
-  workers.run([&](int thread) {
-    for (BodyId id = BodyId(thread); id < particles.bodies.count(); id += BodyId(workers.threads())) {
-      const auto from = spans(particles.positions, particles.bodies, id);
-      const auto to = spans(fine->positions, fine->bodies, id);
-      if (const auto& mesh = solver.state().model(id).fine)
-        mesh->embedding().place({from[0], from[1], from[2]}, to[0], to[1], to[2], placing[std::size_t(thread)]);
-      else
-        for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(from[k], to[k].begin());
-    }
+  workers.share(particles.bodies.count(), [&](int thread, std::size_t body) {
+    const auto id = BodyId(body);
+    const auto from = spans(particles.positions, particles.bodies, id);
+    const auto to = spans(fine->positions, fine->bodies, id);
+    if (const auto& mesh = solver.state().model(id).fine)
+      mesh->embedding().place({from[0], from[1], from[2]}, to[0], to[1], to[2], placing[std::size_t(thread)]);
+    else
+      for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(from[k], to[k].begin());
   });
 }
 

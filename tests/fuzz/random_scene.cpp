@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "softbody/contact/keys.h"
 #include "softbody/forces/gas.h"
