@@ -1,6 +1,8 @@
 #include "collide/core/workers.h"
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <exception>
 #include <mutex>
@@ -14,15 +16,6 @@ namespace collide {
 namespace {
 /// Thrown by barrier() where another thread's task has failed; never leaves run().
 struct Cancelled {};
-
-/// Waits while `value` is `old`. To be woken from sleep takes many times as long as most waits here last. But whoever
-/// looks for long takes the processor from others, and then comes last.
-void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
-  constexpr int looks = 2000;  // some microseconds
-  for (int i = 0; i < looks; ++i)
-    if (value != old) return;
-  value.wait(old);
-}
 }  // namespace
 
 struct Workers::Shared {
@@ -36,7 +29,25 @@ struct Workers::Shared {
   std::atomic<std::uint32_t> barriers = 0;    // that all have reached, or left because a task has failed
   std::atomic<std::uint32_t> arrived = 0;     // at the next barrier
   std::atomic<bool> failed = false;
+  std::condition_variable changed;    // one of these numbers
   std::vector<std::jthread> threads;  // last, so that they are joined before the rest goes
+
+  /// Waits while `value` is `old`: awake for about as long as it would take to be woken. No result depends on the
+  /// clock.
+  void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::microseconds(50);
+    do {
+      for (int look = 0; look < 100; ++look)
+        if (value != old) return;
+    } while (std::chrono::steady_clock::now() < end);
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [&] { return value != old; });
+  }
+
+  void wake_sleepers() {
+    { const std::lock_guard lock(mutex); }  // whoever has just looked in vain is asleep by now
+    changed.notify_all();
+  }
 
   void perform(const std::function<void(int)>& part, int thread) {
     try {
@@ -54,7 +65,7 @@ struct Workers::Shared {
 
   void pass_barrier() {
     ++barriers;
-    barriers.notify_all();
+    wake_sleepers();
   }
 
   void serve(int thread) {
@@ -70,7 +81,7 @@ struct Workers::Shared {
       }
       if (!part) continue;
       perform(*part, thread);
-      if (--at_work == 0) at_work.notify_one();
+      if (--at_work == 0) wake_sleepers();
     }
   }
 
@@ -80,7 +91,7 @@ struct Workers::Shared {
       stopping = true;
       ++run_number;
     }
-    run_number.notify_all();
+    changed.notify_all();
     threads.clear();
   }
 
@@ -93,7 +104,7 @@ struct Workers::Shared {
       if (all) at_work = static_cast<std::uint32_t>(threads.size());
       ++run_number;
     }
-    run_number.notify_all();
+    changed.notify_all();
     perform(next, 0);
     if (!all) {
       const std::lock_guard lock(mutex);
@@ -140,7 +151,7 @@ void Workers::barrier() {
     shared.arrived = 0;
     shared.pass_barrier();
   } else {
-    wait_while(shared.barriers, before);
+    shared.wait_while(shared.barriers, before);
   }
   if (shared.failed) throw Cancelled();
 }
