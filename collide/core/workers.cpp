@@ -1,6 +1,7 @@
 #include "collide/core/workers.h"
 
 #include <atomic>
+#include <cassert>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -29,12 +30,12 @@ struct Workers::Shared {
   std::atomic<std::uint32_t> barriers = 0;    // that all have reached, or left because a task has failed
   std::atomic<std::uint32_t> arrived = 0;     // at the next barrier
   std::atomic<bool> failed = false;
-  std::condition_variable changed;    // one of these numbers
-  std::vector<std::jthread> threads;  // last, so that they are joined before the rest goes
+  std::condition_variable begun, done, passed;  // a change of run_number, of at_work to 0, or of barriers
+  std::vector<std::jthread> threads;            // last, so that they are joined before the rest goes
 
   /// Waits while `value` is `old`: awake for about as long as it would take to be woken. No result depends on the
   /// clock.
-  void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
+  void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old, std::condition_variable& changed) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::microseconds(50);
     do {
       for (int look = 0; look < 100; ++look)
@@ -44,7 +45,7 @@ struct Workers::Shared {
     changed.wait(lock, [&] { return value != old; });
   }
 
-  void wake_sleepers() {
+  void wake_sleepers(std::condition_variable& changed) {
     { const std::lock_guard lock(mutex); }  // whoever has just looked in vain is asleep by now
     changed.notify_all();
   }
@@ -65,12 +66,12 @@ struct Workers::Shared {
 
   void pass_barrier() {
     ++barriers;
-    wake_sleepers();
+    wake_sleepers(passed);
   }
 
   void serve(int thread) {
     for (std::uint32_t seen = 0;;) {
-      wait_while(run_number, seen);
+      wait_while(run_number, seen, begun);
       const std::function<void(int)>* part = nullptr;
       {
         const std::lock_guard lock(mutex);
@@ -81,7 +82,7 @@ struct Workers::Shared {
       }
       if (!part) continue;
       perform(*part, thread);
-      if (--at_work == 0) wake_sleepers();
+      if (--at_work == 0) wake_sleepers(done);
     }
   }
 
@@ -91,12 +92,17 @@ struct Workers::Shared {
       stopping = true;
       ++run_number;
     }
-    changed.notify_all();
+    begun.notify_all();
     threads.clear();
+  }
+
+  void wait_for_others() {
+    for (std::uint32_t others; (others = at_work) != 0;) wait_while(at_work, others, done);
   }
 
   /// The caller's thread takes part.
   void run(const std::function<void(int)>& next, bool all) {
+    assert(at_work == 0);
     {
       const std::lock_guard lock(mutex);
       task = &next;
@@ -104,13 +110,14 @@ struct Workers::Shared {
       if (all) at_work = static_cast<std::uint32_t>(threads.size());
       ++run_number;
     }
-    changed.notify_all();
+    begun.notify_all();
     perform(next, 0);
-    if (!all) {
+    if (all) wait_for_others();
+    {
       const std::lock_guard lock(mutex);
       task = nullptr;
     }
-    for (std::uint32_t others; (others = at_work) != 0;) wait_while(at_work, others);
+    wait_for_others();
     if (!failed) return;
     failed = false;
     arrived = 0;
@@ -135,6 +142,10 @@ Workers::~Workers() { shared_->stop(); }
 void Workers::run(const std::function<void(int thread)>& task) { shared_->run(task, true); }
 
 void Workers::share(std::size_t count, const std::function<void(int thread, std::size_t item)>& use) {
+  if (threads_ == 1 || count < 2) {
+    for (std::size_t item = 0; item < count; ++item) use(0, item);
+    return;
+  }
   std::atomic<std::size_t> next = 0;
   shared_->run(
       [&](int thread) {
@@ -145,13 +156,14 @@ void Workers::share(std::size_t count, const std::function<void(int thread, std:
 
 void Workers::barrier() {
   Shared& shared = *shared_;
+  assert(shared.by_all);
   const std::uint32_t before = shared.barriers;  // read first: a thread that fails from here on changes it
   if (shared.failed) throw Cancelled();
   if (++shared.arrived == static_cast<std::uint32_t>(threads_)) {
     shared.arrived = 0;
     shared.pass_barrier();
   } else {
-    shared.wait_while(shared.barriers, before);
+    shared.wait_while(shared.barriers, before, shared.passed);
   }
   if (shared.failed) throw Cancelled();
 }

@@ -26,9 +26,9 @@ class Workers {
   void run(const std::function<void(int thread)>& task);
 
   /// Calls use(thread, item) once for each item below `count`, in any order: on the caller's thread, and on those
-  /// others that wake up before it is done. So it takes no longer than on one thread, whatever else the machine does.
-  /// If a call throws, share() rethrows the first exception; some items may then have been left out. Not reentrant, as
-  /// run().
+  /// others that wake up before it is done. It waits for no thread that has not woken up. `use` must not call
+  /// barrier(). If a call throws, share() rethrows the first exception; some items may then have been left out. Not
+  /// reentrant, as run().
   void share(std::size_t count, const std::function<void(int thread, std::size_t item)>& use);
 
   /// Waits until every thread of the current run() has called it. Only for use inside a task, by all threads.

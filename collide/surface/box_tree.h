@@ -2,6 +2,7 @@
 // A bounding volume hierarchy of boxes over items: faces, edges or bodies, at one instant or in motion.
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <vector>
 
@@ -107,9 +108,10 @@ class BoundsTree {
   };
   /// Returns the item with the smallest distance(item) from a point; the first one if several are equally near.
   /// distance: how far what the box of the item holds is from the point, which floats may round; infinite if the item
-  /// does not count. guess: an item; the nearer it is, the shorter is the search. Only for trees of Box.
+  /// does not count. guess: an item; the nearer it is, the shorter is the search. Only for trees of Box, not empty.
   template <class Distance>
   Nearest nearest(const glm::dvec3& point, Index guess, const Distance& distance) const {
+    assert(!nodes_.empty());
     Nearest best{distance(guess), guess};
     const auto may_be_nearer = [&](const Bounds& box) {
       return squared_distance_to(box, point) <= best.distance * best.distance * (1 + 1e-6);

@@ -114,18 +114,22 @@ void SurfaceSearch::search(const Motion& motion, float min_seconds, Workers& wor
   const auto share = [&](std::size_t count, const auto& task) {
     workers.share(count, [&](int thread, std::size_t i) { task(threads_[static_cast<std::size_t>(thread)], i); });
   };
-  share(swept_.size(), [&](Thread& own, std::size_t b) {
+  const auto share_bodies = [&](const std::vector<char>& which, const auto& task) {
+    due_.clear();
+    for (Index b = 0; b < swept_.size(); ++b)
+      if (which[b]) due_.push_back(b);
+    share(due_.size(), [&](Thread& own, std::size_t i) { task(own, due_[i]); });
+  };
+  share_bodies(predicted_anew_, [&](Thread& own, Index b) {
     const float end = std::min(end_, time_ + bodies_[b].horizon);
-    if (!predicted_anew_[b]) return;
     SweptBody& body = swept_[b];
-    body.predict(motion, static_cast<Index>(b), bodies_[b], time_, end, min_seconds);
+    body.predict(motion, b, bodies_[b], time_, end, min_seconds);
     may_touch_itself_[b] = query_.self && body.live() && body.moves() && !body.stays_star_shaped();
-    if (may_touch_itself_[b]) cover_itself(own, static_cast<Index>(b), min_seconds);
+    if (may_touch_itself_[b]) cover_itself(own, b, min_seconds);
   });
   find_tasks();
   std::swap(current_, previous_);
-  share(swept_.size(), [&](Thread& own, std::size_t b) {
-    if (!needs_boxes_[b]) return;
+  share_bodies(needs_boxes_, [&](Thread& own, Index b) {
     swept_[b].place_points(time_);
     if (has_boxes_[b]) return;
     swept_[b].build_feature_boxes();
@@ -280,6 +284,7 @@ void SurfaceSearch::add_reachable(Thread& own, const Task& task) const {
   const bool turned = task.kind == Task::Kind::face_vertex;
   const Index a = turned ? task.b : task.a, b = turned ? task.a : task.b;
   const Surface &one = swept_[a].surface(), &two = swept_[b].surface();
+  assert(a != b || swept_[a].begin() == time_);
   const auto& points = a == b ? &SweptBody::deforming_points : &SweptBody::points;
   const std::vector<MovingPoint>&p = (swept_[a].*points)(), &q = (swept_[b].*points)();
   if (task.kind == Task::Kind::edge_edge)
@@ -302,13 +307,14 @@ void SurfaceSearch::add_reachable(Thread& own, const Task& task) const {
 
 /// Adds the pairs found that can come within reach of each other before the prediction ends, in order. Their distance
 /// and relative speed bound the earliest time of that, as in conservative advancement. The first `ones` corners of a
-/// pair are those of its first feature, of which there are end_a.
+/// pair are those of its first feature. end_a and end_b: how many there are of the first feature's kind, and of the
+/// second's.
 template <std::size_t ones, class Corners, class FindClosest>
 void SurfaceSearch::add_reachable(Thread& own, Index a, Index b, Index end_a, Index end_b, const Corners& corners,
                                   const FindClosest& find_closest) const {
   const float near = reach(a, b, 0), max_distance = reach(a, b, max_relative_speed(a, b)),
               max_distance2 = max_distance * max_distance;
-  own.sort.sort(own.found, 0, end_a, end_b);
+  own.sort.sort(own.found, end_a, end_b);
   for (std::size_t i = 0; i < own.found.size();) {
     own.batch.clear();
     for (; i < own.found.size() && !own.batch.full(); ++i) {

@@ -117,7 +117,7 @@ class SurfaceSearch {
   struct alignas(64) Thread : SelfNeighbours::Scratch {
     BoxList boxes_a, boxes_b;
     std::vector<float> ways;  // see SelfNeighbours::cover()
-    PairSort<ItemPair> sort;
+    PairSort sort;
     std::vector<FeaturePair> features;
     std::size_t work = 0;
   };
@@ -157,6 +157,7 @@ class SurfaceSearch {
   std::vector<char> needs_boxes_;       // it is in a near pair of which a body was predicted again
   std::vector<char> has_boxes_;         // the boxes of its features are those of its last prediction
   std::vector<Index> order_;            // scratch of the sweep
+  std::vector<Index> due_;              // bodies that something is done for
   std::vector<Task> tasks_;
   std::vector<Thread> threads_;
   Candidates current_, previous_;

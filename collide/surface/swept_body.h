@@ -67,6 +67,7 @@ class SweptBody {
   const BoxList& vertex_boxes() const { return vertex_boxes_; }
   const BoxList& face_boxes() const { return face_boxes_; }
   const BoxList& edge_boxes() const { return edge_boxes_; }
+  /// Returns the vertices as the last place_points() placed them.
   const std::vector<MovingPoint>& points() const { return points_; }
   /// Returns how far (m) the mean velocity has carried the body from begin() to `time`.
   glm::vec3 drift(float time) const { return (time - begin_) * mean_velocity_; }
@@ -77,7 +78,7 @@ class SweptBody {
   glm::vec3 at(Index v) const { return {start_[0][v], start_[1][v], start_[2][v]}; }
   glm::vec3 velocity(Index v) const { return {velocity_[0][v], velocity_[1][v], velocity_[2][v]}; }
   glm::vec3 at(Index v, float time) const { return at(v) + (time - begin_) * velocity(v); }
-  /// Return the vertices at begin(), with their velocities minus the rigid motion of the body.
+  /// Returns the vertices at begin(), with their velocities minus the rigid motion of the body.
   const std::vector<MovingPoint>& deforming_points() const { return deforming_points_; }
 
   /// Returns true if the surface is closed and star-shaped around its centre, and stays so until end(): then the body

@@ -56,12 +56,13 @@ glm::dvec3 Hand::force(const HeldBody& body, double h, const glm::dvec3& velocit
 
 void Hand::note_point(State& state) {
   noted_point_ = point(held_body(state, grab_->body));
-  force_ = glm::dvec3(0.0);
+  exerted_ = glm::dvec3(0.0);
 }
 
-/// Contacts act after the hand: the velocity that its force was found for may not be the one that the point moves with.
+/// By the force last exerted, not by the one that it would have now: contacts act after the hand, so the point may move
+/// otherwise than the force was found for. To first order in the step, where an integrator takes several forces.
 void Hand::book_work(State& state) const {
-  state.ledger.book(WorkBy::hand, glm::dot(force_, point(held_body(state, grab_->body)) - noted_point_));
+  state.ledger.book(WorkBy::hand, glm::dot(exerted_, point(held_body(state, grab_->body)) - noted_point_));
 }
 
 void Hand::add_force(const HeldBody& body, double h, const glm::dvec3& gravity) const {
@@ -72,16 +73,16 @@ void Hand::add_force(const HeldBody& body, double h, const glm::dvec3& gravity) 
     const std::size_t corner = grab_->corners[std::size_t(i)];
     velocity += grab_->weights[i] * (body.v(corner) + h_over_mass * body.f(corner));
   }
-  force_ = force(body, h, velocity);
-  for (int i = 0; i < 3; ++i) body.f.add(grab_->corners[std::size_t(i)], grab_->weights[i] * force_);
+  exerted_ = force(body, h, velocity);
+  for (int i = 0; i < 3; ++i) body.f.add(grab_->corners[std::size_t(i)], grab_->weights[i] * exerted_);
 }
 
 void Hand::add_impulse(const HeldBody& body, double h) const {
   assert(grab_ && h > 0);
   glm::dvec3 velocity(0.0);
   for (int i = 0; i < 3; ++i) velocity += grab_->weights[i] * body.v(grab_->corners[std::size_t(i)]);
-  force_ = force(body, h, velocity);
-  const glm::dvec3 change = h / body.model.particle_mass * force_;
+  exerted_ = force(body, h, velocity);
+  const glm::dvec3 change = h / body.model.particle_mass * exerted_;
   for (int i = 0; i < 3; ++i) body.v.add(grab_->corners[std::size_t(i)], grab_->weights[i] * change);
 }
 

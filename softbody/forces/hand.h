@@ -59,8 +59,8 @@ class Hand {
   glm::dvec3 force(const HeldBody& body, double h, const glm::dvec3& velocity) const;
 
   std::optional<Grab> grab_;
-  glm::dvec3 noted_point_{0.0};    // m
-  mutable glm::dvec3 force_{0.0};  // N, the last one since; only the thread that integrates the held body sets it
+  glm::dvec3 noted_point_{0.0};      // m
+  mutable glm::dvec3 exerted_{0.0};  // N, last since then: add() and kick() note it on the held body's thread
 };
 
 }  // namespace softbody

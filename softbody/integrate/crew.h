@@ -64,7 +64,8 @@ class Crew {
   const std::vector<const Batch*>& alone() const { return alone_; }
   /// Returns all threads that there are.
   collide::Workers& workers() const { return workers_; }
-  /// Calls use(i) for each i below `count`, on all threads at work, in any order.
+  /// Calls use(i) for each i below `count`, in any order, on those threads at work that come in time. `use` must not
+  /// wait at a barrier.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& use) const;
   /// Calls the task once on each thread at work. Returns when all calls have returned. Rethrows what one has thrown.
   void run(const std::function<void(const Worker&)>& task) const;

@@ -288,6 +288,7 @@ class Coarsener {
       holds.push_back({t, weight, glm::vec3(fine_.vertices[v] - foot)});
       farthest = std::max(farthest, nearest.distance);
     }
+    guess = 0;  // of the fine mesh from here on
     for (const Triangle& t : mesh.triangles) {
       const glm::vec3 &a = coarse[t[0]], &b = coarse[t[1]], &c = coarse[t[2]];
       for (const glm::vec3& p : {0.5f * (a + b), 0.5f * (b + c), 0.5f * (c + a), (a + b + c) / 3.0f}) {

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/solid_overlap.h"
+#include "softbody/integrate/force_stage.h"
 #include "softbody/scene/solids.h"
 #include "softbody/state/state.h"
 
@@ -142,7 +143,7 @@ Measures total(std::span<const BodyMeasures> bodies) {
 }
 
 double safe_vertex_tolerance(const World& world) {
-  if (world.scene().contact_surface != ContactSurface::vertices || !world.plan().has(Stage::integrate)) return 0;
+  if (!world.plan().has(stage_of<PenaltyContact>)) return 0;
   double widest = 0;
   for (BodyId body = 0; body < world.bodies().count(); ++body) widest = std::max(widest, world.model(body).covering);
   return widest;

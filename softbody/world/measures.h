@@ -42,8 +42,7 @@ struct SolidDepth {
 SolidDepth solid_depth(const Scene& scene, const glm::dvec3& point);
 
 /// Returns the tolerance (m) below which contact of vertices leaves room for a vertex to slip through a face: the
-/// largest covering radius of a simulated mesh. 0 where nothing of the kind can happen: surfaces keep the bodies apart,
-/// or the motion is recorded.
+/// largest covering radius of a simulated mesh. 0 if the world's plan has no contact of vertices.
 double safe_vertex_tolerance(const World& world);
 
 struct SolidContactPoint {

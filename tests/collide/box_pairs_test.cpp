@@ -3,7 +3,9 @@
 #include "collide/surface/box_pairs.h"
 
 #include <algorithm>
+#include <random>
 
+#include "collide/surface/pair_sort.h"
 #include "every_target.h"
 
 namespace collide::test {
@@ -162,6 +164,19 @@ TEST_P(BoxPairsTest, PickSelectsOverlappingBoxesInOrder) {
       EXPECT_EQ(picked.box(k).lo, boxes[(expected[k] - 5) / 3].lo);
       EXPECT_EQ(picked.box(k).hi, boxes[(expected[k] - 5) / 3].hi);
     }
+  }
+}
+
+TEST(PairSort, SortsAsComparisonsDo) {
+  std::mt19937 random(5);
+  PairSort sort;
+  for (const std::size_t count : {0u, 1u, 2u, 500u}) {
+    std::vector<ItemPair> pairs;
+    for (std::size_t i = 0; i < count; ++i) pairs.push_back({Index(random() % 40), Index(random() % 7)});
+    std::vector<ItemPair> expected = pairs;
+    std::sort(expected.begin(), expected.end());
+    sort.sort(pairs, 40, 7);
+    EXPECT_EQ(pairs, expected);
   }
 }
 
