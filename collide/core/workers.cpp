@@ -20,6 +20,11 @@ struct Cancelled {};
 }  // namespace
 
 struct Workers::Shared {
+  /// Threads that share processors would take them from those that they wait for: they sleep at once.
+  explicit Shared(int all_threads)
+      : looking_time(all_threads <= static_cast<int>(std::thread::hardware_concurrency()) ? 50 : 0) {}
+
+  const std::chrono::microseconds looking_time;    // before they sleep: about as long as it takes to be woken
   std::mutex mutex;                                // of task, by_all, stopping and error
   const std::function<void(int)>* task = nullptr;  // none: it is too late to take part
   bool by_all = true;                              // all threads; else those that come in time
@@ -33,10 +38,9 @@ struct Workers::Shared {
   std::condition_variable begun, done, passed;  // a change of run_number, of at_work to 0, or of barriers
   std::vector<std::jthread> threads;            // last, so that they are joined before the rest goes
 
-  /// Waits while `value` is `old`: awake for about as long as it would take to be woken. No result depends on the
-  /// clock.
+  /// Waits while `value` is `old`. No result depends on the clock.
   void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old, std::condition_variable& changed) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::microseconds(50);
+    const auto end = std::chrono::steady_clock::now() + looking_time;
     do {
       for (int look = 0; look < 100; ++look)
         if (value != old) return;
@@ -125,7 +129,7 @@ struct Workers::Shared {
   }
 };
 
-Workers::Workers(int threads) : threads_(threads), shared_(std::make_unique<Shared>()) {
+Workers::Workers(int threads) : threads_(threads), shared_(std::make_unique<Shared>(threads)) {
   if (threads < 1) throw std::invalid_argument("Workers: at least one thread");
   try {
     for (int thread = 1; thread < threads; ++thread) {
