@@ -19,7 +19,7 @@ using collide::surface::SurfaceSearch;
 
 constexpr float step_share = 0.15f;  // of the shorter mean edge: how far two bodies may pass each other in a substep
 constexpr float patience = 2;        // a motion is foreseen for so many times as long as the last one has lasted
-constexpr float unknown = -1;
+constexpr float unknown = -1;        // in place of a gap at rest that was not needed yet
 constexpr float separation_depth = 0.25f;  // of the shorter mean edge: deeper bodies are parted as a whole
 
 /// m: how far a body may stray, if it strayed so far before.
