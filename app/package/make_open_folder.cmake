@@ -1,0 +1,16 @@
+# Part of the installation. make_open_folder(FOLDER): makes a folder of the prefix and those on the way to it, so that
+# everybody may enter them. Those that are there stay as they are.
+function(make_open_folder folder)
+  cmake_path(ABSOLUTE_PATH folder BASE_DIRECTORY "${CMAKE_INSTALL_PREFIX}")
+  set(folder "$ENV{DESTDIR}${folder}")
+  cmake_path(ABSOLUTE_PATH folder)
+  set(missing "")
+  while(NOT EXISTS "${folder}")
+    list(PREPEND missing "${folder}")
+    cmake_path(GET folder PARENT_PATH folder)
+  endwhile()
+  foreach(folder IN LISTS missing)
+    file(MAKE_DIRECTORY "${folder}")
+    file(CHMOD "${folder}" PERMISSIONS ${CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS})
+  endforeach()
+endfunction()
