@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <iterator>
 
 #include <fmt/core.h>
 
@@ -74,9 +73,9 @@ std::string ObjWriter::frame(std::span<const float> x, std::span<const float> y,
   assert(x.size() == first_.back() && y.size() == x.size() && z.size() == x.size());
   std::string text;
   for (std::size_t b = 0; b < faces_.size(); ++b) {
-    fmt::format_to(std::back_inserter(text), "o body_{}\n", b);
+    text += fmt::format("o body_{}\n", b);
     for (std::size_t i = first_[b]; i < first_[b + 1]; ++i)
-      fmt::format_to(std::back_inserter(text), "v {:.9g} {:.9g} {:.9g}\n", x[i], y[i], z[i]);
+      text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", x[i], y[i], z[i]);
     text += faces_[b];
   }
   return text;
