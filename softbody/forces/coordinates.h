@@ -1,6 +1,6 @@
 #pragma once
 // Coordinates: numbers that the places of a body's particles give. A force is a law of one of them. It says which
-// elements it has and how strongly its law pulls (pull() works against the growth of the coordinate). How that acts on
+// elements it has and how strongly its law pulls (a pull works against the growth of the coordinate). How that acts on
 // the particles, in lanes and in double, in every integrator, in the matrix and in the stability bound, is written once
 // for each coordinate (kernel_bodies.h, bound.cpp, deformation.cpp, implicit/matrix.cpp).
 
@@ -13,8 +13,9 @@ namespace softbody {
 
 enum class Coordinate {
   /// The distance between two particles. The data have elements<Real>(): a list of laws with the particles i < j in
-  /// ascending order, `stiffness` (N/m, the largest slope of pull()), `damping` (N s/m), pull(length) in N and
-  /// stored(length) in J.
+  /// ascending order, `stiffness` (N/m, the largest slope of the pull) and `damping` (N s/m). The functions
+  /// pull_at(law, length) in N and stored_at(law, length) in J take lanes, too, so they stand in a header that is
+  /// compiled for each of Highway's targets and that kernel_bodies.h includes, as spring_law.h.
   length,
   /// The volume inside the mesh. The data are a law that has pull(volume) in Pa, stored(volume) and
   /// stored_change(from, to) in J, and scale() in Pa, about the largest of its pressures.

@@ -1,7 +1,5 @@
 #pragma once
-// Springs: Hooke's law with a damper along the spring.
-
-#include <hwy/base.h>
+// Springs, and what the materials of bodies say of them. spring_law.h has their law.
 
 #include <array>
 #include <functional>
@@ -13,6 +11,7 @@
 
 namespace softbody {
 
+/// A spring with a damper along it.
 template <class Real>
 struct SpringOf {
   Index i, j;
@@ -20,16 +19,7 @@ struct SpringOf {
   Real stiffness;  // N/m
   Real damping;    // N s/m, along the spring
 
-  /// T: a number, a Jet or one number for each lane.
-  template <class T>
-  HWY_INLINE T pull(T length) const {
-    return stiffness * (length - rest);
-  }
   SpringOf<float> rounded() const { return {i, j, float(rest), float(stiffness), float(damping)}; }
-  template <class T>
-  HWY_INLINE T stored(T length) const {
-    return stiffness / 2 * (length - rest) * (length - rest);
-  }
 };
 using Spring = SpringOf<double>;
 

@@ -53,9 +53,9 @@ HWY_INLINE float narrowed(double v) { return float(v); }
 template <class V>
 struct Vec {
   V x, y, z;
-  HWY_INLINE friend Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  HWY_INLINE friend Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  HWY_INLINE friend Vec operator*(V s, Vec a) { return {s * a.x, s * a.y, s * a.z}; }
+  HWY_INLINE HWY_ATTR friend Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  HWY_INLINE HWY_ATTR friend Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  HWY_INLINE HWY_ATTR friend Vec operator*(V s, Vec a) { return {s * a.x, s * a.y, s * a.z}; }
 };
 
 template <class V>

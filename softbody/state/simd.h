@@ -28,8 +28,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class T>
 constexpr int register_lanes = std::min(lanes, static_cast<int>(hn::MaxLanes(hn::ScalableTag<T>())));
 
-/// n values side by side in one register. Operators are not forced inline: formulas of forces, which are compiled for
-/// no target before they are inlined into one, could not call them.
+/// n values side by side in one register. Functions that take or return such values stand in this namespace, since
+/// those outside it are compiled for no target and pass registers in another way. Friends need HWY_ATTR: g++ does not
+/// compile them for the target of the namespace. Operators are forced inline, so that a compiler that optimises refuses
+/// a caller that is compiled for another target.
 template <class T, int n>
 struct Lane {
   using Tag = hn::CappedTag<T, n>;
@@ -39,19 +41,19 @@ struct Lane {
   hn::Vec<Tag> raw;
 
   Lane() = default;
-  HWY_ATTR Lane(T all) : raw(hn::Set(Tag(), all)) {}
+  HWY_INLINE Lane(T all) : raw(hn::Set(Tag(), all)) {}
   HWY_INLINE explicit Lane(hn::Vec<Tag> values) : raw(values) {}
 
-  HWY_ATTR friend Lane operator+(Lane a, Lane b) { return Lane(hn::Add(a.raw, b.raw)); }
-  HWY_ATTR friend Lane operator-(Lane a, Lane b) { return Lane(hn::Sub(a.raw, b.raw)); }
-  HWY_ATTR friend Lane operator*(Lane a, Lane b) { return Lane(hn::Mul(a.raw, b.raw)); }
-  HWY_ATTR friend Lane operator/(Lane a, Lane b) { return Lane(hn::Div(a.raw, b.raw)); }
-  HWY_ATTR Lane operator-() const { return Lane(hn::Neg(raw)); }
+  HWY_INLINE HWY_ATTR friend Lane operator+(Lane a, Lane b) { return Lane(hn::Add(a.raw, b.raw)); }
+  HWY_INLINE HWY_ATTR friend Lane operator-(Lane a, Lane b) { return Lane(hn::Sub(a.raw, b.raw)); }
+  HWY_INLINE HWY_ATTR friend Lane operator*(Lane a, Lane b) { return Lane(hn::Mul(a.raw, b.raw)); }
+  HWY_INLINE HWY_ATTR friend Lane operator/(Lane a, Lane b) { return Lane(hn::Div(a.raw, b.raw)); }
+  HWY_INLINE Lane operator-() const { return Lane(hn::Neg(raw)); }
   HWY_INLINE Lane& operator+=(Lane b) { return *this = *this + b; }
   HWY_INLINE Lane& operator-=(Lane b) { return *this = *this - b; }
-  HWY_INLINE friend Mask operator>(Lane a, Lane b) { return {hn::Gt(a.raw, b.raw)}; }
-  HWY_INLINE friend Mask operator<(Lane a, Lane b) { return {hn::Lt(a.raw, b.raw)}; }
-  HWY_INLINE friend Mask operator>=(Lane a, Lane b) { return {hn::Ge(a.raw, b.raw)}; }
+  HWY_INLINE HWY_ATTR friend Mask operator>(Lane a, Lane b) { return {hn::Gt(a.raw, b.raw)}; }
+  HWY_INLINE HWY_ATTR friend Mask operator<(Lane a, Lane b) { return {hn::Lt(a.raw, b.raw)}; }
+  HWY_INLINE HWY_ATTR friend Mask operator>=(Lane a, Lane b) { return {hn::Ge(a.raw, b.raw)}; }
 };
 
 /// What does not fit into one register, in two halves. Compilers keep wider vectors in memory, which is several times
@@ -62,13 +64,13 @@ struct Pair {
 
   Pair() = default;
   template <class T>
-  requires std::is_arithmetic_v<T> HWY_ATTR Pair(T all) : lo(all), hi(all) {}
-  HWY_ATTR Pair(V low, V high) : lo(low), hi(high) {}
+  requires std::is_arithmetic_v<T> HWY_INLINE Pair(T all) : lo(all), hi(all) {}
+  HWY_INLINE Pair(V low, V high) : lo(low), hi(high) {}
 
-  HWY_ATTR friend Pair operator+(const Pair& a, const Pair& b) { return {a.lo + b.lo, a.hi + b.hi}; }
-  HWY_ATTR friend Pair operator-(const Pair& a, const Pair& b) { return {a.lo - b.lo, a.hi - b.hi}; }
-  HWY_ATTR friend Pair operator*(const Pair& a, const Pair& b) { return {a.lo * b.lo, a.hi * b.hi}; }
-  HWY_ATTR friend Pair operator/(const Pair& a, const Pair& b) { return {a.lo / b.lo, a.hi / b.hi}; }
+  HWY_INLINE HWY_ATTR friend Pair operator+(const Pair& a, const Pair& b) { return {a.lo + b.lo, a.hi + b.hi}; }
+  HWY_INLINE HWY_ATTR friend Pair operator-(const Pair& a, const Pair& b) { return {a.lo - b.lo, a.hi - b.hi}; }
+  HWY_INLINE HWY_ATTR friend Pair operator*(const Pair& a, const Pair& b) { return {a.lo * b.lo, a.hi * b.hi}; }
+  HWY_INLINE HWY_ATTR friend Pair operator/(const Pair& a, const Pair& b) { return {a.lo / b.lo, a.hi / b.hi}; }
   HWY_INLINE Pair& operator+=(const Pair& b) { return *this = *this + b; }
   HWY_INLINE Pair& operator-=(const Pair& b) { return *this = *this - b; }
 };

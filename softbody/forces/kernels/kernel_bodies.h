@@ -12,6 +12,7 @@
 #include <span>
 
 #include "softbody/forces/kernels/kernel_types.h"
+#include "softbody/forces/spring_law.h"
 #include "softbody/state/lane_math.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -121,7 +122,7 @@ HWY_INLINE void visit(const BodyModel& model, const typename F::Data& data, cons
 template <class V>
 HWY_INLINE Vec<V> pull_between(const auto& law, const Vec<V>& dx, const Vec<V>& dv) {
   const V square = dot(dx, dx), length = square_root(square);
-  const V pull = law.pull(length) * length + law.damping * dot(dv, dx);
+  const V pull = pull_at(law, length) * length + law.damping * dot(dv, dx);
   return (pull * (Value<V>(1) / larger(square, V(tiny_square<Value<V>>)))) * dx;
 }
 
@@ -346,7 +347,7 @@ struct Project {
     const Vec<V> n = (1.0f / larger(length, tiny)) * dx;
     const float damping = law.damping * inverse_h;
     const float yields = 1 / ((law.stiffness + damping) * 2 * inverse_mass + inverse_h2);
-    const V impulse = yields * (law.pull(length) + damping * dot(moved, n));
+    const V impulse = yields * (pull_at(law, length) + damping * dot(moved, n));
     const Vec<V> shift = ((inverse_mass * load<V>(p.moves)) * impulse) * n;
     store(p.d, i, di + shift);
     store(p.d, j, dj - shift);
@@ -443,8 +444,8 @@ struct AddStored {
     const V tiny = V(1e-12);  // m
     const Vec<V> dx = load<V>(b.x, j) - load<V>(b.x, i), dv = load<V>(b.v, j) - load<V>(b.v, i);
     const V length = square_root(dot(dx, dx));
-    sums.elastic += law.stored(length);
-    sums.growth += law.pull(length) * dot(dx, dv) / larger(length, tiny);
+    sums.elastic += stored_at(law, length);
+    sums.growth += pull_at(law, length) * dot(dx, dv) / larger(length, tiny);
     if (law.rest > 0) {
       const V stretch = V(1 / law.rest) * length - V(1.0);
       sums.strain = larger(larger(stretch, -stretch), sums.strain);

@@ -60,7 +60,7 @@ struct Assemble {
   glm::dmat3 block(Length c, const auto& law) const {
     const glm::dvec3 d = x[c.j] - x[c.i];
     const double length = glm::length(d);
-    const Jet pull = law.pull(Jet(length, 1));
+    const Jet pull = pull_at(law, Jet(length, 1));
     const double along = pull.slope + law.damping / h;
     if (!rotates || length <= 0) return glm::dmat3(along);
     const glm::dmat3 direction = glm::outerProduct(d / length, d / length);
