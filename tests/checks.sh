@@ -1,22 +1,24 @@
 #!/usr/bin/env bash
 # What takes longer than a commit should wait: other compilers and builds, sanitizers, coverage, long soaks and fuzzing.
 # Usage: tests/checks.sh NAME...     with names of the list below, or all
+#   debug      Debug, with g++ and with clang++, all tests
 #   ci-clang   clang++, each file and header on its own (what one lacks shows only here), warnings are errors, all tests
 #   headless   without any graphics package, all tests
 #   asan       address and undefined-behaviour sanitizers, all tests
 #   tsan       thread sanitizer, all tests
 #   coverage   lines of collide/ and softbody/ that their tests run: at least 95 %, what is missing by file and line
-#   soak       ten minutes of every scene, changed at random every simulated second; a bounded one is among the tests of
-#              every preset with graphics, those with sanitizers included
-#   fuzz       five minutes of every fuzz target
+#   soak       600 simulated seconds of every scene, or SOAK_SECONDS of the environment, changed at random every second;
+#              a bounded one is among the tests of every preset with graphics, those with sanitizers included
+#   fuzz       300 seconds of every fuzz target, or FUZZ_SECONDS of the environment
 #   debian-12  README's two commands in a new root of that Debian below build/, without a display; needs to be root
 #   debian-13  the same
-#   install    the program and the static libraries, installed and moved, and the shared ones; examples of their use
+#   install    the program and the static libraries, installed and moved, the shared ones, and those of Debug; examples of
+#              their use
 #   package-12 Debian packages, made in an empty system of that Debian; installed, used and removed in another; as root
 #   package-13 the same
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
-all=(ci-clang headless asan tsan coverage soak fuzz debian-12 debian-13 install package-12 package-13)
+all=(debug ci-clang headless asan tsan coverage soak fuzz debian-12 debian-13 install package-12 package-13)
 
 usage() { fail "Usage: tests/checks.sh NAME...   with names of: ${all[*]}, or all"; }
 
@@ -46,19 +48,19 @@ coverage() {
 run_soak() {
   cd "$root/build/release"
   for scene in "$root"/assets/scenes/*.toml; do basename "$scene" .toml; done |
-    LP_NUM_THREADS=0 xargs --max-args=1 --max-procs="$((($(nproc) + 1) / 2))" bin/soak 600
+    LP_NUM_THREADS=0 xargs --max-args=1 --max-procs="$((($(nproc) + 1) / 2))" bin/soak "${SOAK_SECONDS:-600}"
 }
 
 soak() { step "soak: build" build release soak -DBUILD_TESTING=ON && step "soak" run_soak; }
 
-# run_fuzzer NAME: for five minutes, from its corpus on; what it finds goes into the folder of the build. For many inputs
+# run_fuzzer NAME: from its corpus on; what it finds goes into the folder of the build. For many inputs
 # a second: the file that readers are given anew for each stays in memory, quick inputs are tried more often than slow
 # ones, allocations are noted without who asked for them, which a find that is run again shows, and leaks are looked for
 # at the end, not by running all that leaves something behind a second time.
 run_fuzzer() {
   cd "$root/build/fuzz"
   mkdir -p "found/$1"
-  TMPDIR=/dev/shm ASAN_OPTIONS=malloc_context_size=1 "bin/fuzz_$1" -max_total_time=300 -timeout=60 -rss_limit_mb=4096 \
+  TMPDIR=/dev/shm ASAN_OPTIONS=malloc_context_size=1 "bin/fuzz_$1" -max_total_time="${FUZZ_SECONDS:-300}" -timeout=60 -rss_limit_mb=4096 \
     -detect_leaks=0 -entropic_scale_per_exec_time=1 -artifact_prefix="found/$1/" -print_final_stats=1 \
     "found/$1" "$root/tests/fuzz/corpus/$1"
 }
@@ -105,28 +107,32 @@ debian() {
     step "$1: tests" in_root "$folder" /sbcollide/tests/run.sh
 }
 
-# install_and_use PRESET: in a folder that is then moved, and that nobody may write to.
+# install_and_use PRESET: by somebody who keeps new files for himself, into a folder that is then moved, and that nobody
+# may write to.
 install_and_use() {
-  local folder=$root/build/$1/installed
+  local closed folder=$root/build/$1/installed
   chmod -R u+w "$folder" 2>/dev/null || true
   rm -rf "$folder" && mkdir "$folder"
-  cmake --install "$root/build/$1" --prefix "$folder/first" >"$folder.log"
+  (umask 077 && cmake --install "$root/build/$1" --prefix "$folder/first") >"$folder.log"
+  closed=$(find "$folder/first" -type d ! -perm 755)
+  [ -z "$closed" ] || fail "not everybody may enter $closed"
   mv "$folder/first" "$folder/another place"
   chmod -R a-w "$folder/another place"
-  ! grep -qF "$root" "$folder/another place/bin/sbcollide" || fail "the program knows where its sources are"
+  # Assertions and notes for debuggers name the sources.
+  [ "$1" = debug ] || ! grep -qF "$root" "$folder/another place/bin/sbcollide" || fail "the program knows where its sources are"
   "$root/tests/install.sh" "$folder/another place"
 }
 
 install_all() {
   install_missing desktop-file-utils appstream
   local preset
-  for preset in release shared; do
+  for preset in release shared debug; do
     step "$preset: build" build "$preset" all -DBUILD_TESTING=OFF && step "$preset: install" install_and_use "$preset"
   done
 }
 
 make_package() { in_root "$1" bash -c '. /sbcollide/app/setup.sh && install_missing "${program_packages[@]}" dpkg-dev file &&
-  build release package -DBUILD_TESTING=OFF'; }
+  umask 077 && build release package -DBUILD_TESTING=OFF'; }
 
 use_package() {
   mkdir "$2/packages"
@@ -144,6 +150,10 @@ package() {
 
 check() {
   case $1 in
+    debug)
+      build_and_test debug || true
+      install_missing clang && build_and_test debug-clang
+      ;;
     ci-clang) install_missing clang && build_and_test ci-clang ;;
     headless | asan | tsan) build_and_test "$1" ;;
     coverage | soak | fuzz) "$1" ;;
