@@ -1,6 +1,9 @@
 #include "app/base/parse_numbers.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <string>
 
 namespace app {
 
@@ -36,6 +39,18 @@ std::optional<std::vector<double>> parse_reals(std::string_view text, char separ
     numbers.push_back(*number);
   }
   return numbers;
+}
+
+std::optional<double> parse_typed(std::string_view text, bool whole) {
+  constexpr std::string_view blank = " \t";
+  text.remove_prefix(std::min(text.find_first_not_of(blank), text.size()));
+  text = text.substr(0, text.find_last_not_of(blank) + 1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  if (whole && text.find_first_of(",.eE") != text.npos) return std::nullopt;
+  std::string number(text);
+  std::ranges::replace(number, ',', '.');
+  const auto value = read<double>(number);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 }  // namespace app

@@ -16,7 +16,7 @@ namespace app::ui {
 
 void UserInterface::draw(Session& session, UiState& ui, float scale, double seconds, WidgetRecorder* recorder) {
   if (recorder) *recorder = {};
-  Widgets widgets(scale, mouse_, ui.sections, recorder);
+  Widgets widgets(scale, input_, ui.sections, recorder);
   ui.import.update(session);
   sweep_view_.update();
   ui.tour.update(session, &ui.view);
@@ -31,16 +31,26 @@ void UserInterface::draw(Session& session, UiState& ui, float scale, double seco
   if (layout_.lower) draw_lower(widgets, session, ui, *layout_.lower);
   if (layout_.time_line) draw_time_line(widgets, session, *layout_.time_line);
   if (layout_.sidebar) draw_sidebar(widgets, session, ui, hash_table_view_, *layout_.sidebar);
+  show_field_problem(session.simulation.notice);
   if (layout_.tour)
     draw_tour(widgets, session, ui.tour, ui.overlays, *layout_.tour);
-  else if (layout_.panel_covers_scene)
-    draw_import_report(widgets, session, ui.import, layout_.scene);
-  else if (ui.clean)
-    draw_notices(widgets, session, {}, layout_.scene);
-  else
+  else if (!ui.clean && !layout_.panel_covers_scene)
     draw_over_scene(widgets, session, ui, seconds);
+  else
+    draw_notices(widgets, session, {}, layout_.scene);
+  if (!layout_.tour && layout_.panel_covers_scene) draw_import_report(widgets, session, ui.import, layout_.scene);
   if (ui.help) draw_help(widgets, layout_.scene, ui.help);
   ui.popup_open = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
+void UserInterface::show_field_problem(session::Notice& notice) {
+  const auto problem = std::exchange(input_.field_problem, std::nullopt);
+  if (!problem) return;
+  if (!problem->empty())
+    notice.set(*problem);
+  else if (notice.text() == field_problem_)
+    notice.clear();
+  field_problem_ = *problem;
 }
 
 double UserInterface::seconds_to_change(double seconds) const { return seconds_to_hint_change(seconds); }

@@ -3,7 +3,10 @@
 #include <cstdio>
 #include <iostream>
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
+
+#include "app/base/table.h"
 
 namespace bench {
 namespace {
@@ -27,6 +30,19 @@ void print_table(const Measured& m) {
                 row.candidate->name.data(), row.median_ms, row.min_ms, ns_a_vertex(m, row), ratio(m, row),
                 ratio_of_minimums(m, row));
   std::fflush(stdout);
+}
+
+void print_csv(const std::vector<Measured>& all) {
+  app::Table table;
+  for (const Measured& m : all) {
+    app::TableRow row{
+        {"state, tolerance in mean edges", fmt::format("{}, {:g}", m.course.state->key, m.course.tolerance)},
+        {"exact, ms", app::brief(m.rows.front().median_ms)}};
+    for (const Row& of : std::span(m.rows).subspan(1))
+      row.push_back({std::string(of.candidate->key), app::brief(ratio(m, of), 2)});
+    table.add(row);
+  }
+  std::cout << table.csv();
 }
 
 void print_json(const std::vector<Measured>& all) {

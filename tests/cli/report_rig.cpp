@@ -6,37 +6,17 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/csv_fields.h"
+
 namespace cli::test {
-namespace {
-
-/// Returns the fields of a line of CSV. A quoted field may hold commas and doubled quotes.
-std::vector<std::string> fields(const std::string& line) {
-  std::vector<std::string> all(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"' && quoted && line[i + 1] == '"') {
-      all.back() += line[i++];
-    } else if (line[i] == '"') {
-      quoted = !quoted;
-    } else if (line[i] == ',' && !quoted) {
-      all.emplace_back();
-    } else {
-      all.back() += line[i];
-    }
-  }
-  return all;
-}
-
-}  // namespace
-
 std::vector<Row> read_csv(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::string line;
   std::getline(in, line);
-  const auto names = fields(line);
+  const auto names = csv_fields(line);
   std::vector<Row> rows;
   while (std::getline(in, line)) {
-    const auto values = fields(line);
+    const auto values = csv_fields(line);
     EXPECT_EQ(values.size(), names.size()) << line;
     for (std::size_t i = 0; i < std::min(values.size(), names.size()); ++i) {
       if (i == 0) rows.emplace_back();

@@ -1,4 +1,5 @@
-// The parts of documents that follow from the program, and the programs that they show:
+// The parts of documents that follow from the program and from the results in app/report/results, and the programs that
+// they show:
 //
 //   test_documents --write
 //
@@ -8,13 +9,18 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <sstream>
+#include <stdexcept>
 
+#include "app/base/table.h"
 #include "collide/methods.h"
 #include "softbody/forces/material_keys.h"
 #include "softbody/mesh/shortest_text.h"
+#include "tests/csv_fields.h"
 
 namespace softbody::test {
 namespace {
@@ -77,11 +83,10 @@ std::string descriptions_of_methods() {
 
 /// A part of a page: from `begin` to before the next `end`.
 struct Part {
-  const char* page;
-  std::string begin, end, text;
+  std::string page, begin, end, text;
 
   std::string replaced_in(const std::string& whole) const {
-    const std::size_t first = whole.find(begin), last = whole.find(end, first);
+    const std::size_t first = whole.find(begin), last = whole.find(end, first + begin.size());
     if (first == std::string::npos || last == std::string::npos) return {};
     return whole.substr(0, first) + text + whole.substr(last);
   }
@@ -93,24 +98,76 @@ Part example(const char* page, const std::string& file) {
   return {page, begin, "```\n", begin + read((SBCOLLIDE_SOURCES "/app/package/examples/" + file).c_str())};
 }
 
+const std::filesystem::path results = SBCOLLIDE_SOURCES "/app/report/results";
+
+/// Returns the table of a file of results as the pages show it. Lines that begin with # say where it comes from.
+std::string table_of_results(const std::filesystem::path& file, std::size_t text_columns) {
+  std::istringstream lines(read(file.c_str()));
+  std::vector<std::string> names;
+  app::Table table;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#')) continue;
+    const std::vector<std::string> fields = csv_fields(line);
+    if (names.empty()) {
+      names = fields;
+      continue;
+    }
+    if (fields.size() != names.size()) throw std::runtime_error(file.string() + ": " + line);
+    app::TableRow row;
+    for (std::size_t i = 0; i < fields.size(); ++i) row.push_back({names[i], fields[i]});
+    table.add(row);
+  }
+  if (names.empty()) throw std::runtime_error(file.string() + ": no such results");
+  return table.markdown(text_columns);
+}
+
+/// Returns the tables of a page that follow from results. Before each stands "<!-- FILE, TEXT COLUMNS -->".
+std::vector<Part> tables_of_results(const std::string& page) {
+  static const std::regex mark("<!-- ([a-z0-9_-]+\\.csv), ([0-9]) -->\n\n");
+  const std::string text = read(page.c_str());
+  std::vector<Part> tables;
+  for (std::sregex_iterator at(text.begin(), text.end(), mark), end; at != end; ++at) {
+    const std::string begin = at->str();
+    tables.push_back({page, begin, "\n\n", begin + table_of_results(results / at->str(1), std::stoul(at->str(2)))});
+    tables.back().text.pop_back();  // the end of the last line
+  }
+  return tables;
+}
+
 std::vector<Part> parts() {
-  return {{SBCOLLIDE_SOURCES "/assets/scenes/README.md", head, "\n\n", table_of_keys()},
-          {SBCOLLIDE_SOURCES "/collide/README.md", "### The paper's rivals\n", "## How the paper's method works\n",
-           descriptions_of_methods()},
-          example(SBCOLLIDE_SOURCES "/collide/README.md", "find_contacts.cpp"),
-          example(SBCOLLIDE_SOURCES "/softbody/README.md", "drop_ball.cpp")};
+  std::vector<Part> all{{SBCOLLIDE_SOURCES "/assets/scenes/README.md", head, "\n\n", table_of_keys()},
+                        {SBCOLLIDE_SOURCES "/collide/README.md", "### The paper's rivals\n",
+                         "## How the paper's method works\n", descriptions_of_methods()},
+                        example(SBCOLLIDE_SOURCES "/collide/README.md", "find_contacts.cpp"),
+                        example(SBCOLLIDE_SOURCES "/softbody/README.md", "drop_ball.cpp")};
+  for (const char* page : {"README.md", "app/report/README.md", "collide/oracle/README.md", "tests/README.md"}) {
+    const std::vector<Part> tables = tables_of_results(std::string(SBCOLLIDE_SOURCES "/") + page);
+    all.insert(all.end(), tables.begin(), tables.end());
+  }
+  return all;
 }
 
 TEST(Documents, HaveTheTextOfTheProgram) {
   for (const Part& part : parts()) {
-    const std::string page = read(part.page);
+    const std::string page = read(part.page.c_str());
     EXPECT_TRUE(part.replaced_in(page) == page) << part.page << ": write it anew: test_documents --write";
   }
 }
 
+TEST(Results, SayWhereTheyComeFrom) {
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(results)) {
+    const std::string text = read(entry.path().c_str());
+    for (const char* line : {"# command: ", "# processor: ", "# compiler: ", "# date: "})
+      EXPECT_NE(text.find(line), std::string::npos) << entry.path() << ": " << line;
+    ++files;
+  }
+  EXPECT_GT(files, 0u);
+}
+
 int write() {
   for (const Part& part : parts()) {
-    const std::string page = part.replaced_in(read(part.page));
+    const std::string page = part.replaced_in(read(part.page.c_str()));
     if (page.empty() || !(std::ofstream(part.page) << page)) return 1;
   }
   return 0;

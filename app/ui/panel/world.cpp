@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include <glm/geometric.hpp>
 
@@ -16,8 +15,7 @@ void draw_gravity(Widgets& w, Session& session) {
   auto strength = static_cast<float>(glm::length(session.world().scene().gravity));
   w.row_label("Gravity", w.px(label_column));
   if (w.slider("Gravity", strength, 0, 30, "%.2f m/s\u00b2",
-               "Acceleration in the direction of the scene. On Earth it is 9.81.", false) &&
-      std::isfinite(strength))
+               "Acceleration in the direction of the scene. On Earth it is 9.81.", false))
     session.settings.set_gravity(static_cast<double>(strength));
 }
 
@@ -72,7 +70,6 @@ void draw_material(Widgets& w, Session& session, UiState& ui) {
     if (!w.slider(std::string(key->name).c_str(), shown, s.least, s.most, s.format, std::string(key->summary).c_str(),
                   s.logarithmic))
       continue;
-    if (!std::isfinite(shown)) continue;
     changed[*key] = static_cast<double>(shown) * s.unit;
     session.settings.set_material(ui.material, changed);
   }
@@ -89,7 +86,6 @@ bool slide_radius(Widgets& w, double& radius) {
   auto shown = static_cast<float>(radius);
   w.row_label("Radius", w.px(label_column));
   if (!w.slider("Solid radius", shown, min_size, max_size, "%.2f m", "Radius of the solid.", true)) return false;
-  if (!std::isfinite(shown)) return false;
   radius = static_cast<double>(shown);
   return true;
 }
@@ -98,8 +94,7 @@ bool slide_radius(Widgets& w, double& radius) {
 bool draw_shape(Widgets& w, softbody::Ground& ground) {
   auto height = static_cast<float>(ground.height);
   w.row_label("Height", w.px(label_column));
-  if (!w.slider("Ground height", height, -3, 3, "%.2f m", "Height of the ground.", false) || !std::isfinite(height))
-    return false;
+  if (!w.slider("Ground height", height, -3, 3, "%.2f m", "Height of the ground.", false)) return false;
   ground.height = static_cast<double>(height);
   return true;
 }
@@ -131,7 +126,7 @@ bool draw_solid(Widgets& w, Solid& solid) {
   const auto slide = [&](const char* text, const char* label, double& value, float max, const char* tooltip) {
     auto shown = static_cast<float>(value);
     w.row_label(text, w.px(label_column));
-    if (!w.slider(label, shown, 0, max, "%.2f", tooltip, false) || !std::isfinite(shown)) return;
+    if (!w.slider(label, shown, 0, max, "%.2f", tooltip, false)) return;
     value = static_cast<double>(shown);
     changed = true;
   };

@@ -98,7 +98,7 @@ float draw_notices(Widgets& w, const Session& session, const std::string& no_roo
   const float margin = w.px(12);
   ImGui::SetNextWindowPos({area.min.x + margin, area.min.y + margin});
   ImGui::SetNextWindowSize({box_width(w, area), 0});
-  ImGui::Begin("Notices", nullptr, frameless_window | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::Begin("Notices", nullptr, frameless_window | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
   if (!no_room_message.empty()) {
     ImGui::TextWrapped("%s", no_room_message.c_str());
     w.register_item("No room", nullptr);

@@ -1,4 +1,4 @@
-// The widgets for numbers that the user drags.
+// The widgets for numbers that the user drags or types.
 
 #include <fmt/core.h>
 #include <imgui_internal.h>
@@ -7,7 +7,9 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <type_traits>
 
+#include "app/base/parse_numbers.h"
 #include "app/ui/widgets/widgets.h"
 
 namespace app::ui {
@@ -69,29 +71,87 @@ struct OpenByDoubleClick {
 
 }  // namespace
 
+namespace {
+
+template <class Value>
+constexpr ImGuiDataType imgui_type = std::is_same_v<Value, float> ? ImGuiDataType_Float
+                                     : std::is_signed_v<Value>    ? ImGuiDataType_S32
+                                                                  : ImGuiDataType_U32;
+
+/// Returns the value as a field for typing shows it: without what stands round the number in `format`.
+template <class Value>
+std::string field_text(Value value, const char* format) {
+  std::array<char, 64> number_format{}, text{};
+  const char* trimmed = ImParseFormatTrimDecorations(format, number_format.data(), number_format.size());
+  ImGui::DataTypeFormatString(text.data(), static_cast<int>(text.size()), imgui_type<Value>, &value, trimmed);
+  ImStrTrimBlanks(text.data());
+  return text.data();
+}
+
+}  // namespace
+
+template <class Value>
+bool Widgets::type(const Number<Value>& n) {
+  const std::string shown = field_text(n.value, n.format);
+  std::array<char, 1024> typed{};
+  shown.copy(typed.data(), typed.size() - 1);
+  const bool edited = ImGui::InputText(n.id, typed.data(), typed.size(), ImGuiInputTextFlags_AutoSelectAll);
+  const ImGuiID id = ImGui::GetItemID();
+  if (ImGui::IsItemActivated()) open_field(id, n.value);
+  if (!edited) return false;
+  if (input_.field != id) open_field(id, n.value);
+  const Value before = n.value, kept = static_cast<Value>(input_.field_value);
+  const std::string kept_text = field_text(kept, n.format), text = typed.data();
+  input_.field_problem.emplace();
+  const auto number = parse_typed(text, std::is_integral_v<Value>);
+  if (text == kept_text) {  // the value itself may have more digits
+    n.value = kept;
+  } else if (number) {
+    n.value = static_cast<Value>(std::clamp(*number, static_cast<double>(n.min), static_cast<double>(n.max)));
+    if (*number < static_cast<double>(n.min) || *number > static_cast<double>(n.max))
+      input_.field_problem =
+          fmt::format("{}: {:.40} is beyond the limits and becomes {}", n.label, text, field_text(n.value, n.format));
+  } else {
+    n.value = kept;
+    input_.field_problem = fmt::format("{}: \"{:.40}\" is not a {}; the value stays {}", n.label, text,
+                                       std::is_integral_v<Value> ? "whole number" : "number", kept_text);
+  }
+  return n.value != before;
+}
+
 template <class Value, class Show>
-bool Widgets::slide(const char* label, Value& value, const Show& show) {
-  const Value now = value;
-  const bool double_clicked = opens_field() && mouse_.pressed == label;
-  if (double_clicked) value = static_cast<Value>(mouse_.value_before);
+bool Widgets::drag_or_type(const Number<Value>& n, const Show& show) {
+  const ImGuiID id = ImGui::GetID(n.id);
+  if (ImGui::TempInputIsActive(id)) return type(n);
+  const bool changed = show();
+  if (ImGui::TempInputIsActive(id)) open_field(id, n.value);
+  return changed;
+}
+
+template <class Value, class Show>
+bool Widgets::slide(const Number<Value>& n, const Show& show) {
+  const Value now = n.value;
+  const bool double_clicked = opens_field() && input_.pressed == n.label;
+  if (double_clicked) n.value = static_cast<Value>(input_.value_before);
   const bool changed = [&] {
     const HiddenGrab hide;
     const OpenByDoubleClick opens;
-    return show(double_clicked);
+    return drag_or_type(n, [&] { return show(double_clicked); });
   }();
   if (double_clicked) {
-    if (!ImGui::IsItemActive()) value = now;  // the second click missed the slider
-    mouse_.pressed.clear();
+    if (!ImGui::IsItemActive()) n.value = now;  // the second click missed the slider
+    input_.pressed.clear();
   } else if (ImGui::IsItemActivated()) {
-    mouse_.pressed = label;
-    mouse_.value_before = static_cast<double>(now);
+    input_.pressed = n.label;
+    input_.value_before = static_cast<double>(now);
   }
-  return changed || value != now;
+  return changed || n.value != now;
 }
 
 bool Widgets::slider(const char* label, int& value, int min, int max, const char* format, const char* tooltip) {
-  const bool changed = slide(label, value, [&](bool) {
-    return ImGui::SliderInt(fmt::format("##{}", label).c_str(), &value, min, max, format, clamped);
+  const std::string id = fmt::format("##{}", label);
+  const bool changed = slide<int>({label, id.c_str(), value, min, max, format}, [&](bool) {
+    return ImGui::SliderInt(id.c_str(), &value, min, max, format, clamped);
   });
   draw_grab(relative_position(value, min, max, false), static_cast<float>(max - min), px(slider_bar));
   register_number(label, tooltip);
@@ -100,9 +160,10 @@ bool Widgets::slider(const char* label, int& value, int min, int max, const char
 
 bool Widgets::slider(const char* label, float& value, float min, float max, const char* format, const char* tooltip,
                      bool logarithmic) {
+  const std::string id = fmt::format("##{}", label);
   const ImGuiSliderFlags flags = clamped | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-  const bool changed = slide(label, value, [&](bool) {
-    return ImGui::SliderFloat(fmt::format("##{}", label).c_str(), &value, min, max, format, flags);
+  const bool changed = slide<float>({label, id.c_str(), value, min, max, format}, [&](bool) {
+    return ImGui::SliderFloat(id.c_str(), &value, min, max, format, flags);
   });
   // A logarithmic slider from 0 begins at the smallest number that ImGui shows.
   const double begin = logarithmic ? std::max(double{min}, std::pow(0.1, ImParseFormatPrecision(format, 3))) : min;
@@ -114,9 +175,10 @@ bool Widgets::slider(const char* label, float& value, float min, float max, cons
 bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
                      const char* tooltip) {
   assert(min > 0);
-  const bool changed = slide(label, value, [&](bool typed) {
-    return ImGui::SliderScalar(fmt::format("##{}", label).c_str(), ImGuiDataType_U32, &value, &min, &max,
-                               typed ? "%u" : "", clamped | ImGuiSliderFlags_Logarithmic);
+  const std::string id = fmt::format("##{}", label);
+  const bool changed = slide<std::uint32_t>({label, id.c_str(), value, min, max, "%u"}, [&](bool typed) {
+    return ImGui::SliderScalar(id.c_str(), ImGuiDataType_U32, &value, &min, &max, typed ? "%u" : "",
+                               clamped | ImGuiSliderFlags_Logarithmic);
   });
   draw_grab(relative_position(value, min, max, true), 0, px(slider_bar));
   register_number(label, tooltip);
@@ -125,13 +187,35 @@ bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t min,
 
 bool Widgets::drag(const char* label, glm::dvec3& value, float min, float max, const char* tooltip) {
   constexpr float metres_per_pixel = 0.01f;
-  std::array<float, 3> shown{static_cast<float>(value.x), static_cast<float>(value.y), static_cast<float>(value.z)};
-  const bool changed =
-      ImGui::DragFloat3(fmt::format("##{}", label).c_str(), shown.data(), metres_per_pixel, min, max, "%.2f", clamped);
+  constexpr std::array axes{"x", "y", "z"};
+  bool changed = false;
+  ImGui::BeginGroup();
+  ImGui::PushMultiItemsWidths(3, ImGui::CalcItemWidth());
+  for (glm::length_t axis = 0; axis < 3; ++axis) {
+    if (axis > 0) ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+    const std::string name = fmt::format("{}, {}", label, axes[static_cast<std::size_t>(axis)]), id = "##" + name;
+    auto shown = static_cast<float>(value[axis]);
+    const Number<float> number{name.c_str(), id.c_str(), shown, min, max, "%.2f"};
+    if (drag_or_type(number, [&] {
+          return ImGui::DragFloat(id.c_str(), &shown, metres_per_pixel, min, max, number.format, clamped);
+        })) {
+      value[axis] = static_cast<double>(shown);
+      changed = true;
+    }
+    ImGui::PopItemWidth();
+  }
+  ImGui::EndGroup();
   register_number(label, tooltip);
-  const bool usable = changed && std::ranges::all_of(shown, [](float v) { return std::isfinite(v); });
-  if (usable) value = {shown[0], shown[1], shown[2]};
-  return usable;
+  return changed;
+}
+
+bool Widgets::number_field(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
+                           const char* tooltip) {
+  value = std::clamp(value, min, max);
+  const std::string id = fmt::format("##{}", label);
+  const bool changed = type<std::uint32_t>({label, id.c_str(), value, min, max, "%u"});
+  register_item(label, tooltip);
+  return changed;
 }
 
 }  // namespace app::ui

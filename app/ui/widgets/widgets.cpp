@@ -40,7 +40,7 @@ void draw_colour_scale(ImVec2 min, float width, float bottom, int steps, glm::ve
   }
 }
 
-void MouseState::update(float min_move) {
+void InputState::update(float min_move) {
   last_results = std::exchange(results, {});
   const ImVec2 at = ImGui::GetIO().MousePos;
   if (ImGui::IsAnyMouseDown()) {
@@ -64,18 +64,18 @@ void Widgets::register_item(const char* label, const char* tooltip) {
 
 void Widgets::tooltip_if_hovered(const char* label, const char* tooltip) {
   if (!tooltip || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  if (mouse_.hovered != label || mouse_.clicked) {
-    mouse_.hovered = label;
-    mouse_.seconds = 0;
+  if (input_.hovered != label || input_.clicked) {
+    input_.hovered = label;
+    input_.seconds = 0;
   } else {  // the first frame may follow a long wait
-    mouse_.seconds += ImGui::GetIO().DeltaTime;
+    input_.seconds += ImGui::GetIO().DeltaTime;
   }
-  if (mouse_.seconds >= MouseState::tooltip_delay) show_tooltip(tooltip);
+  if (input_.seconds >= InputState::tooltip_delay) show_tooltip(tooltip);
 }
 
 void Widgets::keep_tooltips_off() {
   const ImVec2 min = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-  mouse_.results.push_back({min, {min.x + size.x, min.y + size.y}});
+  input_.results.push_back({min, {min.x + size.x, min.y + size.y}});
 }
 
 namespace {
@@ -112,14 +112,14 @@ ImVec2 tooltip_position(const ImVec2& size, float gap, float max_shift, const st
 }  // namespace
 
 void Widgets::show_tooltip(const char* text) const {
-  if (mouse_.clicked) return;
+  if (input_.clicked) return;
   const float wrap = px(250);
   const ImVec2 pad = ImGui::GetStyle().WindowPadding, lines = ImGui::CalcTextSize(text, nullptr, false, wrap);
   const ImVec2 size{lines.x + 2 * pad.x, lines.y + 2 * pad.y};
   // Far from the item only beside an open list, whose other lines stay legible.
   const bool list = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   const float max_shift = list ? ImGui::GetIO().DisplaySize.y : px(80);
-  const ImVec2 at = tooltip_position(size, px(6), max_shift, mouse_.last_results);
+  const ImVec2 at = tooltip_position(size, px(6), max_shift, input_.last_results);
   if (recorder_) {
     recorder_->widgets.push_back({"Tooltip", at, {at.x + size.x, at.y + size.y}, true});
     recorder_->tooltip = text;
@@ -159,14 +159,6 @@ bool Widgets::section(const char* label, bool open_at_first) {
   sections_[label] = open;
   register_item(label, nullptr);
   return open;
-}
-
-bool Widgets::number_field(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
-                           const char* tooltip) {
-  const bool changed = ImGui::InputScalar(fmt::format("##{}", label).c_str(), ImGuiDataType_U32, &value);
-  value = std::clamp(value, min, max);
-  register_item(label, tooltip);
-  return changed;
 }
 
 bool Widgets::text_field(const char* label, std::string& value, const char* hint, const char* tooltip) {

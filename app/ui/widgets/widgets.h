@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,8 +35,8 @@ struct ScreenRect {
   ImVec2 min, max;
 };
 
-/// What the mouse does, and where tooltips may stand, from frame to frame.
-struct MouseState {
+/// What the mouse does, where tooltips may stand, and what is typed into a field, from frame to frame.
+struct InputState {
   static constexpr float tooltip_delay = 0.4f;  // s
   /// Begins a frame.
   void update(float min_move);
@@ -49,6 +50,10 @@ struct MouseState {
   // The slider pressed last, and its value before, which a double-click restores.
   std::string pressed;
   double value_before = 0;
+  // The number field opened last, and its value then, which stays if the text is no number.
+  ImGuiID field = 0;
+  double field_value = 0;
+  std::optional<std::string> field_problem;  // of the text typed in this frame, empty if it is the value
 };
 
 /// Width of the labels in the rows of settings, in design pixels.
@@ -74,9 +79,9 @@ Axis axis_around(const TimeSeries& series, float min_length);
 class Widgets {
  public:
   /// `sections` stores which sections are open, from frame to frame.
-  Widgets(float scale, MouseState& mouse, std::map<std::string, bool>& sections, WidgetRecorder* recorder = nullptr)
-      : scale_(scale), usual_alpha_(ImGui::GetStyle().Alpha), mouse_(mouse), sections_(sections), recorder_(recorder) {
-    mouse_.update(px(3));
+  Widgets(float scale, InputState& input, std::map<std::string, bool>& sections, WidgetRecorder* recorder = nullptr)
+      : scale_(scale), usual_alpha_(ImGui::GetStyle().Alpha), input_(input), sections_(sections), recorder_(recorder) {
+    input_.update(px(3));
   }
 
   /// Converts design pixels to ImGui units.
@@ -97,7 +102,7 @@ class Widgets {
   bool slider(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max, const char* tooltip);
   /// Three numbers within the limits, each to drag or to type.
   bool drag(const char* label, glm::dvec3& value, float min, float max, const char* tooltip);
-  /// A field for typing a number within the limits. Each digit takes effect at once.
+  /// A field for typing a number within the limits.
   bool number_field(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max, const char* tooltip);
   /// A field for typing text. True when Enter is pressed in it. It shows a grey `hint` while it is empty.
   bool text_field(const char* label, std::string& value, const char* hint, const char* tooltip);
@@ -140,12 +145,31 @@ class Widgets {
  private:
   /// As register_item(); the tooltip also says how to change a number by dragging or typing.
   void register_number(const char* label, const char* tooltip);
-  /// Draws an ImGui slider of `value` by show(opens_field). `opens_field`: the user is about to type.
+  /// A number and how it is shown. `id`: ImGui's identifier of the item.
+  template <class Value>
+  struct Number {
+    const char *label, *id;
+    Value &value, min, max;
+    const char* format;
+  };
+  void open_field(ImGuiID id, auto value) {
+    input_.field = id;
+    input_.field_value = static_cast<double>(value);
+  }
+  /// Draws a field for typing a number. What is typed takes effect at once. A comma is a decimal point. If the text is
+  /// no number or beyond the limits, InputState::field_problem says so.
+  template <class Value>
+  bool type(const Number<Value>& number);
+  /// Draws a number by show(), an ImGui slider or the like that opens a field for typing. In place of that field, which
+  /// drops what it cannot read, draws type().
   template <class Value, class Show>
-  bool slide(const char* label, Value& value, const Show& show);
+  bool drag_or_type(const Number<Value>& number, const Show& show);
+  /// Draws a slider by drag_or_type() with show(opens_field). `opens_field`: the user is about to type.
+  template <class Value, class Show>
+  bool slide(const Number<Value>& number, const Show& show);
 
   float scale_, usual_alpha_;
-  MouseState& mouse_;
+  InputState& input_;
   std::map<std::string, bool>& sections_;
   WidgetRecorder* recorder_;
 };

@@ -8,9 +8,10 @@
 //   for (int i = 0; i < 100; ++i) world.step();
 //   use(world.positions().x);
 //
-// Lengths are in metres, times in seconds, masses in kilograms; y points up. There is no global state: objects may work
-// on several threads at the same time, each on one of them. Equal scenes move equally, to the bit, on any number of
-// threads and on any processor; with meshes that ride on fewer particles, for equal versions of meshoptimizer.
+// Lengths are in metres, times in seconds, masses in kilograms; y points up. Objects may work on several threads at the
+// same time, each on one of them. Worlds share the models of equal bodies, which never change, by a list behind a lock.
+// Equal scenes move equally, to the bit, on any number of threads and on any processor; with meshes that ride on fewer
+// particles, for equal versions of meshoptimizer.
 
 #include <filesystem>
 #include <map>

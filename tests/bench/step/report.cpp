@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/base/table.h"
+
 #include "tests/bench/median.h"
 
 namespace bench {
@@ -25,7 +27,7 @@ Summary summary(std::span<const double> times) {
 }
 
 struct Ratio {
-  double mean, worst;
+  double mean = 0, worst = 0;
 };
 
 /// Of the processor times; nothing for what was given up, whose few frames tell nothing.
@@ -93,6 +95,26 @@ void print_table(const Result& r) {
                 f.speed, in_words(f).c_str());
   }
   std::fflush(stdout);
+}
+
+void print_csv(const std::vector<Result>& all) {
+  app::Table table;
+  for (const Result& r : all)
+    for (const Track& t : r.tracks) {
+      const Summary s = summary(t.times.cpu);
+      const auto beside = ratio(t, r.tracks[1]);
+      table.add({{"contact", t.entrant->key},
+                 {"gas", r.course.gas->key},
+                 {"verdict", in_words(t.figures)},
+                 {"mean", app::brief(s.mean)},
+                 {"median", app::brief(s.median)},
+                 {"worst", app::brief(s.worst)},
+                 {"mean over surface's", app::when(beside.has_value(), app::brief(beside.value_or(Ratio{}).mean))},
+                 {"worst over surface's", app::when(beside.has_value(), app::brief(beside.value_or(Ratio{}).worst))},
+                 {"deepest in a body, R", app::brief(t.figures.inside, 2)},
+                 {"vertices inside", t.figures.vertices_inside}});
+    }
+  std::cout << table.csv();
 }
 
 void print_json(const std::vector<Result>& all) {

@@ -1,0 +1,135 @@
+#!/usr/bin/env bash
+# Measures what the pages say, and writes it into app/report/results as CSV files. Then `test_documents --write` makes
+# the tables of the pages from them.
+#
+#   app/report/results.sh [PART...]      parts are the functions below; all if none is named
+#
+# SBCOLLIDE is the program (default: build/release/bin/sbcollide); BENCH is the folder of the benchmarks (default:
+# build/bench/bin). A part whose binary is missing is left out. Run it on a quiet machine.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+program=${SBCOLLIDE:-build/release/bin/sbcollide}
+bench=${BENCH:-build/bench/bin}
+results=app/report/results
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# publish FILE BINARY COMMAND: writes the CSV on standard input to a file, below lines that say where it comes from.
+publish() {
+  local compiler
+  compiler=$(grep -aoE 'clang version [0-9.]+' "$2" || grep -aoE 'GCC: \([^)]*\) [0-9.]+' "$2" || echo unknown)
+  {
+    echo "# command: $3"
+    echo "# processor: $(sed -n '/^model name/{s/^[^:]*: //p;q}' /proc/cpuinfo), $(nproc) threads"
+    echo "# compiler: ${compiler%%$'\n'*}"
+    echo "# date: $(date +%F), after $SECONDS s"
+    cat
+  } >"$work/published"
+  mv "$work/published" "$results/$1"
+  echo "$results/$1"
+}
+
+# table PAGE HEADING [NUMBER]: prints a table of a Markdown page as CSV: the first below that heading, or another one.
+table() {
+  awk -v heading="$2" -v wanted="${3:-1}" '
+    /^#+ / { inside = index($0, heading) > 0; tables = 0 }
+    !/^\|/ { rows = 0; next }
+    inside && ++rows == 1 { ++tables }
+    inside && tables == wanted && rows != 2 {
+      gsub(/"/, "\"\"")
+      count = split(substr($0, 2, length($0) - 2), cells, "|")
+      for (i = 1; i <= count; ++i) {
+        gsub(/^ +| +$/, "", cells[i])
+        printf "%s%s", cells[i] ~ /[",]/ ? "\"" cells[i] "\"" : cells[i], i < count ? "," : "\n"
+      }
+    }' "$1" >"$work/table"
+  [ -s "$work/table" ] || { echo "$1 has no such table: $2" >&2; return 1; }
+  cat "$work/table"
+}
+
+# report NAME [OPTION...]: makes a report; its files are then in $work/NAME.
+report() {
+  command="sbcollide report $* --out DIR"
+  "$program" report "$@" --out "$work/$1" >/dev/null
+}
+
+# Of detection.csv only the paper's level on its scenes and on the cloth, and the growth; of stability.csv the integrators
+# that are stable at any step: the pages need no more.
+detection() {
+  report detection
+  awk -F, 'NR == 1 || $1 == "growth" || ($2 ~ /^([A-D]|cloth)$/ && $7 ~ /^3?$/)' "$work/detection/detection.csv" |
+    publish detection.csv "$program" "$command"
+  table "$work/detection/report.md" "Table 1" | publish detection-table-1.csv "$program" "$command"
+  table "$work/detection/report.md" "Growth" | publish detection-growth.csv "$program" "$command"
+}
+contact() {
+  report contact --threads 1
+  publish contact.csv "$program" "$command" <"$work/contact/contact.csv"
+  table "$work/contact/contact.md" "All scenes" 2 | publish contact-scenes.csv "$program" "$command"
+}
+solver() {
+  report solver
+  publish solver.csv "$program" "$command" <"$work/solver/solver.csv"
+  table "$work/solver/solver.md" "All scenes" | publish solver-costs.csv "$program" "$command"
+  table "$work/solver/solver.md" "promises" | publish solver-promise.csv "$program" "$command"
+  table "$work/solver/solver.md" "Stiffness against resolution" | publish solver-stiffness.csv "$program" "$command"
+  table "$work/solver/solver.md" "Coarse against fine" | publish solver-coarse.csv "$program" "$command"
+}
+stability() {
+  report stability
+  awk -F, 'NR == 1 || $3 == "auto" || $3 == "implicit"' "$work/stability/stability.csv" |
+    publish stability.csv "$program" "$command"
+  table "$work/stability/stability.md" "Cells that pass" | publish stability-cells.csv "$program" "$command"
+}
+
+# What misses cost: scenes driven by a detector and its settings, judged by the oracle.
+misses() {
+  local run
+  {
+    echo "simulate --oracle,vertices inside other bodies at most,deepest (mm),at the end,deepest at the end (mm)"
+    for run in "--scene D --frames 420 --method multi-level-sb-exact" \
+      "--scene D --frames 420 --method multi-level-sb --levels 3" \
+      "--scene D --frames 420 --method multi-level-sb --levels 3 --cell-size 0.3" \
+      "--scene drop --frames 900 --method multi-level-sb --levels 3" \
+      "--scene drop --frames 900 --method multi-level-sb --levels 3 --cell-size 0.3"; do
+      # shellcheck disable=SC2086
+      "$program" simulate $run --oracle --json | grep -o '"penetrating_vertices":[^}]*' |
+        awk -F'[:,]' -v run="$run" '
+          { if ($2 > most) most = $2; if ($8 > deepest) deepest = $8; last = $2; depth = $8 }
+          END { printf "`%s`,%d,%.0f,%d,%.0f\n", run, most, 1e3 * deepest, last, 1e3 * depth }'
+    done
+  } | publish misses.csv "$program" "sbcollide simulate OPTIONS --oracle --json"
+}
+
+# has_bench NAME: whether a benchmark was built.
+has_bench() {
+  [ -x "$bench/$1" ] || { echo "$1: left out, $bench has none (cmake --preset bench)"; return 1; }
+}
+bench_detection() {
+  has_bench bench_detection || return 0
+  "$bench/bench_detection" record "$work/piles" >/dev/null
+  "$bench/bench_detection" run "$work/piles" --csv |
+    publish bench-detection.csv "$bench/bench_detection" "bench_detection run piles --csv"
+}
+bench_step() {
+  has_bench bench_step || return 0
+  "$bench/bench_step" --repeat 2 --csv | publish bench-step.csv "$bench/bench_step" "bench_step --repeat 2 --csv"
+}
+bench_stages() {
+  has_bench bench_stages || return 0
+  "$bench/bench_stages" 9 2 | sed 's/^Heap/# Heap/' >"$work/stages.md"
+  table "$work/stages.md" "Heap" | publish bench-stages.csv "$bench/bench_stages" "bench_stages 9 2"
+}
+bench_ccd() {
+  has_bench bench_ccd || return 0
+  { echo "# Queries"; "$bench/bench_ccd" ../shared/data/ccd/*.csv; } >"$work/ccd.md"
+  table "$work/ccd.md" "Queries" | publish bench-ccd.csv "$bench/bench_ccd" "bench_ccd ../shared/data/ccd/*.csv"
+}
+
+all=(detection contact solver stability misses bench_detection bench_step bench_stages bench_ccd)
+for part in "${@:-"${all[@]}"}"; do
+  case " ${all[*]} " in
+    *" $part "*) SECONDS=0; $part ;;
+    *) echo "results.sh: $part: unknown; use some of: ${all[*]}" >&2; exit 2 ;;
+  esac
+done
