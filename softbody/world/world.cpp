@@ -22,8 +22,8 @@ glm::vec3 rest_cell_size(const BodyModelSet& models, int levels, float tolerance
   collide::Bodies bodies;
   Coordinates rest;
   for (const auto& p : models.all()) {
-    bodies.add(p->shown().shape);
-    rest.add(p->fine ? p->fine->mesh.vertices : p->start);
+    bodies.add(std::make_shared<collide::Shape>(p->shown().shape->shared_topology()));  // without another shape at rest
+    rest.add(p->shown_at_rest());
   }
   return collide::default_cell_size(rest.frame(bodies), levels, tolerance);
 }
