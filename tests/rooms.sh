@@ -33,7 +33,7 @@ app/base: collide softbody engine
 app/files: app/base collide softbody engine
 app/compare: app/base app/files collide softbody engine
 app/reference: app/base collide softbody engine
-app/session/stability: app/base collide softbody engine
+app/session/stability: app/base app/compare collide softbody engine
 app/session/live: app/base app/compare collide softbody engine
 app/session: app/base app/files app/compare app/session/stability app/session/live collide softbody engine
 app/session/export: app/base app/files app/compare app/session collide softbody engine

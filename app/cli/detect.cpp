@@ -138,8 +138,10 @@ struct Given {
 
 /// Returns what one method gives. compared: nullptr, or all runs, of which this is one.
 Json to_json(const Given& given, const MethodRun& run, const MethodRuns* compared) {
+  const glm::vec3& cell = given.task.settings.cell_size;
   Json document{{"method", run.method->key},
                 {"tolerance", *given.options.detection.tolerance},
+                {"cell_size", {cell.x, cell.y, cell.z}},
                 {"threads", given.task.threads},
                 {"bodies", given.task.of().bodies.count()},
                 {"vertices", given.task.of().bodies.vertex_count()},
@@ -157,9 +159,11 @@ Json to_json(const Given& given, const MethodRun& run, const MethodRuns* compare
 // ---- tables ----
 
 void print_heading(const Given& given, std::string_view method, const std::vector<std::string>& notes) {
-  std::cout << fmt::format("{}, tolerance {:g} m, threads {}, bodies {}, vertices {}\n", method,
-                           *given.options.detection.tolerance, given.task.threads, given.task.of().bodies.count(),
-                           given.task.of().bodies.vertex_count());
+  const glm::vec3& cell = given.task.settings.cell_size;
+  std::cout << fmt::format(
+      "{}, tolerance {:g} m, cells of {:.3g} x {:.3g} x {:.3g} m, threads {}, bodies {}, vertices {}\n", method,
+      *given.options.detection.tolerance, cell.x, cell.y, cell.z, given.task.threads, given.task.of().bodies.count(),
+      given.task.of().bodies.vertex_count());
   for (const std::string& note : notes) std::cout << "note: " << note << '\n';
 }
 

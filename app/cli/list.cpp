@@ -29,15 +29,17 @@ void list_scenes(const std::filesystem::path& folder) {
 }  // namespace
 
 void list(const std::string& what) {
-  if (what == "methods") {
+  const auto wants = [&](std::string_view name) {
+    if (what.empty()) std::cout << name << '\n';
+    return what.empty() || what == name;
+  };
+  if (wants("methods"))
     for (const collide::Method& m : collide::method_table()) row(m.key, m.name);
-  } else if (what == "integrators") {
+  if (wants("integrators"))
     for (const softbody::Integrator& i : softbody::integrators()) row(i.key, i.name);
-  } else if (what == "contact-surfaces") {
+  if (wants("contact-surfaces"))
     for (const softbody::ContactSurfaceInfo& s : softbody::contact_surfaces) row(s.key, s.name);
-  } else {
-    list_scenes(files::scene_folder());
-  }
+  if (wants("scenes")) list_scenes(files::scene_folder());
 }
 
 }  // namespace app::cli

@@ -5,8 +5,8 @@
 
 namespace app::cli {
 
-/// Prints a line "KEY<tab>NAME" for each choice. what: see Options::list_of. Throws SceneError if a scene file is
-/// invalid, after all others are printed.
+/// Prints a line "KEY<tab>NAME" for each choice. what: see Options::list_of; of all lists, each comes behind a line
+/// with its name. Throws SceneError if a scene file is invalid, after all others are printed.
 void list(const std::string& what);
 
 }  // namespace app::cli

@@ -320,7 +320,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   const CLI::App* detect = add_detect(cli, options);
   const CLI::App* report = add_report(cli, options, report_tolerance);
   CLI::App* list = cli.add_subcommand("list", "print keys and names, a line each");
-  list->add_option("what", options.list_of, "scenes, methods, integrators or contact-surfaces")
+  list->add_option("what", options.list_of, "scenes, methods, integrators or contact-surfaces (default: all)")
       ->check(CLI::IsMember({"scenes", "methods", "integrators", "contact-surfaces"}));
   refuse_values_of_flags(cli);
 
@@ -334,8 +334,6 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     const std::string command = below.empty() ? "" : below.front()->get_name() + " ";
     throw UsageError(reason(error) + "; see sbcollide " + command + "--help");
   }
-  if (*list && options.list_of.empty())
-    throw UsageError("list: say of what: scenes, methods, integrators or contact-surfaces");
   refuse_missing_values(cli);
   if (*report) complete_report(options.report, report_tolerance);
   if (*detect && !options.detect.continuous && !options.detection.tolerance)
@@ -351,6 +349,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   if (!size.empty()) parse_size(size, options);
   options.size_given = !size.empty();
   options.scene_given = cli.count("--scene") > 0;
+  options.out_given = simulate->count("--out") > 0;
   if (simulate->count("--capture")) parse_captures(captures, options);
   check(options);
   options.report.cores = options.threads;

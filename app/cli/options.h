@@ -52,10 +52,11 @@ struct Options {
   std::optional<std::filesystem::path> animation;  // the animated image to write
   std::optional<int> obj_every;                    // write the bodies of every so many frames as OBJ files
   std::filesystem::path out = ".";
+  bool out_given = false;  // the folder is to be there even if the run writes nothing
   bool json = false;
   bool json_lines = false;  // `simulate`: a line of JSON for each frame, and one at the end
   bool oracle = false;      // `simulate` with JSON: add the surface oracle's figures of each frame
-  std::string list_of;      // "scenes", "methods", "integrators" or "contact-surfaces"
+  std::string list_of;      // "scenes", "methods", "integrators", "contact-surfaces"; empty: all
 };
 
 /// Returns how many frames of this length (s) each picture of an animation stands for: the fewest that last 1/30 s, so

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/base/streams.h"
+#include "app/compare/blow_up_monitor.h"
 #include "app/compare/world_oracle.h"
 #include "app/files/inputs.h"
 #include "app/files/obj_writer.h"
@@ -118,13 +120,13 @@ std::vector<std::string> world_warnings(const softbody::World& world) {
   return list;
 }
 
-/// Returns the document of a world after its last frame; without `frames`, its other fields.
-Json document_json(const softbody::World& world, std::optional<Json> frames) {
+/// Returns the document of a world after its last frame, with these warnings; without `frames`, its other fields.
+Json document_json(const softbody::World& world, const std::vector<std::string>& warnings, std::optional<Json> frames) {
   Json document{{"scene", world.scene().key},
                 {"method", world.method().key},
                 {"integrator", integrator_json(world)},
                 {"plan", plan_json(world)},
-                {"warnings", world_warnings(world)}};
+                {"warnings", warnings}};
   if (frames) document["frames"] = std::move(*frames);
   document["state_hash"] = hex(world.state_hash());
   return document;
@@ -136,10 +138,11 @@ void print_line(const Json& object) {
   flush_standard_output();
 }
 
-void print_json(const softbody::World& world, const std::vector<FrameRow>& rows) {
+void print_json(const softbody::World& world, const std::vector<std::string>& warnings,
+                const std::vector<FrameRow>& rows) {
   Json frames = Json::array();
   for (const FrameRow& r : rows) frames.push_back(to_json(r));
-  print_line(document_json(world, std::move(frames)));
+  print_line(document_json(world, warnings, std::move(frames)));
 }
 
 std::string ratio_text(const softbody::Measures& measures, double ratio) {
@@ -149,11 +152,12 @@ std::string ratio_text(const softbody::Measures& measures, double ratio) {
 /// Returns how many frames a table goes on by from line to line: it has about twenty lines for any number of frames.
 int table_stride(int frames) { return std::max(1, frames / 20); }
 
-void print_table(const softbody::World& world, const std::vector<FrameRow>& rows) {
+void print_table(const softbody::World& world, const std::vector<std::string>& warnings,
+                 const std::vector<FrameRow>& rows) {
   std::cout << fmt::format("{}, {}, bodies: {}, vertices: {}; contacts between bodies, inside one, with solids\n",
                            world.scene().name, world.method().name, world.bodies().count(),
                            world.bodies().vertex_count());
-  for (const std::string& warning : world_warnings(world)) std::cout << "note: " << warning << '\n';
+  for (const std::string& warning : warnings) std::cout << "note: " << warning << '\n';
   std::cout
       << "  frame  detect ms  solve ms  between  inside   solid     energy J   V min   V max    deepest m  speed m/s\n";
   for (const FrameRow& r : rows) {
@@ -171,6 +175,13 @@ void print_table(const softbody::World& world, const std::vector<FrameRow>& rows
   for (const softbody::LeftOut& l : world.plan().left_out)
     std::cout << "  " << softbody::stage_key(l.stage) << ": " << l.why << '\n';
   std::cout << "state hash " << hex(world.state_hash()) << '\n';
+}
+
+/// Says on standard error what has gone wrong in a run, and notes it.
+void warn(std::vector<std::string>& warnings, std::string text) {
+  clear_progress();
+  std::fprintf(stderr, "warning: %s\n", text.c_str());
+  warnings.push_back(std::move(text));
 }
 
 /// Returns the file for a result of one frame: PREFIX_0012ENDING in the folder for results, with at least four digits.
@@ -230,10 +241,11 @@ class Pictures {
 };
 #endif
 
-/// Writes the bodies of every Nth frame, and at rest whenever the bodies have changed.
+/// Writes the bodies of every Nth frame, and at rest whenever the bodies have changed. Leaves out frames with a body
+/// that is not finite.
 class ObjSequence {
  public:
-  explicit ObjSequence(const Options& options) : options_(options) {
+  ObjSequence(const Options& options, std::vector<std::string>& warnings) : options_(options), warnings_(warnings) {
     if (!options.obj_every) return;
     files::prepare_folder(options.out);
     for (const auto& entry : std::filesystem::directory_iterator(options.out))
@@ -242,11 +254,17 @@ class ObjSequence {
   void take(const softbody::World& world) {
     if (!options_.obj_every || world.frame() % *options_.obj_every != 0) return;
     if (world.bodies().count() == 0) return;  // `detect` refuses a file without vertices
+    const collide::Frame at = world.positions();
+    if (!files::ObjWriter::can_write(at.x, at.y, at.z)) {
+      if (!std::exchange(left_out_, true))
+        warn(warnings_, file("frame", world.frame()).string() +
+                            ": is not written, nor are later ones like it: a body is no longer finite");
+      return;
+    }
     if (!bodies_ || !bodies_->matches(world)) {
       bodies_.emplace(world);
       files::write_file(file("rest", world.frame()), bodies_->at_rest());
     }
-    const collide::Frame at = world.positions();
     files::write_file(file("frame", world.frame()), bodies_->frame(at.x, at.y, at.z));
   }
 
@@ -266,7 +284,9 @@ class ObjSequence {
   }
 
   const Options& options_;
+  std::vector<std::string>& warnings_;
   std::optional<files::ObjWriter> bodies_;
+  bool left_out_ = false;  // some frame
 };
 
 /// Prints what was changed in imported meshes where this may surprise, once for each mesh.
@@ -302,7 +322,9 @@ void simulate(const Options& options) {
       std::move(scene),
       {.threads = options.threads, .frame_time = options.frame_time, .integrator = options.integrator});
   Pictures pictures(options);
-  ObjSequence obj_sequence(options);
+  std::vector<std::string> warnings;  // of the run
+  ObjSequence obj_sequence(options, warnings);
+  if (options.out_given) files::prepare_folder(options.out);
   print_remarks(world.scene());
   print_overlaps(world);
   // Where the lines of frames go to a terminal, they show the progress themselves.
@@ -311,8 +333,15 @@ void simulate(const Options& options) {
   if (options.oracle) oracle.crossings(world);  // keeps the start positions of the first frame
   const int stride = options.json || options.json_lines ? 1 : table_stride(options.frames);
   std::vector<FrameRow> rows;
+  compare::BlowUpMonitor monitor;
+  std::optional<compare::BlowUp> blow_up = monitor.check(world, softbody::measure_bodies(world));
   while (world.frame() < options.frames) {
     world.step();
+    if (!blow_up) {
+      blow_up = monitor.check(world, softbody::measure_bodies(world));
+      if (blow_up)
+        warn(warnings, fmt::format("frame {}: {}; see --integrator and --substeps", blow_up->frame, blow_up->what));
+    }
     pictures.take(world);
     obj_sequence.take(world);
     if (world.frame() % stride == 0 || world.frame() == options.frames) {
@@ -330,12 +359,13 @@ void simulate(const Options& options) {
   }
   pictures.finish();
   if (progress) clear_progress();
+  std::ranges::copy(world_warnings(world), std::back_inserter(warnings));
   if (options.json_lines)
-    print_line(document_json(world, {}));
+    print_line(document_json(world, warnings, {}));
   else if (options.json)
-    print_json(world, rows);
+    print_json(world, warnings, rows);
   else
-    print_table(world, rows);
+    print_table(world, warnings, rows);
 }
 
 }  // namespace app::cli

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 
 #include <fmt/core.h>
 
@@ -58,7 +59,7 @@ std::vector<const softbody::BodyModel*> models_of(const softbody::World& world) 
 ObjWriter::ObjWriter(const softbody::World& world) : models_(models_of(world)), first_{0} {
   for (const softbody::BodyModel* model : models_) {
     faces_.push_back(faces_of(model->shown().mesh, first_.back()));
-    for (const glm::dvec3& v : model->shown().mesh.vertices) {
+    for (const glm::dvec3& v : model->shown_at_rest()) {
       x_.push_back(static_cast<float>(v.x));
       y_.push_back(static_cast<float>(v.y));
       z_.push_back(static_cast<float>(v.z));
@@ -69,8 +70,13 @@ ObjWriter::ObjWriter(const softbody::World& world) : models_(models_of(world)), 
 
 bool ObjWriter::matches(const softbody::World& world) const { return models_ == models_of(world); }
 
+bool ObjWriter::can_write(std::span<const float> x, std::span<const float> y, std::span<const float> z) {
+  const auto finite = [](float at) { return std::isfinite(at); };
+  return std::ranges::all_of(x, finite) && std::ranges::all_of(y, finite) && std::ranges::all_of(z, finite);
+}
+
 std::string ObjWriter::frame(std::span<const float> x, std::span<const float> y, std::span<const float> z) const {
-  assert(x.size() == first_.back() && y.size() == x.size() && z.size() == x.size());
+  assert(x.size() == first_.back() && y.size() == x.size() && z.size() == x.size() && can_write(x, y, z));
   std::string text;
   for (std::size_t b = 0; b < faces_.size(); ++b) {
     text += fmt::format("o body_{}\n", b);

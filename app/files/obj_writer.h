@@ -18,9 +18,13 @@ class ObjWriter {
   /// Returns true if these are still the bodies of the world.
   bool matches(const softbody::World& world) const;
 
+  /// Returns false if a coordinate is not finite: no file can hold it.
+  static bool can_write(std::span<const float> x, std::span<const float> y, std::span<const float> z);
   /// Returns the file of one frame: each body is an object, body_0 and so on. x, y, z: of all vertices, in metres.
+  /// Precondition: can_write(x, y, z).
   std::string frame(std::span<const float> x, std::span<const float> y, std::span<const float> z) const;
-  /// Returns the bodies at rest, each about its own origin: --rest compares only distances inside one body.
+  /// Returns the bodies at rest, inflated as they start, each about its own origin: --rest asks for distances and
+  /// boxes.
   std::string at_rest() const;
 
  private:

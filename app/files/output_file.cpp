@@ -28,7 +28,7 @@ bool may_replace(const fs::path& file, std::string_view heading) {
 void prepare_folder(const std::filesystem::path& folder, std::string_view option) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error || access(folder.c_str(), W_OK) != 0)
+  if (error || access(folder.c_str(), W_OK | X_OK) != 0)
     throw UsageError(std::string(option) + folder.string() + ": cannot be written to; name a folder of your own");
 }
 

@@ -64,13 +64,12 @@ std::vector<engine::MeshDraw> SceneView::gather_bodies(const softbody::World& wo
     last = &model;
     draws.push_back({meshes.back()->handle, first + bodies.first[b], bodies.size(b), {}});
   }
-  workers_.run([&](int thread) {
-    const collide::Part part = collide::part_of(draws.size(), thread, workers_.threads());
-    for (std::size_t b = part.begin; b < part.end; ++b) {
-      const std::uint32_t begin = draws[b].first_vertex, count = draws[b].vertex_count;
-      engine::smooth_normals(meshes[b]->indices, std::span(positions_).subspan(begin, count),
-                             std::span(normals_).subspan(begin, count));
-    }
+  constexpr double vertex_ns = 20;  // of work
+  const int threads = workers_.threads_for(vertex_ns * static_cast<double>(bodies.vertex_count()));
+  workers_.share(threads, draws.size(), [&](int, std::size_t b) {
+    const std::uint32_t begin = draws[b].first_vertex, count = draws[b].vertex_count;
+    engine::smooth_normals(meshes[b]->indices, std::span(positions_).subspan(begin, count),
+                           std::span(normals_).subspan(begin, count));
   });
   return draws;
 }

@@ -1,7 +1,6 @@
 #include "app/report/files.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <iostream>
 
@@ -41,12 +40,9 @@ void say(const std::string& what, double progress) {
 
 void run_in_parallel(collide::Workers& workers, std::size_t count, const std::function<std::string(std::size_t)>& what,
                      const std::function<void(std::size_t)>& task) {
-  std::atomic<std::size_t> next{0};
-  workers.run([&](int thread) {
-    for (std::size_t i = next++; i < count; i = next++) {
-      if (thread == 0) say(what(i), static_cast<double>(i) / static_cast<double>(count));
-      task(i);
-    }
+  workers.share(workers.threads(), count, [&](int thread, std::size_t i) {
+    if (thread == 0) say(what(i), static_cast<double>(i) / static_cast<double>(count));
+    task(i);
   });
 }
 

@@ -24,14 +24,14 @@ void for_rows(Range a, std::uint64_t others, const Test& test) {
 
 }  // namespace
 
-void ContactSearch::begin(const Frame& frame, const Settings& settings, const Points& points, int threads) {
+void ContactSearch::begin(const Frame& frame, const Settings& settings, const Points& points, int parts) {
   frame_ = &frame;
   points_ = &points;
   tolerance2_ = settings.tolerance * settings.tolerance;
   cutoff_ = contact_cutoff(settings.tolerance);
   self_collision_ = settings.self_collision;
   found_ = 0;
-  threads_.resize(static_cast<std::size_t>(threads));
+  threads_.resize(static_cast<std::size_t>(parts));
   for (Thread& thread : threads_) {
     thread.hits.clear();
     thread.contacts.clear();

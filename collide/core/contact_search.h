@@ -12,8 +12,10 @@ namespace collide {
 
 class ContactSearch {
  public:
-  /// Starts a frame. All arguments must stay alive and unchanged until finish().
-  void begin(const Frame& frame, const Settings& settings, const Points& points, int threads);
+  /// Starts a frame whose search is cut into parts, which threads may search at the same time. All arguments must stay
+  /// alive and unchanged until finish().
+  void begin(const Frame& frame, const Settings& settings, const Points& points, int parts);
+  int parts() const { return static_cast<int>(threads_.size()); }
 
   /// Finds the contacts among all pairs of slots i < j with i in a and j in b. Precondition: b begins with all of a, or
   /// lies behind a. No pair may be tested twice in one frame. Throws std::length_error at more than contact_limit

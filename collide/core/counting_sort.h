@@ -1,5 +1,5 @@
 #pragma once
-// A stable counting sort on all threads. Memory: 4 bytes an item, and 4 bytes a key for each of at most 8 threads.
+// A stable counting sort on all threads. Memory: 4 bytes an item, and 4 bytes a key for each of at most 8 parts.
 
 #include "collide/core/points.h"
 #include "collide/core/workers.h"
@@ -19,9 +19,9 @@ class CountingSort {
   std::span<const Index> begins() const { return begin_; }
 
  private:
-  static constexpr int max_threads = 8;
+  static constexpr int max_parts = 8;
   std::vector<Index> begin_, slot_, total_;
-  std::vector<std::vector<Index>> next_;  // by thread: how many items each key has, then the next one's place
+  std::vector<std::vector<Index>> next_;  // by part: how many items each key has, then the next one's place
 };
 
 }  // namespace collide

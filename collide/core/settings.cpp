@@ -63,9 +63,18 @@ std::string hash_warning(const Settings& settings) {
 }
 
 glm::vec3 default_cell_size(const Frame& frame, int levels, float tolerance) {
+  std::array<std::vector<float>, 3> at{
+      {{frame.x.begin(), frame.x.end()}, {frame.y.begin(), frame.y.end()}, {frame.z.begin(), frame.z.end()}}};
+  for (Index body = 0; body < frame.bodies->count(); ++body) {
+    std::size_t v = frame.bodies->first[body];
+    for (const glm::vec3& rest : frame.bodies->shape[body]->rest()) {
+      for (int axis = 0; axis < 3; ++axis) at[static_cast<std::size_t>(axis)][v] = rest[axis];
+      ++v;
+    }
+  }
   BodyBoxes bodies;
   Result ignored;
-  bodies.build(frame, ignored);
+  bodies.build({at[0], at[1], at[2], frame.bodies}, ignored);
   std::array<double, 3> widest{};
   Cuts cuts;
   for (const Index body : bodies.live) {

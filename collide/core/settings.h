@@ -34,8 +34,9 @@ std::string problem(const Settings& settings);
 /// make the hash ignore an axis or mix two axes.
 std::string hash_warning(const Settings& settings);
 
-/// Returns the default cell size (m, §2.2): on each axis the largest subdivided box of any body of the frame, plus the
-/// tolerance. It is a default and does not guarantee full recall. Never 0.
+/// Returns the default cell size (m, §2.2): on each axis the largest subdivided box of any body, plus the tolerance. A
+/// body counts as it is at rest, or as it is in the frame if its shape does not know that. It is a default and does not
+/// guarantee full recall. Never 0.
 glm::vec3 default_cell_size(const Frame& frame, int levels, float tolerance);
 
 }  // namespace collide

@@ -1,5 +1,6 @@
 #include "collide/core/workers.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <chrono>
@@ -7,6 +8,7 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <span>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -15,28 +17,38 @@
 namespace collide {
 
 namespace {
-/// Thrown by barrier() where another thread's task has failed; never leaves run().
+/// Thrown by barrier() where another thread's task has failed; never leaves run_together().
 struct Cancelled {};
+
+int processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 }  // namespace
 
 struct Workers::Shared {
-  /// Threads that share processors would take them from those that they wait for: they sleep at once.
-  explicit Shared(int all_threads)
-      : looking_time(all_threads <= static_cast<int>(std::thread::hardware_concurrency()) ? 50 : 0) {}
+  /// used: how many threads run at the same time. If they share processors, those that look for work would take them
+  /// from those that they wait for: they sleep at once.
+  Shared(int all_threads, int used)
+      : looking_time(used <= processors() ? 50 : 0), helpers(static_cast<std::size_t>(all_threads) - 1) {}
+
+  /// A thread beside the caller's.
+  struct Helper {
+    std::atomic<std::uint32_t> run_number = 0;  // a change wakes it
+    std::condition_variable begun;              // a change of run_number
+  };
 
   const std::chrono::microseconds looking_time;    // before they sleep: about as long as it takes to be woken
-  std::mutex mutex;                                // of task, by_all, stopping and error
+  std::mutex mutex;                                // of task, members, by_all, stopping and error
   const std::function<void(int)>* task = nullptr;  // none: it is too late to take part
-  bool by_all = true;                              // all threads; else those that come in time
+  int members = 0;                                 // threads that may take part: those with lower numbers
+  bool by_all = true;                              // all of them take part; else those that come in time
   bool stopping = false;
-  std::exception_ptr error;                   // the first one of the run
-  std::atomic<std::uint32_t> run_number = 0;  // a change wakes the threads
-  std::atomic<std::uint32_t> at_work = 0;     // threads beside the caller's that do their part, or will if it is by all
-  std::atomic<std::uint32_t> barriers = 0;    // that all have reached, or left because a task has failed
-  std::atomic<std::uint32_t> arrived = 0;     // at the next barrier
+  std::exception_ptr error;                 // the first one of the run
+  std::atomic<std::uint32_t> at_work = 0;   // helpers that do their part, or will if it is by all
+  std::atomic<std::uint32_t> barriers = 0;  // that all have reached, or left because a task has failed
+  std::atomic<std::uint32_t> arrived = 0;   // at the next barrier
   std::atomic<bool> failed = false;
-  std::condition_variable begun, done, passed;  // a change of run_number, of at_work to 0, or of barriers
-  std::vector<std::jthread> threads;            // last, so that they are joined before the rest goes
+  std::condition_variable done, passed;  // a change of at_work to 0, or of barriers
+  std::vector<Helper> helpers;           // by thread, from thread 1 on
+  std::vector<std::jthread> threads;     // last, so that they are joined before the rest goes
 
   /// Waits while `value` is `old`. No result depends on the clock.
   void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old, std::condition_variable& changed) {
@@ -74,14 +86,15 @@ struct Workers::Shared {
   }
 
   void serve(int thread) {
+    Helper& own = helpers[static_cast<std::size_t>(thread) - 1];
     for (std::uint32_t seen = 0;;) {
-      wait_while(run_number, seen, begun);
+      wait_while(own.run_number, seen, own.begun);
       const std::function<void(int)>* part = nullptr;
       {
         const std::lock_guard lock(mutex);
         if (stopping) return;
-        seen = run_number;
-        part = task;
+        seen = own.run_number;
+        if (thread < members) part = task;  // else it comes so late that others run
         if (part && !by_all) ++at_work;
       }
       if (!part) continue;
@@ -94,9 +107,9 @@ struct Workers::Shared {
     {
       const std::lock_guard lock(mutex);
       stopping = true;
-      ++run_number;
+      for (Helper& helper : helpers) ++helper.run_number;
     }
-    begun.notify_all();
+    for (Helper& helper : helpers) helper.begun.notify_one();
     threads.clear();
   }
 
@@ -105,16 +118,18 @@ struct Workers::Shared {
   }
 
   /// The caller's thread takes part.
-  void run(const std::function<void(int)>& next, bool all) {
+  void run(int number, const std::function<void(int)>& next, bool all) {
     assert(at_work == 0);
+    const std::span called = std::span(helpers).first(static_cast<std::size_t>(number) - 1);
     {
       const std::lock_guard lock(mutex);
       task = &next;
+      members = number;
       by_all = all;
-      if (all) at_work = static_cast<std::uint32_t>(threads.size());
-      ++run_number;
+      if (all) at_work = static_cast<std::uint32_t>(called.size());
+      for (Helper& helper : called) ++helper.run_number;
     }
-    begun.notify_all();
+    for (Helper& helper : called) helper.begun.notify_one();
     perform(next, 0);
     if (all) wait_for_others();
     {
@@ -129,8 +144,10 @@ struct Workers::Shared {
   }
 };
 
-Workers::Workers(int threads) : threads_(threads), shared_(std::make_unique<Shared>(threads)) {
+Workers::Workers(int threads, double least)
+    : threads_(threads), useful_threads_(least > 0 ? std::min(threads, processors()) : threads), least_share_(least) {
   if (threads < 1) throw std::invalid_argument("Workers: at least one thread");
+  shared_ = std::make_unique<Shared>(threads, useful_threads_);
   try {
     for (int thread = 1; thread < threads; ++thread) {
       shared_->threads.emplace_back([shared = shared_.get(), thread] { shared->serve(thread); });
@@ -143,19 +160,31 @@ Workers::Workers(int threads) : threads_(threads), shared_(std::make_unique<Shar
 
 Workers::~Workers() { shared_->stop(); }
 
-void Workers::run(const std::function<void(int thread)>& task) { shared_->run(task, true); }
+int Workers::threads_for(double work) const {
+  if (least_share_ <= 0) return useful_threads_;
+  return static_cast<int>(std::clamp(work / least_share_, 1.0, static_cast<double>(useful_threads_)));
+}
 
-void Workers::share(std::size_t count, const std::function<void(int thread, std::size_t item)>& use) {
-  if (threads_ == 1 || count < 2) {
+void Workers::share(int threads, std::size_t count, const std::function<void(int thread, std::size_t item)>& use) {
+  assert(threads >= 1 && threads <= threads_);
+  if (threads == 1 || count < 2) {
     for (std::size_t item = 0; item < count; ++item) use(0, item);
     return;
   }
   std::atomic<std::size_t> next = 0;
-  shared_->run(
-      [&](int thread) {
-        for (std::size_t item; (item = next++) < count;) use(thread, item);
-      },
-      false);
+  const auto take_items = [&](int thread) {
+    for (std::size_t item; (item = next++) < count;) use(thread, item);
+  };
+  shared_->run(threads, take_items, false);
+}
+
+void Workers::run(int parts, const std::function<void(int part)>& task) {
+  share(parts, static_cast<std::size_t>(parts), [&](int, std::size_t part) { task(static_cast<int>(part)); });
+}
+
+void Workers::run_together(int threads, const std::function<void(int thread)>& task) {
+  assert(threads >= 1 && threads <= threads_);
+  shared_->run(threads, task, true);
 }
 
 void Workers::barrier() {
@@ -163,7 +192,7 @@ void Workers::barrier() {
   assert(shared.by_all);
   const std::uint32_t before = shared.barriers;  // read first: a thread that fails from here on changes it
   if (shared.failed) throw Cancelled();
-  if (++shared.arrived == static_cast<std::uint32_t>(threads_)) {
+  if (++shared.arrived == static_cast<std::uint32_t>(shared.members)) {
     shared.arrived = 0;
     shared.pass_barrier();
   } else {

@@ -29,24 +29,28 @@ void BodyBroadPhase::find(std::span<const BodyBounds> bounds, std::span<const In
   other_.clear();
   divide(bounds, live, cutoff);
   place(bounds, live);
-  threads_.resize(static_cast<std::size_t>(workers.threads()));
-  workers.run([&](int thread) {
-    Thread& own = threads_[static_cast<std::size_t>(thread)];
+  constexpr double row_ns = 100, sort_ns = 20;  // of work, of a body
+  const auto bodies = static_cast<double>(live.size());
+  const int parts = workers.threads_for(row_ns * bodies);
+  threads_.resize(static_cast<std::size_t>(parts));
+  workers.run(parts, [&](int part) {
+    Thread& own = threads_[static_cast<std::size_t>(part)];
     own.found.clear();
     own.count.clear();
     own.near_box_pairs = 0;
-    const Part rows = part_of(live.size(), thread, workers.threads());
+    const Part rows = part_of(live.size(), part, parts);
     for (auto row = static_cast<Index>(rows.begin); row < rows.end; ++row) {
       const std::size_t before = own.found.size();
       find_row(own, row, cutoff);
       own.count.push_back(static_cast<Index>(own.found.size() - before));
       if (own.found.size() > limit) throw_too_many_pairs(limit);
     }
-    workers.barrier();
-    if (thread == 0) group(bounds.size(), limit);
-    workers.barrier();
-    const Part bodies = part_of(bounds.size(), thread, workers.threads());
-    for (std::size_t body = bodies.begin; body < bodies.end; ++body) {
+  });
+  group(bounds.size(), limit);
+  const int sort_parts = workers.threads_for(sort_ns * bodies);
+  workers.run(sort_parts, [&](int part) {
+    const Part own = part_of(bounds.size(), part, sort_parts);
+    for (std::size_t body = own.begin; body < own.end; ++body) {
       std::sort(other_.begin() + first_[body], other_.begin() + first_[body + 1]);
     }
   });

@@ -16,6 +16,9 @@ namespace {
 
 constexpr std::size_t max_uncounted_pairs = 1u << 16;  // of one thread
 
+// Of work: the bounds of a vertex; two near bodies, a body, a vertex of a large body; a contact in its order.
+constexpr double bounds_ns = 1, pair_ns = 100, body_ns = 50, patch_ns = 100, contact_ns = 10;
+
 /// See Slab. With u = 2^-24, a projection errs by at most 7u of the largest coordinate, the sum with the cutoff by 3u
 /// of it, and the normal is longer than 1 by a few u. Nothing where squares could overflow or underflow.
 std::optional<Slab> slab_between(const BodyBounds& a, const BodyBounds& b, float cutoff) {
@@ -33,8 +36,9 @@ void BodyPairSearch::find_bounds(const Frame& frame, Workers& workers, std::vect
   frame_ = &frame;
   const Index bodies = frame.bodies->count();
   bounds_.resize(bodies);
-  workers.run([&](int thread) {
-    const Part part = part_of(bodies, thread, workers.threads());
+  const int parts = workers.threads_for(bounds_ns * static_cast<double>(frame.bodies->vertex_count()));
+  workers.run(parts, [&](int number) {
+    const Part part = part_of(bodies, number, parts);
     for (auto body = static_cast<Index>(part.begin); body < part.end; ++body) {
       if (frame.bodies->size(body) > 0) bounds_[body] = measure_bounds(vertices_of(*frame_, body));
     }
@@ -49,27 +53,27 @@ void BodyPairSearch::find_bounds(const Frame& frame, Workers& workers, std::vect
 
 void BodyPairSearch::find(const Frame& frame, const Query& query, const RestingContacts& resting, Workers& workers) {
   assert(bounds_.size() == frame.bodies->count());
-  begin(frame, query, workers);
+  begin(frame, query);
   near_.find(bounds_, live_, cutoff_, workers);
-  share_large_bodies(resting, workers);
-  workers.run([&](int thread) {
-    Thread& own = threads_[static_cast<std::size_t>(thread)];
+  deal(resting, workers);
+  const auto parts = static_cast<int>(threads_.size());
+  workers.run(parts, [&](int part) {
+    Thread& own = threads_[static_cast<std::size_t>(part)];
     begin(own);
-    find_patch_contacts(thread, workers.threads());
-    find_part(thread, workers.threads(), resting);
-    if (!loose_.empty()) rows_.count(thread, own.loose);
+    find_patch_contacts(part, parts);
+    find_part(part, parts, resting);
+    if (!loose_.empty()) rows_.count(part, own.loose);
   });
   for (Thread& thread : threads_)
     check_contact_limit(thread);  // the rest, so that no more pass on many threads than on one
 }
 
-void BodyPairSearch::begin(const Frame& frame, const Query& query, Workers& workers) {
+void BodyPairSearch::begin(const Frame& frame, const Query& query) {
   frame_ = &frame;
   query_ = query;
   cutoff_ = contact_cutoff(query.tolerance);
   tolerance2_ = query.tolerance * query.tolerance;
   if (query.self) references_.update(frame, live_, cutoff_);
-  threads_.resize(static_cast<std::size_t>(workers.threads()));
   found_ = 0;
 }
 
@@ -82,14 +86,20 @@ void BodyPairSearch::begin(Thread& own) const {
   own.self_contacts = own.pair_tests = own.separated = own.unfolded = own.kept = 0;
 }
 
-void BodyPairSearch::share_large_bodies(const RestingContacts& resting, Workers& workers) {
+/// Decides in how many parts the search is cut, and deals the large bodies.
+void BodyPairSearch::deal(const RestingContacts& resting, Workers& workers) {
   large_.clear();
   loose_.clear();
+  double work = pair_ns * static_cast<double>(near_.pairs()) + body_ns * static_cast<double>(live_.size());
   for (const Index body : live_) {
     if (!is_large(body)) continue;
     large_.push_back(body);
-    if (!resting.group(body, near_)) loose_.push_back(body);
+    if (resting.group(body, near_)) continue;
+    loose_.push_back(body);
+    work += patch_ns * frame_->bodies->size(body);
   }
+  const int parts = workers.threads_for(work);
+  threads_.resize(static_cast<std::size_t>(parts));
   patch_tasks_ = 0;
   if (loose_.empty()) return;
   patches_.begin(*frame_, large_, tolerance2_, workers);
@@ -99,8 +109,8 @@ void BodyPairSearch::share_large_bodies(const RestingContacts& resting, Workers&
       if (is_large(b)) patches_.add(a, b);
     }
   }
-  patch_tasks_ = patches_.deal(workers.threads());
-  rows_.begin(frame_->bodies->vertex_count(), workers.threads());
+  patch_tasks_ = patches_.deal(parts);
+  rows_.begin(frame_->bodies->vertex_count(), parts);
 }
 
 void BodyPairSearch::find_patch_contacts(int thread, int threads) {
@@ -260,18 +270,20 @@ void BodyPairSearch::concatenate(Workers& workers, std::vector<Contact>& pairs) 
     total += thread.pairs.size() - begin;
   }
   pairs.resize(total);
-  workers.run([&](int thread) {
-    const Thread& own = threads_[static_cast<std::size_t>(thread)];
+  const int threads = workers.threads_for(contact_ns * static_cast<double>(total));
+  const auto for_parts = [&](const auto& task) {
+    workers.share(threads, threads_.size(), [&](int, std::size_t part) { task(static_cast<int>(part)); });
+  };
+  for_parts([&](int part) {
+    const Thread& own = threads_[static_cast<std::size_t>(part)];
     auto begin = own.pairs.begin();
     for (const Segment& segment : own.segments) {
       const auto end = own.pairs.begin() + static_cast<std::ptrdiff_t>(segment.end);
       std::copy(std::exchange(begin, end), end, pairs.begin() + static_cast<std::ptrdiff_t>(segment.place));
     }
-    if (loose_.empty()) return;
-    rows_.scatter(thread, own.loose, pairs);
-    workers.barrier();
-    rows_.sort(thread, pairs);
+    if (!loose_.empty()) rows_.scatter(part, own.loose, pairs);
   });
+  if (!loose_.empty()) for_parts([&](int part) { rows_.sort(part, pairs); });
 }
 
 void BodyPairSearch::count(Result& result) const {

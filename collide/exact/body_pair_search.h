@@ -69,10 +69,10 @@ class BodyPairSearch {
     std::uint64_t self_contacts = 0, pair_tests = 0, separated = 0, unfolded = 0, kept = 0;
   };
 
-  void begin(const Frame& frame, const Query& query, Workers& workers);
+  void begin(const Frame& frame, const Query& query);
   void begin(Thread& own) const;
   bool is_large(Index body) const { return frame_->bodies->size(body) > CullingReference::max_vertices; }
-  void share_large_bodies(const RestingContacts& resting, Workers& workers);
+  void deal(const RestingContacts& resting, Workers& workers);
   /// Finds one thread's share of the contacts inside large bodies and between them.
   void find_patch_contacts(int thread, int threads);
   /// Finds the groups of one thread's share of the bodies. Each thread gets consecutive bodies, with about as many near

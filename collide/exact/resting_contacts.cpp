@@ -32,8 +32,11 @@ void RestingContacts::observe(const Frame& frame, const Settings& settings, std:
     for (auto* coordinate : {&x_, &y_, &z_}) coordinate->resize(frame.x.size());
     return;
   }
-  workers.run([&](int thread) {
-    const Part part = part_of(bounds.size(), thread, workers.threads());
+  constexpr double body_ns = 20, vertex_ns = 0.5;  // of work
+  const int parts = workers.threads_for(body_ns * static_cast<double>(bounds.size()) +
+                                        vertex_ns * static_cast<double>(frame.x.size()));
+  workers.run(parts, [&](int number) {
+    const Part part = part_of(bounds.size(), number, parts);
     for (auto body = static_cast<Index>(part.begin); body < part.end; ++body) {
       motion_[body] = observe(vertices_of(frame, body), bounds[body], body);
       if (!stored) motion_[body] = std::min(motion_[body], Motion::copied);

@@ -21,7 +21,8 @@ class AabbTree final : public Detector {
     trees_.update(frame, bodies_.live, workers);
     build_upper();
     result.counters.boxes = trees_.nodes().size();
-    search_.begin(frame, settings, trees_.points(), workers.threads());
+    constexpr double test_ns = 50;  // of work, of a vertex
+    search_.begin(frame, settings, trees_.points(), workers.threads_for(test_ns * trees_.points().size()));
     tree_search_.run(trees_.nodes(), settings.self_collision, contact_cutoff(settings.tolerance), search_, workers);
     search_.finish(result);
   }

@@ -19,15 +19,20 @@ class BoundingBox final : public Detector {
     for (std::size_t k = 0; k < slots_.size(); ++k) by_body_[bodies_.live[k]] = slots_[k];
     const std::vector<BodyPair>& pairs = pairs_.find(bodies_, contact_cutoff(settings.tolerance));
 
-    search_.begin(frame, settings, points_, workers.threads());
-    workers.run([&](int thread) {
-      const Part between = part_of(pairs.size(), thread, workers.threads());
+    constexpr double test_ns = 0.15;  // of work
+    const double mean =
+        static_cast<double>(points_.size()) / static_cast<double>(std::max<std::size_t>(slots_.size(), 1));
+    const auto body_pairs = static_cast<double>(pairs.size() + (settings.self_collision ? slots_.size() : 0));
+    const int parts = workers.threads_for(test_ns * mean * mean * body_pairs);
+    search_.begin(frame, settings, points_, parts);
+    workers.run(parts, [&](int part) {
+      const Part between = part_of(pairs.size(), part, parts);
       for (std::size_t k = between.begin; k < between.end; ++k) {
-        search_.test(thread, by_body_[pairs[k].a], by_body_[pairs[k].b]);
+        search_.test(part, by_body_[pairs[k].a], by_body_[pairs[k].b]);
       }
       if (!settings.self_collision) return;
-      const Part within = part_of(slots_.size(), thread, workers.threads());
-      for (std::size_t k = within.begin; k < within.end; ++k) search_.test(thread, slots_[k], slots_[k]);
+      const Part within = part_of(slots_.size(), part, parts);
+      for (std::size_t k = within.begin; k < within.end; ++k) search_.test(part, slots_[k], slots_[k]);
     });
     search_.finish(result);
   }

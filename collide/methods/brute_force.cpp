@@ -13,8 +13,11 @@ class BruteForce final : public Detector {
   void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
     bodies_.build(frame, result);
     points_.gather(frame, bodies_.live, ranges_);
-    search_.begin(frame, settings, points_, workers.threads());
-    workers.run([&](int thread) { test_rows(thread, workers.threads(), settings.self_collision); });
+    constexpr double test_ns = 0.15;  // of work
+    const auto vertices = static_cast<double>(points_.size());
+    const int parts = workers.threads_for(test_ns * vertices * vertices / 2);
+    search_.begin(frame, settings, points_, parts);
+    workers.run(parts, [&](int part) { test_rows(part, parts, settings.self_collision); });
     search_.finish(result);
   }
 

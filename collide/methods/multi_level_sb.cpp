@@ -150,10 +150,12 @@ class MultiLevelSb final : public Detector {
 
   void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
     build(frame, settings, workers, result);
-    search_.begin(frame, settings, subdivision_.points(), workers.threads());
-    scattered_.begin(search_, workers.threads());
-    table_.prepare_meetings(workers.threads());
-    workers.run([&](int thread) { test_boxes(thread, workers.threads()); });  // §2.3, §2.4
+    constexpr double test_ns = 20;  // of work, of a vertex
+    const int parts = workers.threads_for(test_ns * subdivision_.points().size());
+    search_.begin(frame, settings, subdivision_.points(), parts);
+    scattered_.begin(search_, parts);
+    table_.prepare_meetings(parts);
+    workers.run(parts, [&](int part) { test_boxes(part, parts); });  // §2.3, §2.4
     search_.finish(result);
   }
 

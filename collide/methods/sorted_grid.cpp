@@ -91,26 +91,30 @@ class SortedGrid final : public Detector {
     const VertexList vertices(*frame.bodies, bodies_.live);
     const TorusGrid grid(frame, vertices, contact_cutoff(settings.tolerance));
     sort_vertices(frame, vertices, grid, workers);
-    search_.begin(frame, settings, points_, workers.threads());
-    workers.run([&](int thread) {
-      const Part rows = part_of(grid.rows(), thread, workers.threads());
-      for (auto row = static_cast<Index>(rows.begin); row < rows.end; ++row) test_row(thread, grid, row);
+    const int parts = workers.threads_for(test_ns * vertices.size());
+    search_.begin(frame, settings, points_, parts);
+    workers.run(parts, [&](int part) {
+      const Part rows = part_of(grid.rows(), part, parts);
+      for (auto row = static_cast<Index>(rows.begin); row < rows.end; ++row) test_row(part, grid, row);
     });
     search_.finish(result);
   }
 
  private:
+  static constexpr double move_ns = 5, test_ns = 25;  // of work, of a vertex
+
   void sort_vertices(const Frame& frame, const VertexList& vertices, const TorusGrid& grid, Workers& workers) {
     cell_.resize(vertices.size());
-    workers.run([&](int thread) {
-      vertices.for_each(part_of(vertices.size(), thread, workers.threads()), [&](Index k, Index vertex, Index) {
+    const int parts = workers.threads_for(move_ns * vertices.size());
+    workers.run(parts, [&](int part) {
+      vertices.for_each(part_of(vertices.size(), part, parts), [&](Index k, Index vertex, Index) {
         cell_[k] = grid.cell(frame.x[vertex], frame.y[vertex], frame.z[vertex]);
       });
     });
     sort_.sort(cell_, grid.cells(), workers);
     points_.resize(vertices.size());
-    workers.run([&](int thread) {
-      vertices.for_each(part_of(vertices.size(), thread, workers.threads()),
+    workers.run(parts, [&](int part) {
+      vertices.for_each(part_of(vertices.size(), part, parts),
                         [&](Index k, Index vertex, Index body) { points_.set(sort_.slot(k), frame, vertex, body); });
     });
   }

@@ -1,6 +1,7 @@
 #include "collide/methods/subdivision.h"
 
 #include <cassert>
+#include <cmath>
 
 namespace collide::methods {
 
@@ -33,13 +34,15 @@ void Subdivision::build(const Frame& frame, const BodyBoxes& bodies, std::span<c
     slots += frame.bodies->size(body);
   }
   points_.resize(slots);
-  threads_.resize(static_cast<std::size_t>(workers.threads()));
-  workers.run([&](int thread) {
-    Thread& own = threads_[static_cast<std::size_t>(thread)];
+  constexpr double vertex_ns = 10, box_ns = 1;  // of work
+  const int parts = workers.threads_for(vertex_ns * slots + box_ns * std::ldexp(which.size(), levels));
+  threads_.resize(static_cast<std::size_t>(parts));
+  workers.run(parts, [&](int number) {
+    Thread& own = threads_[static_cast<std::size_t>(number)];
     own.boxes.clear();
     own.codes_in_use.reset(Index{1} << levels);
     own.of_code.assign(std::size_t{1} << levels, 0);
-    const Part part = part_of(which.size(), thread, workers.threads());
+    const Part part = part_of(which.size(), number, parts);
     for (std::size_t k = part.begin; k < part.end; ++k) {
       cut_body(own, frame, bodies.box[which[k]], which[k], first_slot_[k]);
     }

@@ -29,14 +29,15 @@ class SweepAndPrune final : public Detector {
     sort_patches(frame, workers);
     result.counters.boxes = bodies_.live.size() + patches_.size();
     const std::vector<BodyPair>& pairs = pairs_.find(bodies_, cutoff_);
-    search_.begin(frame, settings, trees_.points(), workers.threads());
-    threads_.resize(static_cast<std::size_t>(workers.threads()));
-    workers.run([&](int thread) {
-      const Part between = part_of(pairs.size(), thread, workers.threads());
-      for (std::size_t k = between.begin; k < between.end; ++k) sweep_between(thread, pairs[k]);
+    const int parts = workers.threads_for(sweep_ns * trees_.points().size());
+    search_.begin(frame, settings, trees_.points(), parts);
+    threads_.resize(static_cast<std::size_t>(parts));
+    workers.run(parts, [&](int part) {
+      const Part between = part_of(pairs.size(), part, parts);
+      for (std::size_t k = between.begin; k < between.end; ++k) sweep_between(part, pairs[k]);
       if (!settings.self_collision) return;
-      const Part within = part_of(bodies_.live.size(), thread, workers.threads());
-      for (std::size_t k = within.begin; k < within.end; ++k) sweep_within(thread, patches_of(bodies_.live[k]));
+      const Part within = part_of(bodies_.live.size(), part, parts);
+      for (std::size_t k = within.begin; k < within.end; ++k) sweep_within(part, patches_of(bodies_.live[k]));
     });
     search_.finish(result);
   }
@@ -44,6 +45,7 @@ class SweepAndPrune final : public Detector {
   void forget() override { trees_.forget(); }
 
  private:
+  static constexpr double sort_ns = 10, sweep_ns = 30;  // of work, of a vertex
   struct alignas(64) Thread {
     std::vector<Patch> near_a, near_b;
   };
@@ -68,8 +70,9 @@ class SweepAndPrune final : public Detector {
     }
     axis_ = longest_axis(most * 0.5f - least * 0.5f);
     patches_.resize(patches);
-    workers.run([&](int thread) {
-      const Part part = part_of(bodies_.live.size(), thread, workers.threads());
+    const int parts = workers.threads_for(sort_ns * trees_.points().size());
+    workers.run(parts, [&](int number) {
+      const Part part = part_of(bodies_.live.size(), number, parts);
       for (std::size_t k = part.begin; k < part.end; ++k) {
         const Index body = bodies_.live[k];
         Patch* next = &patches_[first_patch_[body]];

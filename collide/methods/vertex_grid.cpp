@@ -12,13 +12,14 @@ void VertexGrid::detect(const Frame& frame, std::span<const Index> which, const 
   const CellHash hash(settings);
   const double cutoff = contact_cutoff(settings.tolerance);
   hash_vertices(frame, which);
-  search_.begin(frame, settings, points_, workers.threads());
-  threads_.resize(static_cast<std::size_t>(workers.threads()));
-  workers.run([&](int thread) {
-    threads_[static_cast<std::size_t>(thread)].hashes = 0;
-    const auto step = static_cast<Index>(workers.threads());
-    for (auto slot = static_cast<Index>(thread); slot < points_.size(); slot += step) {
-      visit_cells(thread, slot, cutoff, hash);
+  constexpr double visit_ns = 60;  // of work, of a vertex
+  const int parts = workers.threads_for(visit_ns * points_.size());
+  search_.begin(frame, settings, points_, parts);
+  threads_.resize(static_cast<std::size_t>(parts));
+  workers.run(parts, [&](int part) {
+    threads_[static_cast<std::size_t>(part)].hashes = 0;
+    for (auto slot = static_cast<Index>(part); slot < points_.size(); slot += static_cast<Index>(parts)) {
+      visit_cells(part, slot, cutoff, hash);
     }
   });
   table_.count(result.counters);

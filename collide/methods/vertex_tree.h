@@ -14,7 +14,8 @@ class VertexTree final : public Detector {
   void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
     bodies_.build(frame, result);
     tree_.build(frame, bodies_.live, cut_, leaf_size, workers);
-    search_.begin(frame, settings, tree_.points(), workers.threads());
+    constexpr double test_ns = 50;  // of work, of a vertex
+    search_.begin(frame, settings, tree_.points(), workers.threads_for(test_ns * tree_.points().size()));
     tree_search_.run(tree_.nodes(), settings.self_collision, contact_cutoff(settings.tolerance), search_, workers);
     search_.finish(result);
   }

@@ -62,15 +62,14 @@ class FeatureTrees {
       if (k == 0 || mesh.body[features[k][0]] != mesh.body[features[k - 1][0]]) begin_.push_back(k);
     trees_.resize(begin_.size());
     std::vector<surface::MovingBox> boxes(begin_.size());
-    workers.run([&](int thread) {
+    constexpr double feature_ns = 200;  // of work
+    const int threads = workers.threads_for(feature_ns * static_cast<double>(features.size()));
+    workers.share(threads, trees_.size(), [&](int, std::size_t run) {
       std::vector<surface::MovingBox> of_run;
-      for (auto run = static_cast<std::size_t>(thread); run < trees_.size(); run += std::size_t(workers.threads())) {
-        const std::size_t end = run + 1 < begin_.size() ? begin_[run + 1] : features.size();
-        of_run.clear();
-        for (std::size_t k = begin_[run]; k < end; ++k) of_run.push_back(box_of(mesh, features[k]));
-        trees_[run] = surface::MovingBoxTree(of_run);
-        boxes[run] = trees_[run].box();
-      }
+      const std::size_t end = run + 1 < begin_.size() ? begin_[run + 1] : features.size();
+      for (std::size_t k = begin_[run]; k < end; ++k) of_run.push_back(box_of(mesh, features[k]));
+      trees_[run] = surface::MovingBoxTree(of_run);
+      boxes[run] = trees_[run].box();
     });
     runs_ = surface::MovingBoxTree(boxes);
   }
@@ -103,16 +102,18 @@ void search_features(const MovingMesh& mesh, const std::vector<Feature>& feature
     });
   };
   constexpr std::size_t slice = 1 << 14;
-  const auto threads = static_cast<std::size_t>(workers.threads());
-  std::vector<std::vector<Found>> found(threads);
+  constexpr double search_ns = 500;  // of work, of a feature
+  const int parts = workers.threads_for(search_ns * static_cast<double>(std::min(slice, features.size())));
+  const auto step = static_cast<std::size_t>(parts);
+  std::vector<std::vector<Found>> found(step);
   for (std::size_t begin = 0; begin < features.size(); begin += slice) {
     const std::size_t end = std::min(begin + slice, features.size());
-    workers.run([&](int thread) {
-      const auto own = static_cast<std::size_t>(thread);
-      for (std::size_t k = begin + own; k < end; k += threads) look_at(features[k], found[own]);
+    workers.run(parts, [&](int part) {
+      const auto own = static_cast<std::size_t>(part);
+      for (std::size_t k = begin + own; k < end; k += step) look_at(features[k], found[own]);
     });
     std::vector<Found>& all = found.front();
-    for (std::size_t other = 1; other < threads; ++other) {
+    for (std::size_t other = 1; other < step; ++other) {
       all.insert(all.end(), found[other].begin(), found[other].end());
       found[other].clear();
     }

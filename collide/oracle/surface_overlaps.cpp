@@ -189,14 +189,12 @@ class OverlapSearch {
 
 Overlaps find_overlaps(const Frame& frame, const surface::Surfaces& surfaces, Workers& workers) {
   OverlapSearch search(frame, surfaces);
-  std::vector<Overlaps> found(static_cast<std::size_t>(workers.threads()));
-  workers.run([&](int thread) {
-    const auto first = static_cast<Index>(thread), step = static_cast<Index>(workers.threads());
-    for (Index body = first; body < surfaces.size(); body += step) search.prepare(body);
-    workers.barrier();
-    for (Index body = first; body < surfaces.size(); body += step) {
-      search.find(body, found[static_cast<std::size_t>(thread)]);
-    }
+  constexpr double vertex_ns = 500;  // of work
+  const int threads = workers.threads_for(vertex_ns * static_cast<double>(frame.x.size()));
+  std::vector<Overlaps> found(static_cast<std::size_t>(threads));
+  workers.share(threads, surfaces.size(), [&](int, std::size_t body) { search.prepare(static_cast<Index>(body)); });
+  workers.share(threads, surfaces.size(), [&](int thread, std::size_t body) {
+    search.find(static_cast<Index>(body), found[static_cast<std::size_t>(thread)]);
   });
   Overlaps all;
   for (const Overlaps& part : found) {

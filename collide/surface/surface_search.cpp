@@ -111,14 +111,20 @@ void SurfaceSearch::update(const Motion& motion, std::span<const SurfaceBody> bo
 void SurfaceSearch::search(const Motion& motion, float min_seconds, Workers& workers) {
   threads_.resize(static_cast<std::size_t>(workers.threads()));
   for (Thread& t : threads_) t.features.clear(), t.found.clear(), t.work = 0;
-  const auto share = [&](std::size_t count, const auto& task) {
-    workers.share(count, [&](int thread, std::size_t i) { task(threads_[static_cast<std::size_t>(thread)], i); });
+  constexpr double vertex_ns = 50, task_ns = 500;  // of work
+  const auto share = [&](double work, std::size_t count, const auto& task) {
+    workers.share(workers.threads_for(work), count,
+                  [&](int thread, std::size_t i) { task(threads_[static_cast<std::size_t>(thread)], i); });
   };
   const auto share_bodies = [&](const std::vector<char>& which, const auto& task) {
     due_.clear();
-    for (Index b = 0; b < swept_.size(); ++b)
-      if (which[b]) due_.push_back(b);
-    share(due_.size(), [&](Thread& own, std::size_t i) { task(own, due_[i]); });
+    double vertices = 0;
+    for (Index b = 0; b < swept_.size(); ++b) {
+      if (!which[b]) continue;
+      due_.push_back(b);
+      vertices += motion.positions.bodies->size(b);
+    }
+    share(vertex_ns * vertices, due_.size(), [&](Thread& own, std::size_t i) { task(own, due_[i]); });
   };
   share_bodies(predicted_anew_, [&](Thread& own, Index b) {
     const float end = std::min(end_, time_ + bodies_[b].horizon);
@@ -136,7 +142,8 @@ void SurfaceSearch::search(const Motion& motion, float min_seconds, Workers& wor
     has_boxes_[b] = true;
     own.work += swept_[b].surface().feature_count();
   });
-  share(tasks_.size(), [&](Thread& own, std::size_t i) { find_candidates(own, tasks_[i]); });
+  const auto tasks = static_cast<double>(tasks_.size());
+  share(task_ns * tasks, tasks_.size(), [&](Thread& own, std::size_t i) { find_candidates(own, tasks_[i]); });
   merge_tasks();
   work_ = current_.features.size();
   for (const Thread& t : threads_) work_ += t.work;

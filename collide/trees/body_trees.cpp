@@ -63,11 +63,15 @@ void BodyTrees::find_patterns(const Frame& frame, std::span<const Index> which, 
     pattern.used = true;
     pattern_.push_back(&pattern);
   }
-  items_.resize(static_cast<std::size_t>(workers.threads()));
-  workers.run([&](int thread) {
-    const Part part = part_of(fresh.size(), thread, workers.threads());
+  constexpr double cut_ns = 100;  // of work, of a vertex
+  double vertices = 0;
+  for (const auto& [pattern, body] : fresh) vertices += static_cast<double>(frame.bodies->size(body));
+  const int parts = workers.threads_for(cut_ns * vertices);
+  items_.resize(static_cast<std::size_t>(parts));
+  workers.run(parts, [&](int number) {
+    const Part part = part_of(fresh.size(), number, parts);
     for (std::size_t k = part.begin; k < part.end; ++k) {
-      fresh[k].first->cut(frame, fresh[k].second, items_[static_cast<std::size_t>(thread)]);
+      fresh[k].first->cut(frame, fresh[k].second, items_[static_cast<std::size_t>(number)]);
     }
   });
   std::erase_if(patterns, [](const auto& item) { return !item.second.used; });
@@ -104,13 +108,18 @@ void BodyTrees::Pattern::cut(std::span<Item> items, Index node, Index first_slot
 void BodyTrees::refit(const Frame& frame, Workers& workers) {
   const std::size_t first = first_node_.front();
   spread_.resize(which_.size());
-  workers.run([&](int thread) {
-    const Part part = part_of(nodes_.size() - first, thread, workers.threads());
+  constexpr double leaf_ns = 3, upper_ns = 1;  // of work, of a vertex
+  const auto vertices = static_cast<double>(points_.size());
+  const int leaf_parts = workers.threads_for(leaf_ns * vertices);
+  workers.run(leaf_parts, [&](int number) {
+    const Part part = part_of(nodes_.size() - first, number, leaf_parts);
     for (std::size_t at = first + part.begin; at < first + part.end; ++at) {
       if (nodes_[at].is_leaf()) refit_leaf(frame, nodes_[at]);
     }
-    workers.barrier();
-    const Part bodies = part_of(which_.size(), thread, workers.threads());
+  });
+  const int parts = workers.threads_for(upper_ns * vertices);
+  workers.run(parts, [&](int number) {
+    const Part bodies = part_of(which_.size(), number, parts);
     for (std::size_t k = bodies.begin; k < bodies.end; ++k) {
       for (Index at = first_node_[k + 1]; at-- > first_node_[k];) {
         Node& node = nodes_[at];

@@ -13,8 +13,10 @@ void PointTree::build(const Frame& frame, std::span<const Index> which, Cut cut,
   if (points_.size() == 0) return;
   nodes_.emplace_back();
   pending_.push_back({0, 0, points_.size(), 0});
+  constexpr double build_ns = 70;  // of work, of a vertex
+  const int threads = workers.threads_for(build_ns * static_cast<double>(points_.size()));
   // The upper nodes on this thread, until there are enough to deal; with one thread that is the root.
-  const std::size_t enough = workers.threads() > 1 ? 4 * static_cast<std::size_t>(workers.threads()) : 1;
+  const std::size_t enough = threads > 1 ? 4 * static_cast<std::size_t>(threads) : 1;
   while (!pending_.empty() && pending_.size() < enough) {
     next_.clear();
     for (const Pending& pending : pending_)
@@ -22,12 +24,9 @@ void PointTree::build(const Frame& frame, std::span<const Index> which, Cut cut,
     pending_.swap(next_);
   }
   below_.resize(std::max(below_.size(), pending_.size()));
-  workers.run([&](int thread) {
-    const auto step = static_cast<std::size_t>(workers.threads());
-    for (auto k = static_cast<std::size_t>(thread); k < pending_.size(); k += step) {
-      below_[k].assign(1, {});
-      make_below(below_[k], {0, pending_[k].first, pending_[k].size, pending_[k].buffer});
-    }
+  workers.share(threads, pending_.size(), [&](int, std::size_t k) {
+    below_[k].assign(1, {});
+    make_below(below_[k], {0, pending_[k].first, pending_[k].size, pending_[k].buffer});
   });
   for (std::size_t k = 0; k < pending_.size(); ++k) {
     const auto moved_by = static_cast<Index>(nodes_.size()) - 1;  // all but the first
@@ -42,9 +41,10 @@ void PointTree::list_items(const Frame& frame, std::span<const Index> which, Wor
   points_.resize(vertices.size());
   for (auto* by_number : {&vertex_, &body_}) by_number->resize(vertices.size());
   for (auto& buffer : items_) buffer.resize(vertices.size());
-  workers.run([&](int thread) {
-    const Part part = part_of(vertices.size(), thread, workers.threads());
-    vertices.for_each(part, [&](Index number, Index vertex, Index body) {
+  constexpr double item_ns = 5;  // of work
+  const int parts = workers.threads_for(item_ns * static_cast<double>(vertices.size()));
+  workers.run(parts, [&](int part) {
+    vertices.for_each(part_of(vertices.size(), part, parts), [&](Index number, Index vertex, Index body) {
       items_[0][number] = {{frame.x[vertex], frame.y[vertex], frame.z[vertex]}, number};
       vertex_[number] = vertex;
       body_[number] = body;

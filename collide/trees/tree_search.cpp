@@ -10,18 +10,19 @@ void TreeSearch::run(std::span<const Node> nodes, bool self, float cutoff, Conta
   };
   pairs_.assign(1, {0, 0});
   const NodePairs node_pairs{nodes};
-  node_pairs.deal(pairs_, workers.threads(), apart);
-  workers.run([&](int thread) {
+  const int parts = search.parts();
+  node_pairs.deal(pairs_, parts, apart);
+  workers.run(parts, [&](int part) {
     const auto test = [&](NodePair pair) {
       const Node &a = nodes[pair.a], &b = nodes[pair.b];
       if (pair.a == pair.b) {
-        search.test(thread, a.slots(), a.slots());
+        search.test(part, a.slots(), a.slots());
       } else {
-        search.test(thread, a.slots(), b.slots(), b.box);
+        search.test(part, a.slots(), b.slots(), b.box);
       }
     };
-    const auto step = static_cast<std::size_t>(workers.threads());
-    for (auto k = static_cast<std::size_t>(thread); k < pairs_.size(); k += step) {
+    const auto step = static_cast<std::size_t>(parts);
+    for (auto k = static_cast<std::size_t>(part); k < pairs_.size(); k += step) {
       node_pairs.for_each_below(pairs_[k], apart, test);
     }
   });

@@ -28,12 +28,11 @@ PenaltyLaw<Real> law_of(const PenaltyContact& c, const PenaltyPair& p) {
 
 /// What one of the threads does that share the search for pairs.
 struct PenaltyContact::Share {
-  int thread;
-  collide::Workers* workers;    // nullptr: it is alone
+  int thread, threads;
+  collide::Workers* workers;    // may be nullptr if the thread is alone
   std::vector<Totals>& totals;  // of all threads, and one more
 
-  static int threads(const collide::Workers* workers) { return workers ? workers->threads() : 1; }
-  collide::Part part(std::size_t count) const { return collide::part_of(count, thread, threads(workers)); }
+  collide::Part part(std::size_t count) const { return collide::part_of(count, thread, threads); }
   /// Returns the totals of the threads before this one, when each has stated its own. Calls prepare(sums) once, before
   /// any thread goes on.
   Totals before(const Totals& own, const std::function<void(const Totals&)>& prepare) const {
@@ -49,19 +48,21 @@ struct PenaltyContact::Share {
     return totals[std::size_t(thread)];
   }
   void barrier() const {
-    if (workers) workers->barrier();
+    if (threads > 1) workers->barrier();
   }
 };
 
 void PenaltyContact::find(const DetectedContacts& detected, const State& state, float layer,
-                          collide::Workers* workers) {
+                          collide::Workers& workers) {
   thickness = layer;
   if (detected.contacts.empty()) return pairs.clear();
   const std::vector<collide::Contact> before = std::exchange(pairs.contact, {});
   const VectorArray stretch = std::exchange(pairs.stretch, {});
-  std::vector<Totals> totals(std::size_t(Share::threads(workers)) + 1);
-  const auto task = [&](int thread) {
-    const Share share{thread, workers, totals};
+  constexpr double contact_ns = 10;  // of work, between two barriers
+  const int threads = workers.threads_for(contact_ns * double(detected.contacts.size()));
+  std::vector<Totals> totals(std::size_t(threads) + 1);
+  workers.run_together(threads, [&](int thread) {
+    const Share share{thread, threads, &workers, totals};
     take(share, detected, state);
     share.barrier();
     group(share, state.x[0].size(), state.batches());
@@ -75,11 +76,7 @@ void PenaltyContact::find(const DetectedContacts& detected, const State& state, 
     penalty_kernels().prepare(share.part(pairs.size()), pairs, motion_.data(), traits_.data());
     share.barrier();
     carry_over(share.part(pairs.size()), before, stretch);
-  };
-  if (workers)
-    workers->run(task);
-  else
-    task(0);
+  });
 }
 
 /// Takes the contacts of bodies that move.
@@ -120,7 +117,7 @@ void PenaltyContact::locate(const collide::Bodies& vertices, const State& state)
 
 void PenaltyContact::group(std::size_t slots, std::span<const Batch> batches) {
   std::vector<Totals> totals(2);
-  group(Share{0, nullptr, totals}, slots, batches);
+  group(Share{0, 1, nullptr, totals}, slots, batches);
 }
 
 /// Each thread finds the particles in its part of the slots: the ends of their pairs stay in order.

@@ -44,8 +44,8 @@ class PenaltyContact {
   LaneArray<glm::vec4> force;                                   // on a, of the current substep, N
 
   /// Takes the contacts for the coming frame, and hands the friction springs of those that were there before on to
-  /// them. thickness: of the contact layer, m. The contacts ascend. workers: nullptr if there are too few to share.
-  void find(const DetectedContacts& detected, const State& state, float thickness, collide::Workers* workers);
+  /// them. thickness: of the contact layer, m. The contacts ascend.
+  void find(const DetectedContacts& detected, const State& state, float thickness, collide::Workers& workers);
   /// Finds again where the bodies' particles stand in the state's arrays, and how far apart their origins are.
   void locate(const collide::Bodies& vertices, const State& state);
   /// Finds the particles that the pairs join by their slots, which are below `slots`.

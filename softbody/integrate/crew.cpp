@@ -16,7 +16,8 @@ void Worker::barrier() const {
 
 void Crew::take(std::vector<const Batch*> moving, std::size_t particles) {
   moving_ = std::move(moving);
-  active_ = particles >= min_shared_ ? workers_.threads() : 1;
+  constexpr double particle_ns = 10;  // of work, between two barriers of a substep
+  active_ = workers_.threads_for(particle_ns * double(particles));
   share([](const Batch&) { return 1; });
 }
 
@@ -42,17 +43,14 @@ std::span<const Batch* const> Crew::joined(int thread) const {
 }
 
 void Crew::for_each(std::size_t count, const std::function<void(std::size_t)>& use) const {
-  if (active_ == 1)
-    for (std::size_t i = 0; i < count; ++i) use(i);
-  else
-    workers_.share(count, [&](int, std::size_t i) { use(i); });
+  workers_.share(active_, count, [&](int, std::size_t i) { use(i); });
 }
 
 void Crew::run(const std::function<void(const Worker&)>& task) const {
   if (active_ == 1)
     task(Worker(*this, 0));
   else
-    workers_.run([&](int thread) { task(Worker(*this, thread)); });
+    workers_.run_together(active_, [&](int thread) { task(Worker(*this, thread)); });
 }
 
 }  // namespace softbody

@@ -46,8 +46,7 @@ class Worker {
 /// Shares what moves in a frame among the threads.
 class Crew {
  public:
-  /// Fewer particles than `min_shared` are left to one thread: to share them would take longer.
-  Crew(collide::Workers& workers, std::size_t min_shared) : workers_(workers), min_shared_(min_shared) {}
+  explicit Crew(collide::Workers& workers) : workers_(workers) {}
 
   /// Takes the batches that move in the coming frame, and how many particles they have in all. They must not be moved
   /// in memory as long as anybody asks for them. Until share() is called, all are joined, and cost the same.
@@ -72,7 +71,6 @@ class Crew {
 
  private:
   collide::Workers& workers_;
-  std::size_t min_shared_;
   std::vector<const Batch*> moving_, joined_, alone_;
   std::vector<std::size_t> middle_;  // of each joined batch's part of the costs of all, one after another
   std::size_t total_cost_ = 0;

@@ -55,7 +55,7 @@ void Solver::remove(BodyId body) {
 }
 
 void Solver::set_contacts(const DetectedContacts& detected, float thickness) {
-  penalty_.find(detected, state_, thickness, crew_.active() > 1 ? &crew_.workers() : nullptr);
+  penalty_.find(detected, state_, thickness, crew_.workers());
 }
 
 glm::dvec3 Solver::gravity() const { return has_gravity_ ? scene_.gravity : glm::dvec3(0.0); }

@@ -59,6 +59,8 @@ struct BodyModel : BodyMesh {
 
   /// Returns the mesh that is drawn, and in which contacts are detected and compared.
   const BodyMesh& shown() const { return fine ? *fine : static_cast<const BodyMesh&>(*this); }
+  /// Returns where the vertices of that mesh are at rest, m.
+  const std::vector<glm::dvec3>& shown_at_rest() const { return fine ? fine->mesh.vertices : start; }
   /// Returns the triangles at a vertex.
   std::span<const Index> faces_of(Index vertex) const {
     return std::span(face).subspan(first_face[vertex], first_face[vertex + 1] - first_face[vertex]);

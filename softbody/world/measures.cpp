@@ -139,6 +139,8 @@ Measures total(std::span<const BodyMeasures> bodies) {
     m.has_volume = true;
   }
   m.energy = m.energies.total();
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (!m.finite) m.volume_ratio_min = m.volume_ratio_max = m.largest_strain = m.max_speed = unknown;
   return m;
 }
 
@@ -169,6 +171,10 @@ std::vector<SolidContactPoint> solid_contacts(const World& world) {
 
 Measures measure(const World& world) {
   Measures m = total(measure_bodies(world));
+  if (!m.finite) {
+    m.deepest_penetration = std::numeric_limits<double>::quiet_NaN();
+    return m;
+  }
   const std::vector<PlacedBox> boxes = boxes_of(world.state());
   for (BodyId id = 0; id < boxes.size(); ++id)
     m.deepest_penetration = std::max(m.deepest_penetration, deepest_in_solids(world, id, boxes[id]));

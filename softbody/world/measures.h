@@ -21,7 +21,7 @@ struct Measures {
   /// m >= 0, how deep the deepest particle lies below a solid's surface; by surface contact the deepest point of faces
   double deepest_penetration = 0;
   double max_speed = 0;  // m/s, of a particle
-  bool finite = true;    // all positions and velocities
+  bool finite = true;    // all positions and velocities; else the other figures are NaN, or say nothing
 };
 
 Measures measure(const World& world);

@@ -22,8 +22,8 @@ glm::vec3 rest_cell_size(const BodyModelSet& models, int levels, float tolerance
   collide::Bodies bodies;
   Coordinates rest;
   for (const auto& p : models.all()) {
-    bodies.add(p->shown().shape);
-    rest.add(p->fine ? p->fine->mesh.vertices : p->start);
+    bodies.add(std::make_shared<collide::Shape>(p->shown().shape->shared_topology()));  // without another shape at rest
+    rest.add(p->shown_at_rest());
   }
   return collide::default_cell_size(rest.frame(bodies), levels, tolerance);
 }
@@ -42,9 +42,9 @@ WorldValues::WorldValues(Scene s, const IntegratorChoice& integrator)
 World::Parts::Parts(Scene s, const Options& o)
     : WorldValues(std::move(s), o.integrator),
       frame_time(o.frame_time),
-      workers(o.threads),
+      workers(o.threads, o.least_share),
       plan(make_plan(scene, models.all())),
-      solver(scene, Crew(workers, o.min_shared_particles)),
+      solver(scene, Crew(workers)),
       sleep(scene.sleep) {
   particles.detector = method->make();
   solver.steps().set_budget(o.budget);
@@ -177,7 +177,9 @@ void World::Parts::place_fine_meshes() {
     return std::array{part(of.x), part(of.y), part(of.z)};
   };
   fine->positions.resized(fine->bodies.vertex_count());
-  workers.share(particles.bodies.count(), [&](int thread, std::size_t body) {
+  constexpr double vertex_ns = 20;  // of work
+  const int threads = workers.threads_for(vertex_ns * double(fine->bodies.vertex_count()));
+  workers.share(threads, particles.bodies.count(), [&](int thread, std::size_t body) {
     const auto id = BodyId(body);
     const auto from = spans(particles.positions, particles.bodies, id);
     const auto to = spans(fine->positions, fine->bodies, id);

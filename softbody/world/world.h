@@ -61,9 +61,7 @@ class World {
     int threads = 1;
     double frame_time = 1.0 / 60.0;  // s
     IntegratorChoice integrator{};
-    /// With fewer particles of moving bodies, one thread moves them all. Threads that share them wait for each other in
-    /// each substep, which takes long where other programs are at work.
-    std::size_t min_shared_particles = 20'000;
+    double least_share = collide::Workers::least_share;  // of work, which each thread is to have: ns
     WorkBudget budget{};
     MaxCandidates max_candidates{};
   };

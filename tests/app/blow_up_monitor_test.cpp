@@ -22,7 +22,7 @@ softbody::World pair_after(int frames) {
 TEST(BlowUpMonitor, ReportsABodyThatIsNotFinite) {
   const softbody::World world = pair_after(1);
   auto bodies = softbody::measure_bodies(world);
-  session::BlowUpMonitor monitor;
+  compare::BlowUpMonitor monitor;
   EXPECT_FALSE(monitor.check(world, bodies));
   bodies[1].finite = false;
   const auto blow_up = monitor.check(world, bodies);
@@ -36,7 +36,7 @@ TEST(BlowUpMonitor, ReportsABodyThatGainsEnergyFromNowhere) {
   const softbody::World world = pair_after(20);
   auto bodies = softbody::measure_bodies(world);
   const double active = softbody::total(bodies).energies.kinetic;  // J, at least
-  session::BlowUpMonitor monitor;
+  compare::BlowUpMonitor monitor;
   EXPECT_FALSE(monitor.check(world, bodies));
   bodies[1].energy.elastic += 0.09 * active;
   EXPECT_FALSE(monitor.check(world, bodies)) << "a tenth is allowed";
@@ -51,7 +51,7 @@ TEST(BlowUpMonitor, ReportsABodyThatGainsEnergyFromNowhere) {
 TEST(BlowUpMonitor, ReportsASingleFastParticle) {
   const softbody::World world = pair_after(1);
   auto bodies = softbody::measure_bodies(world);
-  session::BlowUpMonitor monitor;
+  compare::BlowUpMonitor monitor;
   EXPECT_FALSE(monitor.check(world, bodies));
   bodies[0].energy.kinetic += world.model(0).particle_mass / 2 * 60 * 60;
   const auto blow_up = monitor.check(world, bodies);
@@ -62,7 +62,7 @@ TEST(BlowUpMonitor, ReportsASingleFastParticle) {
 TEST(BlowUpMonitor, StartsAnewAfterRestart) {
   const softbody::World world = pair_after(1);
   auto bodies = softbody::measure_bodies(world);
-  session::BlowUpMonitor monitor;
+  compare::BlowUpMonitor monitor;
   EXPECT_FALSE(monitor.check(world, bodies));
   monitor.restart();
   bodies[0].energy.elastic += 1000;
@@ -102,7 +102,7 @@ TEST(BlowUpMonitor, AcceptsAHeldBodyThatSpringsBack) {
   scene.materials[0][softbody::GasPressure::outside] = 101'325;
   scene.materials[0][softbody::Material::start_in_equilibrium] = false;
   softbody::World world(scene, {});
-  session::BlowUpMonitor monitor;
+  compare::BlowUpMonitor monitor;
   double fastest = 0;
   for (int i = 0; i < 60; ++i) {
     world.step();
@@ -135,7 +135,7 @@ class Watched {
   double most = -1e9;  // J
 
  private:
-  session::BlowUpMonitor monitor_;
+  compare::BlowUpMonitor monitor_;
 };
 
 TEST(BlowUpMonitor, AcceptsABodyPushedOutOfASolid) {
@@ -206,8 +206,8 @@ TEST(BlowUpMonitor, ReportsTheBlowUpOfEveryExplicitIntegrator) {
   scene.materials[0][softbody::StructuralSprings::stiffness] = 1e5;
   for (const char* integrator : {"explicit-euler", "semi-implicit-euler", "velocity-verlet", "rk4"}) {
     softbody::World world(scene, {.integrator = {integrator, 1}});
-    session::BlowUpMonitor monitor;
-    std::optional<session::BlowUp> blow_up;
+    compare::BlowUpMonitor monitor;
+    std::optional<compare::BlowUp> blow_up;
     while (!blow_up && world.frame() < 10) {
       world.step();
       blow_up = monitor.check(world, softbody::measure_bodies(world));

@@ -51,7 +51,7 @@ class Nanoflann final : public collide::Detector {
     for (std::size_t v = 0; v < count; ++v) cloud_.points[v] = {frame.x[v], frame.y[v], frame.z[v]};
     const Tree tree(3, cloud_, nanoflann::KDTreeSingleIndexAdaptorParams(leaf_size));
     found_.resize(std::size_t(workers.threads()));
-    workers.run([&](int thread) {
+    workers.run(workers.threads(), [&](int thread) {
       search(tree, collide::part_of(count, thread, workers.threads()), found_[std::size_t(thread)]);
     });
     for (auto& contacts : found_) result.contacts.insert(result.contacts.end(), contacts.begin(), contacts.end());

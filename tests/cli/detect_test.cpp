@@ -151,7 +151,7 @@ TEST_F(Detect, PrintsJsonOfTheContractsForm) {
     return names;
   };
   using Keys = std::vector<std::string>;
-  EXPECT_EQ(keys(d), (Keys{"bodies", "frames", "method", "threads", "tolerance", "vertices", "warnings"}));
+  EXPECT_EQ(keys(d), (Keys{"bodies", "cell_size", "frames", "method", "threads", "tolerance", "vertices", "warnings"}));
   EXPECT_EQ(d["method"], "multi-level-sb-exact");
   EXPECT_EQ(d["tolerance"], 0.0375);
   EXPECT_EQ(d["threads"], 2);
@@ -173,6 +173,25 @@ TEST_F(Detect, PrintsJsonOfTheContractsForm) {
     EXPECT_GT(frame["ms"]["min"], 0.0);
     EXPECT_LE(frame["ms"]["min"], frame["ms"]["median"]);
   }
+}
+
+TEST_F(Detect, TakesTheCellSizeFromTheBodiesAtRestElseFromTheFirstFrame) {
+  const auto box = [](float side) {
+    Body body;
+    for (const float at : {0.0f, side}) body.vertices.insert(body.vertices.end(), {{at, 0, 0}, {0, at, 0}, {0, 0, at}});
+    return State{{body}};
+  };
+  const std::string first = file("first.obj", box(2)), later = file("later.obj", box(8)),
+                    rest = file("rest.obj", box(4));
+  const auto cell = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--tolerance", "0.25", "--levels", "0"});
+    return detect(arguments)["cell_size"].get<std::vector<double>>();
+  };
+  EXPECT_EQ(cell({first, later}), std::vector<double>(3, 2.25));
+  EXPECT_EQ(cell({first, later, "--rest", rest}), std::vector<double>(3, 4.25));
+  EXPECT_EQ(cell({first, later, "--rest", rest, "--cell-size", "1,2,3"}), (std::vector<double>{1, 2, 3}));
+  const json all = detect({first, "--rest", rest, "--tolerance", "0.25", "--levels", "0", "--method", "all"});
+  for (const json& method : all) EXPECT_EQ(method["cell_size"], (std::vector<double>(3, 4.25)));
 }
 
 TEST_F(Detect, WarnsOfPrimesThatSpoilTheHash) {

@@ -45,7 +45,6 @@ const Bad bad_lines[]{
     {"unknown_option", drop({"--magic"}), {"--magic"}},
     {"unknown_command", {"magic"}, {"magic"}},
     {"unknown_list", {"list", "magic"}, {"magic", "scenes"}},
-    {"list_of_nothing", {"list"}, {}},
     {"frames_zero", {"simulate", "--scene", "drop", "--frames", "0"}, {"--frames"}},
     {"frames_negative", {"simulate", "--scene", "drop", "--frames", "-3"}, {"--frames"}},
     {"frames_text", {"simulate", "--scene", "drop", "--frames", "many"}, {"--frames"}},
@@ -172,6 +171,24 @@ TEST(Errors, RefusePicturesInABuildWithoutGraphics) {
 }
 TEST(Errors, RefuseTheWindowInABuildWithoutGraphics) { expect_refused({}, {"simulate"}); }
 #endif
+
+TEST(Errors, NameAFolderThatCannotBeWrittenToEvenIfNothingWouldBe) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("file", "not a folder");  // a regular file stops even root
+  for (const auto& out : {file, file / "below"})
+    for (std::vector<std::string> arguments :
+         {drop({}), {"report", "detection"}, {"report", "contact"}, {"report", "solver"}, {"report", "stability"}}) {
+      arguments.insert(arguments.end(), {"--out", out});
+      expect_refused(arguments, {"--out " + out.string() + ": cannot be written to"});
+    }
+  const auto mesh = folder.write("mesh.obj", "v 0 0 0\n");
+  for (const std::vector<std::string>& detect :
+       {std::vector<std::string>{"--tolerance", "1"}, {mesh.string(), "--continuous"}}) {
+    std::vector<std::string> arguments{"detect", mesh, "--contacts", file / "contacts.csv"};
+    arguments.insert(arguments.end(), detect.begin(), detect.end());
+    expect_refused(arguments, {(file / "contacts.csv").string() + ": cannot be written"});
+  }
+}
 
 }  // namespace
 }  // namespace cli::test

@@ -72,6 +72,16 @@ TEST(List, PrintsBothContactSurfaces) {
   EXPECT_TRUE(surfaces.contains("vertex-vertex") && surfaces.contains("surface"));
 }
 
+TEST(List, PrintsAllListsWithTheirNamesWithoutAWord) {
+  const Outcome all = run({"list"});
+  EXPECT_EQ(all.status, 0);
+  EXPECT_EQ(all.err, "");
+  std::string expected;
+  for (const std::string name : {"methods", "integrators", "contact-surfaces", "scenes"})
+    expected += name + '\n' + run({"list", name}).out;
+  EXPECT_EQ(all.out, expected);
+}
+
 TEST(List, PrintsOnlyMethodsAndIntegratorsThatRun) {
   for (const auto& [key, name] : rows("methods"))
     EXPECT_EQ(simulate({"--scene", "drop", "--frames", "3", "--method", key})["method"], key);

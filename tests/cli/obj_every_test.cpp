@@ -1,5 +1,6 @@
 // Checks `simulate --obj-every`: `detect` finds the same contacts in its OBJ files.
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "tests/cli/process.h"
@@ -35,6 +36,47 @@ TEST_P(ObjEvery, ReadsBackWithTheContactsOfTheSimulation) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ObjEvery, testing::Values("B", "cloth"),
                          [](const auto& scene) { return scene.param; });
+
+TEST(ObjEvery, ReadsBackWithTheCellSizeOfTheSimulation) {
+  const TemporaryFolder folder;
+  // Gas inflates these bodies: at rest they are larger than their mesh.
+  const std::vector<std::string> options{"--method", "multi-level-sb", "--tolerance", "0.1"};
+  std::vector<std::string> arguments{"--scene", "drop",        "--frames",    "120",
+                                     "--out",   folder.path(), "--obj-every", "120"};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const nlohmann::json run = simulate(arguments);
+  arguments = {folder.path() / "frame_0120.obj", "--rest", folder.path() / "rest_0120.obj"};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const nlohmann::json found = detect(arguments);
+  EXPECT_NEAR(found["cell_size"][0], 0.6175, 1e-3);
+  const nlohmann::json& expected = run["frames"][119]["contacts"];
+  EXPECT_EQ(found["frames"][0]["contacts"],
+            expected["bodies"].get<std::uint64_t>() + expected["self"].get<std::uint64_t>());
+}
+
+TEST(ObjEvery, LeavesOutFramesThatNoFileCanHold) {
+  const TemporaryFolder folder;
+  const Outcome o = run({"simulate", "--scene", "A", "--frames", "20", "--substeps", "1", "--integrator",
+                         "semi-implicit-euler", "--json", "--obj-every", "1", "--out", folder.path()});
+  ASSERT_EQ(o.status, 0) << o.err;
+  const auto d = nlohmann::json::parse(o.out);
+  int left_out = 0;
+  for (const nlohmann::json& f : d["frames"]) {
+    if (f["finite"] == true) continue;
+    ++left_out;
+    const auto file = folder.path() / fmt::format("frame_{:04}.obj", f["frame"].get<int>());
+    EXPECT_FALSE(std::filesystem::exists(file)) << file;
+    for (const char* key : {"energy", "deepest_penetration", "max_speed"}) EXPECT_TRUE(f[key].is_null()) << key;
+    EXPECT_TRUE(f["volume_ratio"]["min"].is_null());
+  }
+  ASSERT_GT(left_out, 0) << "it blows up";
+  ASSERT_EQ(d["warnings"].size(), 2u) << d["warnings"];
+  std::string said;
+  for (const nlohmann::json& warning : d["warnings"]) said += "warning: " + warning.get<std::string>() + '\n';
+  EXPECT_EQ(o.err, said);
+  EXPECT_NE(said.find("Body 0 gained energy from nowhere"), std::string::npos) << said;
+  EXPECT_NE(said.find("is not written"), std::string::npos) << said;
+}
 
 TEST(ObjEvery, WritesTheBodiesAtRestWhenTheyChange) {
   const TemporaryFolder folder;

@@ -57,7 +57,7 @@ struct Expected {
 void check(const std::vector<BodyBounds>& bounds, const std::vector<Index>& live, float reach, const char* what) {
   const Expected expected(bounds, live, reach);
   for (const int threads : {1, 2, 3}) {
-    Workers workers(threads);
+    Workers workers(threads, 0);
     BodyBroadPhase near;
     near.find(bounds, live, reach, workers);
     EXPECT_EQ(near.pairs(), expected.pairs) << what;
@@ -130,7 +130,7 @@ TEST(BodyBroadPhase, AreFoundAtAnySize) {
 TEST(BodyBroadPhase, AreLimitedAndThenFoundAgain) {
   const std::vector<BodyBounds> crowd(20, bound_around(glm::vec3(0), glm::vec3(1), 1));
   for (const int threads : {1, 3}) {
-    Workers workers(threads);
+    Workers workers(threads, 0);
     BodyBroadPhase near;
     near.find(crowd, all_of(crowd), 0.1f, workers, 190);
     EXPECT_EQ(near.pairs(), 190u);

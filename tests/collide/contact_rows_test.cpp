@@ -33,7 +33,7 @@ TEST(ContactRows, SortWhatThreadsFoundInNoOrder) {
       std::shuffle(all.begin(), all.end(), random);
       const std::array<std::size_t, 3> gaps{5, 7, 9};
       std::vector<Contact> placed(gaps[0] + sizes[0] + gaps[1] + sizes[1] + gaps[2], Contact{1, 2});
-      Workers workers(threads);
+      Workers workers(threads, 0);
       const auto part = [&](int thread) {
         const Part own = part_of(all.size(), thread, threads);
         return std::span(all).subspan(own.begin, own.end - own.begin);

@@ -11,7 +11,7 @@ namespace {
 
 TEST(CountingSort, IsAStableSortOnAnyNumberOfThreads) {
   std::mt19937 random(51);
-  std::array<Workers, 4> workers{Workers(1), Workers(2), Workers(3), Workers(11)};
+  std::array<Workers, 4> workers{Workers(1), Workers(2, 0), Workers(3, 0), Workers(11, 0)};
   CountingSort sort;
   for (int trial = 0; trial < 60; ++trial) {
     const auto keys = static_cast<Index>(1 + random() % (trial % 2 == 0 ? 5 : 300));

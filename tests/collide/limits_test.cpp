@@ -18,7 +18,7 @@ TEST(Limits, TooManyContactsAreAnErrorAndTheNextFrameIsFound) {
   const State settled = named_states()[1].make();
   Settings settings;
   settings.tolerance = settled.tolerance;
-  Workers workers(2);
+  Workers workers(2, 0);
   // The rivals count in the same place as the literal method, and each takes a second and a gibibyte.
   for (const char* method : {"multi-level-sb", "multi-level-sb-exact"}) {
     const auto detector = find_method(method)->make();

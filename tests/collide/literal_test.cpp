@@ -62,7 +62,7 @@ class Boxes {
 };
 
 TEST(Literal, TestsExactlyTheVerticesOfBoxesThatShareABucket) {
-  Workers workers(2);
+  Workers workers(2, 0);
   for (const NamedState& named : named_states()) {
     const State state = named.make();
     for (const int levels : {0, 2, 5, 9}) {

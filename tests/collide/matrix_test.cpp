@@ -51,7 +51,7 @@ std::string describe(const Method& method, const Settings& settings) {
 /// Detectors and threads that outlive the tests.
 struct Bench {
   std::vector<std::unique_ptr<Detector>> detectors;
-  std::array<Workers, 3> workers{Workers(1), Workers(2), Workers(3)};
+  std::array<Workers, 3> workers{Workers(1), Workers(2, 0), Workers(3, 0)};
   std::size_t runs = 0;
 
   Bench() {

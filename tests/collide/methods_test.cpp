@@ -115,7 +115,7 @@ TEST(Methods, FollowASequenceWithJumps) {
     one.push_back(method.make());
     two.push_back(method.make());
   }
-  Workers alone(1), both(2);
+  Workers alone(1), both(2, 0);
   Settings settings;
   settings.tolerance = 0.08f;
   std::mt19937 random(10);

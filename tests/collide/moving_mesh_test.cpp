@@ -47,7 +47,7 @@ std::vector<MovingPair> all_pairs(const MovingMesh& mesh) {
 
 std::vector<FeatureMeeting> meetings_of(const MovingMesh& mesh, int threads) {
   std::vector<FeatureMeeting> meetings;
-  Workers workers(threads);
+  Workers workers(threads, 0);
   find_meetings(mesh, workers, [&](const std::vector<FeatureMeeting>& found) {
     meetings.insert(meetings.end(), found.begin(), found.end());
   });
@@ -147,7 +147,7 @@ TEST(FindMeetings, GivesThemInOrderPartByPart) {
   mesh.body.resize(count);
   std::size_t parts = 0;
   Index next = 3;
-  Workers workers(2);
+  Workers workers(2, 0);
   find_meetings(mesh, workers, [&](const std::vector<FeatureMeeting>& found) {
     ++parts;
     for (const FeatureMeeting& meeting : found) ASSERT_EQ(meeting.feature[0], next++);

@@ -50,7 +50,7 @@ struct SearchRun {
   std::vector<float> vx, vy, vz;
   SearchRun(const MovingScene& m, bool self, int threads = 1) {
     for (const glm::vec3& v : m.velocity) vx.push_back(v.x), vy.push_back(v.y), vz.push_back(v.z);
-    Workers workers(threads);
+    Workers workers(threads, 0);
     search.find({m.scene.frame(), vx, vy, vz}, m.traits, {m.seconds, m.whole ? m.seconds : 0.0f, self}, workers);
   }
 };

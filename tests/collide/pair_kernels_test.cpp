@@ -151,7 +151,7 @@ TEST_P(PairKernels, FindTheSameContactsOnEveryTarget) {
     settings.tolerance = state.tolerance;
     const std::vector<Contact> expected = oracle(state, settings);
     const auto detector = find_method("multi-level-sb-exact")->make();
-    Workers workers(2);
+    Workers workers(2, 0);
     Result result;
     for (int frame = 0; frame < 5; ++frame) {
       detector->detect(state.frame(), settings, workers, result);

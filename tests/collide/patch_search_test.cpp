@@ -150,7 +150,7 @@ TEST_P(PatchSearches, FindWhatTheOracleFinds) {
       const std::size_t inside = inside_bodies(frames[frame], expected).size();
       ASSERT_GT(expected.size(), 1'000u);
       for (std::size_t k = 0; k < threads.size(); ++k) {
-        Workers workers(threads[k]);
+        Workers workers(threads[k], 0);
         Result result;
         detectors[k]->detect(frames[frame].frame(), settings, workers, result);
         EXPECT_TRUE(result.contacts == expected) << self << ' ' << threads[k] << ' ' << frame;
@@ -174,7 +174,7 @@ TEST(PatchSearch, CutsABodyAnewWhoseVerticesHaveMixed) {
   after.add(before.bodies.shape[0], points);
   Settings settings;
   settings.tolerance = 0.02f;
-  Workers workers(2);
+  Workers workers(2, 0);
   const auto detector = find_method("multi-level-sb-exact")->make();
   Result result;
   detector->detect(before.frame(), settings, workers, result);

@@ -70,7 +70,7 @@ class RestingContactsKept : public testing::TestWithParam<int> {
   std::uint64_t kept_ = 0;
   int frame_ = 0;
   std::unique_ptr<Detector> detector_ = find_method("multi-level-sb-exact")->make();
-  std::array<Workers, 3> workers_{Workers(1), Workers(2), Workers(3)};
+  std::array<Workers, 3> workers_{Workers(1), Workers(2, 0), Workers(3, 0)};
 };
 
 TEST_P(RestingContactsKept, AreNoneInASlowDrift) {

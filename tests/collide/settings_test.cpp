@@ -72,6 +72,15 @@ TEST(DefaultCellSize, IsTheLargestBoxPlusTheTolerance) {
   EXPECT_EQ(default_cell_size(state.frame(), 9, 0.5f), glm::vec3(0.875f, 0.75f, 1.0f));
 }
 
+TEST(DefaultCellSize, IsThatAtRestOfBodiesThatKnowIt) {
+  Bodies bodies;
+  const std::vector<glm::vec3> rest{glm::vec3(0), glm::vec3(4, 1, 1)};
+  bodies.add(std::make_shared<Shape>(2, std::span<const std::array<Index, 2>>{}, rest));
+  bodies.add(std::make_shared<Shape>(2, std::span<const std::array<Index, 2>>{}));
+  const std::vector<float> at{0, 8, 0, 2};
+  EXPECT_EQ(default_cell_size({at, at, at, &bodies}, 0, 0.5f), glm::vec3(4.5f, 2.5f, 2.5f));
+}
+
 TEST(DefaultCellSize, IsAllowedAndCoversOnEveryState) {
   for (const NamedState& named : named_states()) {
     const State state = named.make();

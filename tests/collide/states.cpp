@@ -324,7 +324,7 @@ std::vector<Contact> inside_bodies(const State& state, const std::vector<Contact
 }
 
 Result detect(std::string_view method, const State& state, const Settings& settings, int threads) {
-  Workers workers(threads);
+  Workers workers(threads, 0);
   Result result;
   find_method(method)->make()->detect(state.frame(), settings, workers, result);
   return result;

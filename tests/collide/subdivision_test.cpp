@@ -13,7 +13,7 @@ using namespace collide::methods;
 namespace {
 
 std::vector<SubdividedBox> boxes_of(const State& state, int levels, Points* points = nullptr) {
-  Workers workers(2);
+  Workers workers(2, 0);
   Result result;
   BodyBoxes bodies;
   Subdivision subdivision;

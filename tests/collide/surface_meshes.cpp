@@ -78,14 +78,14 @@ void Scene::add(const SurfaceMesh& mesh) {
 }
 
 Overlaps overlaps_of(const Scene& scene, int threads) {
-  Workers workers(threads);
+  Workers workers(threads, 0);
   return find_overlaps(scene.frame(), scene.surfaces, workers);
 }
 
 SurfaceFigures figures_of(const Scene& scene) { return figures_of(scene.frame(), overlaps_of(scene)); }
 
 std::vector<Crossing> crossings_of(const Scene& before, const Scene& after, int threads) {
-  Workers workers(threads);
+  Workers workers(threads, 0);
   return find_crossings(before.frame(), after.frame(), before.surfaces, workers);
 }
 

@@ -31,7 +31,7 @@ TEST(SurfaceSearch, ThrowsAboveMaxFeatures) {
   SearchRun run(m, true);
   const std::size_t all = run.search.features().size();
   const auto find = [&](std::size_t max) {
-    Workers workers(2);
+    Workers workers(2, 0);
     run.search.find({m.scene.frame(), run.vx, run.vy, run.vz}, m.traits, {m.seconds, m.seconds, true, max}, workers);
     return run.search.features().size();
   };

@@ -72,7 +72,7 @@ TEST(PointTree, HoldsEveryVertexInTheLeafOfItsPlace) {
     Result result;
     bodies.build(state.frame(), result);
     for (const int threads : {1, 2, 5}) {
-      Workers workers(threads);
+      Workers workers(threads, 0);
       PointTree tree;
       tree.build(state.frame(), bodies.live, halve_by_x, 7, workers);
       check_points(state, tree.points(), bodies.live);
@@ -86,7 +86,7 @@ TEST(PointTree, HoldsEveryVertexInTheLeafOfItsPlace) {
 TEST(BodyTrees, AreRefittedAsBodiesMoveComeAndGo) {
   const Ball ball = icosphere(2, 0.5f);
   const auto shape = std::make_shared<const Shape>(162, ball.edges, ball.vertices);
-  Workers workers(2);
+  Workers workers(2, 0);
   BodyTrees trees;
   std::mt19937 random(52);
   for (int frame = 0; frame < 12; ++frame) {
@@ -151,7 +151,7 @@ TEST(BodyTrees, AreCutAnewByTheBodyWhosePatchesHaveSpread) {
     before.add(shape, moved(ball.vertices, glm::vec3(at, 0, 0)));
     after.add(shape, moved(at > 0 ? mixed : ball.vertices, glm::vec3(at, 0, 0)));
   }
-  Workers workers(2);
+  Workers workers(2, 0);
   BodyTrees trees, fresh;
   const std::vector<Index> live{0, 1}, second{1};
   EXPECT_TRUE(trees.update(before.frame(), live, workers));
@@ -175,7 +175,7 @@ TEST(TreeSearch, FindsTheContactsOfAnyTree) {
     settings.tolerance = state.tolerance;
     for (const int threads : {1, 3}) {
       settings.self_collision = threads == 1;
-      Workers workers(threads);
+      Workers workers(threads, 0);
       PointTree tree;
       TreeSearch tree_search;
       ContactSearch search;

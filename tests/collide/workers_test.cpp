@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <numeric>
@@ -20,7 +21,7 @@ TEST(Workers, RunEveryThreadOnceWithTheCallerAsThread0) {
     for (int repeat = 0; repeat < 200; ++repeat) {
       std::vector<int> calls(static_cast<std::size_t>(threads), 0);
       bool caller_is_0 = false;
-      workers.run([&](int thread) {
+      workers.run_together(workers.threads(), [&](int thread) {
         ++calls[static_cast<std::size_t>(thread)];
         if (thread == 0) caller_is_0 = std::this_thread::get_id() == caller;
       });
@@ -35,7 +36,7 @@ TEST(Workers, NeedAThread) { EXPECT_THROW(Workers(0), std::invalid_argument); }
 TEST(Workers, SeeEachOthersDataBehindABarrier) {
   Workers workers(3);
   std::array<int, 3> written{}, sums{};
-  workers.run([&](int thread) {
+  workers.run_together(workers.threads(), [&](int thread) {
     const auto own = static_cast<std::size_t>(thread);
     for (int round = 1; round <= 100; ++round) {
       written[own] = round * (thread + 1);
@@ -51,15 +52,16 @@ TEST(Workers, RethrowAndCanBeUsedAgain) {
   Workers workers(3);
   for (int culprit = 0; culprit < 3; ++culprit) {
     std::atomic<int> others = 0;
-    EXPECT_THROW(workers.run([&](int thread) {
-      if (thread == culprit) throw std::length_error("too much");
-      ++others;
-    }),
+    EXPECT_THROW(workers.run_together(workers.threads(),
+                                      [&](int thread) {
+                                        if (thread == culprit) throw std::length_error("too much");
+                                        ++others;
+                                      }),
                  std::length_error);
     EXPECT_EQ(others, 2);
   }
   std::atomic<int> calls = 0;
-  workers.run([&](int) { ++calls; });
+  workers.run_together(workers.threads(), [&](int) { ++calls; });
   EXPECT_EQ(calls, 3);
 }
 
@@ -69,7 +71,7 @@ TEST(Workers, ShareItemsEachDoneOnce) {
     for (std::size_t count = 0; count < 300; ++count) {
       std::vector<std::atomic<int>> done(count);
       std::vector<int> own(static_cast<std::size_t>(threads), 0);  // no two threads have one number
-      workers.share(count, [&](int thread, std::size_t item) {
+      workers.share(threads, count, [&](int thread, std::size_t item) {
         ++done[item];
         ++own[static_cast<std::size_t>(thread)];
       });
@@ -77,7 +79,7 @@ TEST(Workers, ShareItemsEachDoneOnce) {
       ASSERT_EQ(std::accumulate(own.begin(), own.end(), 0), static_cast<int>(count));
       if (count % 7 == 0) {  // those that came too late take part in what all do
         std::atomic<int> calls = 0;
-        workers.run([&](int) { ++calls; });
+        workers.run_together(workers.threads(), [&](int) { ++calls; });
         ASSERT_EQ(calls, threads);
       }
     }
@@ -90,8 +92,8 @@ TEST(Workers, ShareRethrows) {
     const auto fail = [&](int, std::size_t item) {
       if (item == bad) throw std::length_error("too much");
     };
-    EXPECT_THROW(workers.share(50, fail), std::length_error);
-    EXPECT_NO_THROW(workers.share(bad, fail));
+    EXPECT_THROW(workers.share(3, 50, fail), std::length_error);
+    EXPECT_NO_THROW(workers.share(3, bad, fail));
   }
 }
 
@@ -99,16 +101,62 @@ TEST(Workers, DoNotWaitAtABarrierForOneThatHasThrown) {
   Workers workers(3);
   for (int repeat = 0; repeat < 100; ++repeat) {
     std::atomic<int> got_past = 0;
-    EXPECT_THROW(workers.run([&](int thread) {
-      workers.barrier();
-      if (thread == repeat % 3) throw std::runtime_error("failed");
-      workers.barrier();
-      ++got_past;
-      workers.barrier();
-    }),
+    EXPECT_THROW(workers.run_together(workers.threads(),
+                                      [&](int thread) {
+                                        workers.barrier();
+                                        if (thread == repeat % 3) throw std::runtime_error("failed");
+                                        workers.barrier();
+                                        ++got_past;
+                                        workers.barrier();
+                                      }),
                  std::runtime_error);
     EXPECT_EQ(got_past, 0);
-    workers.run([&](int) { workers.barrier(); });
+    workers.run_together(workers.threads(), [&](int) { workers.barrier(); });
+  }
+}
+
+TEST(Workers, GiveEachThreadItsLeastShare) {
+  Workers workers(2);
+  const int both = std::thread::hardware_concurrency() == 1 ? 1 : 2;
+  EXPECT_EQ(workers.threads_for(0), 1);
+  EXPECT_EQ(workers.threads_for(1.9 * Workers::least_share), 1);
+  EXPECT_EQ(workers.threads_for(2 * Workers::least_share), both);
+  EXPECT_EQ(workers.threads_for(1e300), both);
+  EXPECT_EQ(Workers(4, 0).threads_for(0), 4);
+}
+
+TEST(Workers, AreNoMoreThanProcessors) {
+  EXPECT_LE(Workers(256).threads_for(1e300), static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+}
+
+TEST(Workers, LeaveTheOtherThreadsAlone) {
+  Workers workers(4);
+  for (int repeat = 0; repeat < 300; ++repeat) {
+    const int threads = 1 + repeat * 7 % 4;
+    std::vector<std::atomic<int>> done(20);
+    std::atomic<bool> beyond = false;
+    workers.share(threads, done.size(), [&](int thread, std::size_t item) {
+      ++done[item];
+      if (thread >= threads) beyond = true;
+    });
+    for (const std::atomic<int>& times : done) ASSERT_EQ(times, 1);
+    std::atomic<int> together = 0;
+    workers.run_together(5 - threads, [&](int thread) {
+      ++together;
+      if (thread >= 5 - threads) beyond = true;
+      workers.barrier();
+    });
+    ASSERT_EQ(together, 5 - threads);
+    ASSERT_FALSE(beyond);
+  }
+}
+
+TEST(Workers, RunEachPartOnce) {
+  Workers workers(3);
+  for (int parts = 1; parts <= 3; ++parts) {
+    std::vector<std::atomic<int>> done(static_cast<std::size_t>(parts));
+    workers.run(parts, [&](int part) { ++done[static_cast<std::size_t>(part)]; });
+    for (const std::atomic<int>& times : done) EXPECT_EQ(times, 1);
   }
 }
 

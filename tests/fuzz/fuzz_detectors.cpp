@@ -60,7 +60,7 @@ class Detectors {
   }
 
   void detect(const collide::test::State& state, const collide::Settings& settings, const Truth& truth, int frame) {
-    static collide::Workers alone(1), both(2);
+    static collide::Workers alone(1), both(2, 0);
     one_->detect(state.frame(), settings, alone, on_one_);
     check(method_, on_one_, truth, frame);
     if (!two_) return;

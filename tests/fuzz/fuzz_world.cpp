@@ -137,7 +137,7 @@ void step(softbody::World& world, bool thrice, const softbody::Scene& start, con
   require(outcome(world) == once, "it goes on from a snapshot in another way");
   softbody::World::Options other_way = options;
   other_way.threads = 2;
-  other_way.min_shared_particles = 1;
+  other_way.least_share = 0;
   hwy::SetSupportedTargetsForTest(HWY_STATIC_TARGET);  // code for any processor
   softbody::World twin(start, other_way);
   twin.restore(snapshot);

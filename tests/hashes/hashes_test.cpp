@@ -68,7 +68,7 @@ std::string hash_of(const Row& row, const Way& way) {
   World::Options options;
   options.integrator.key = row.integrator;
   options.threads = way.threads;
-  options.min_shared_particles = 0;
+  options.least_share = 0;
   World world(scene, options);
   if (way.over_snapshot) {
     run(world, row.frames / 2);

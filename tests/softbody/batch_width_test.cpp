@@ -236,9 +236,8 @@ class TwoBodies : public testing::TestWithParam<Case> {};
 
 TEST_P(TwoBodies, MoveTheSameByThemselvesAndInLanes) {
   const bool slow = GetParam().integrator == "explicit-euler";  // it would ask for hundreds of substeps
-  const World::Options options{.threads = 2,
-                               .integrator = {GetParam().integrator, slow ? std::optional(60) : std::nullopt},
-                               .min_shared_particles = 0};
+  const World::Options options{
+      .threads = 2, .integrator = {GetParam().integrator, slow ? std::optional(60) : std::nullopt}, .least_share = 0};
   const Scene scene = large_bodies(GetParam().surface, find_integrator(GetParam().integrator)->implicit ? 2 : 4);
   World solo(scene, options), mixed(scene, options), wide(scene, options);
   visit(mixed, 1);

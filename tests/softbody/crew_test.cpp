@@ -19,8 +19,8 @@ class CrewOfThree : public testing::Test {
     crew.take(std::move(moving), 100);
   }
 
-  collide::Workers workers{3};
-  Crew crew{workers, 100};
+  collide::Workers workers{3, 0};
+  Crew crew{workers};
 
  private:
   std::array<Batch, 8> batches_;
@@ -73,10 +73,12 @@ TEST_F(CrewOfThree, SharesItems) {
 
 TEST_F(CrewOfThree, LeavesFewParticlesToOneThread) {
   take(8);
-  crew.take(crew.moving(), 99);
-  EXPECT_EQ(crew.active(), 1);
+  collide::Workers all(3);
+  Crew few(all);
+  few.take(crew.moving(), 100);
+  EXPECT_EQ(few.active(), 1);
   int calls = 0;
-  crew.run([&](const Worker& worker) {
+  few.run([&](const Worker& worker) {
     ++calls;
     worker.barrier();  // nobody else is to come
     EXPECT_EQ(worker.index(), 0);

@@ -86,8 +86,8 @@ TEST(Drop, IsTheSameTwiceOnAnyThreadsAndOnAnyInstructionSet) {
   const std::string method(collide::default_method);
   const std::uint64_t hash = hash_of(method, {});
   EXPECT_EQ(hash_of(method, {}), hash);
-  EXPECT_EQ(hash_of(method, {.threads = 2, .min_shared_particles = 0}), hash);
-  EXPECT_EQ(hash_of(method, {.threads = 5, .min_shared_particles = 0}), hash);
+  EXPECT_EQ(hash_of(method, {.threads = 2, .least_share = 0}), hash);
+  EXPECT_EQ(hash_of(method, {.threads = 5, .least_share = 0}), hash);
   for (const std::int64_t target : tests::targets()) {
     const tests::UseTarget use(target);
     EXPECT_EQ(hash_of(method, {}), hash);

@@ -103,9 +103,9 @@ TEST_P(Integrators, LetNothingSinkIntoTheGround) {
 TEST_P(Integrators, GiveTheSameBitsOnOneAndTwoThreads) {
   std::uint64_t hash[2];
   for (const int threads : {1, 2}) {
-    World world(drop_scene(), {.threads = threads,
-                               .integrator = {std::string(GetParam().key), about(GetParam(), 30)},
-                               .min_shared_particles = 0});
+    World world(
+        drop_scene(),
+        {.threads = threads, .integrator = {std::string(GetParam().key), about(GetParam(), 30)}, .least_share = 0});
     run(world, 150);
     hash[threads - 1] = world.state_hash();
   }

@@ -110,7 +110,7 @@ TEST(StiffBodies, FlyTheSameOnEveryProcessor) {
   for (const std::int64_t target : tests::targets())
     for (const int threads : {1, 2}) {
       const tests::UseTarget use(target);
-      World world(scene, {.threads = threads, .integrator = {"velocity-verlet"}, .min_shared_particles = 0});
+      World world(scene, {.threads = threads, .integrator = {"velocity-verlet"}, .least_share = 0});
       run(world, 5);
       EXPECT_GE(world.last_step().substeps, 64);
       hashes.push_back(world.state_hash());

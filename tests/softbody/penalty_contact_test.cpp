@@ -349,7 +349,7 @@ std::unique_ptr<World> crowd(int threads) {
   for (int i = 1; i < 20; ++i) add_body(scene, {0.93 * (i % 3), 0.93 * (i / 9), 0.93 * (i / 3 % 3)}, {0, -0.1 * i, 0});
   scene.bodies[3].release = 1000;
   scene.bodies[5].mesh = {.kind = "grid", .columns = 9, .rows = 9, .width = 2, .depth = 2};
-  auto world = std::make_unique<World>(scene, World::Options{.threads = threads, .min_shared_particles = 0});
+  auto world = std::make_unique<World>(scene, World::Options{.threads = threads, .least_share = 0});
   run(*world, 4);
   return world;
 }

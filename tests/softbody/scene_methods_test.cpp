@@ -90,7 +90,7 @@ class Bench {
 
  private:
   std::vector<std::unique_ptr<collide::Detector>> detectors_;
-  collide::Workers workers_{2};
+  collide::Workers workers_{2, 0};
   collide::Result result_;
 };
 

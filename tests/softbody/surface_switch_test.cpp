@@ -48,7 +48,7 @@ TEST(SurfaceContact, IsTheSameOnAnyThreadsAndInstructionSet) {
     const tests::UseTarget use(target);
     World::Options options;
     options.threads = threads;
-    options.min_shared_particles = 0;
+    options.least_share = 0;
     World world(scene, options);
     for (int i = 0; i < frames; ++i) {
       world.step();

@@ -355,7 +355,7 @@ TEST(Changes, RefuseImplicitStepsOfALargeBody) {
 
 /// All that hands can do, one after another.
 std::uint64_t hash_after_much(int threads) {
-  World world(pile(10), {.threads = threads, .min_shared_particles = 0});
+  World world(pile(10), {.threads = threads, .least_share = 0});
   Scene solids = world.scene();
   Material material = world.scene().materials[0];
   material[contact::friction] = 0.1;

@@ -47,7 +47,7 @@ TEST(World, MoreBodiesThanLanesMoveLikeOne) {
   Scene scene = lone_body(gas_ball(), {1, 2, 3});
   scene.gravity = {0, -9.81, 0};
   for (int i = 1; i < 19; ++i) add_body(scene, {0, 0, 4.0 * i}, {1, 2, 3});
-  World many(scene, {.threads = 3, .min_shared_particles = 0});
+  World many(scene, {.threads = 3, .least_share = 0});
   scene.bodies.resize(1);
   World one(scene, {});
   run(many, 30);
@@ -72,8 +72,7 @@ TEST(World, TheContactsAreThoseOfThePositionsThatItShows) {
 }
 
 TEST(World, WhoLooksAfterASubstepSeesThePositionsOfThen) {
-  World world(lone_body(spring_ball(), {3, -6, 12}),
-              {.threads = 2, .integrator = {.substeps = 4}, .min_shared_particles = 0});
+  World world(lone_body(spring_ball(), {3, -6, 12}), {.threads = 2, .integrator = {.substeps = 4}, .least_share = 0});
   const glm::dvec3 start = motion(world, 0).centre;
   int substeps = 0;
   world.step([&] {
@@ -138,7 +137,7 @@ TEST(Dropper, PutsBodiesClearOfAllOthers) {
 }
 
 TEST(Dropper, IsDeterministic) {
-  World a(drop_scene(), {}), b(drop_scene(), {.threads = 2, .min_shared_particles = 0});
+  World a(drop_scene(), {}), b(drop_scene(), {.threads = 2, .least_share = 0});
   for (World* w : {&a, &b})
     for (int i = 0; i < 12; ++i) {
       w->drop();

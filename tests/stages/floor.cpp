@@ -74,7 +74,7 @@ double root_and_quotient_ns(collide::Workers& workers) {
   constexpr std::size_t rounds = 1'000'000;
   std::size_t in_round = 0;
   const double ms = app::time_ms([&] {
-    workers.run([&](int thread) {
+    workers.run_together(workers.threads(), [&](int thread) {
       float sink[16];
       const std::size_t n = HWY_DYNAMIC_DISPATCH(RootsAndQuotients)(rounds, sink);
       if (thread == 0) in_round = n;

@@ -21,20 +21,6 @@ RecordedState copy(const softbody::World& world) {
   return state;
 }
 
-/// Returns the state with the bodies that have a rest shape in it.
-RecordedState at_rest(RecordedState state) {
-  for (collide::Index b = 0; b < state.bodies.count(); ++b) {
-    collide::Index v = state.bodies.first[b];
-    for (const glm::vec3& place : state.bodies.shape[b]->rest()) {
-      state.at.x[v] = place.x;
-      state.at.y[v] = place.y;
-      state.at.z[v] = place.z;
-      ++v;
-    }
-  }
-  return state;
-}
-
 glm::dvec3 middle(const RecordedState& state, collide::Index begin, collide::Index end) {
   glm::dvec3 sum{0.0};
   for (collide::Index v = begin; v < end; ++v) sum += glm::dvec3(state.at.x[v], state.at.y[v], state.at.z[v]);
@@ -116,9 +102,9 @@ Recording record_sequence(const ReportOptions& options) {
   Recording recording{first.stem().string(), first.filename().string(), settings.buckets, {}, {}};
   if (count > 1) recording.name += " to " + sequence.file(last).filename().string();
   for (const std::size_t frame : frames) recording.states.push_back(state(frame));
-  const RecordedState rest = at_rest(state(0));
+  const RecordedState begin = state(0);
   recording.configurations = compare::sweep_configurations(
-      settings, [&](int levels) { return collide::default_cell_size(rest.view(), levels, settings.tolerance); });
+      settings, [&](int levels) { return collide::default_cell_size(begin.view(), levels, settings.tolerance); });
   return recording;
 }
 

@@ -3,7 +3,7 @@
 // bound, and records its energies.
 
 #include "app/base/time_series.h"
-#include "app/session/stability/blow_up_monitor.h"
+#include "app/compare/blow_up_monitor.h"
 #include "app/session/stability/rewind.h"
 
 namespace app::session {
@@ -53,7 +53,7 @@ class StabilityMonitor {
   const Rewind& past() const { return rewind_; }
   /// Returns the last frame of past() that was found good. Precondition: past() is not empty.
   int last_good_frame() const { return rewind_.snapshots()[rewind_.at(good_frame_)].frame; }
-  const std::optional<BlowUp>& blow_up() const { return blow_up_; }
+  const std::optional<compare::BlowUp>& blow_up() const { return blow_up_; }
   const StabilityHistory& history() const { return history_; }
   const StepMargin& margin() const { return margin_; }
 
@@ -62,8 +62,8 @@ class StabilityMonitor {
   void update_blow_up(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies);
 
   Rewind rewind_;
-  BlowUpMonitor blow_up_monitor_;
-  std::optional<BlowUp> blow_up_;
+  compare::BlowUpMonitor blow_up_monitor_;
+  std::optional<compare::BlowUp> blow_up_;
   std::size_t recovery_checks_ = 0;  // left before the world counts as good again
   int good_frame_ = 0;
   StabilityHistory history_;

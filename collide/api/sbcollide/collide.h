@@ -28,7 +28,7 @@ struct FinderSettings {
   // Of use to some methods only:
   int levels = 3;                       // a body's box is cut into 2^levels boxes
   std::uint32_t buckets = 1001;         // of the hash table
-  std::array<float, 3> cell_size = {};  // sides of a grid cell; all 0: as large as the largest box of the first frame
+  std::array<float, 3> cell_size = {};  // of a cell; all 0: the largest box of bodies at rest, else of the first frame
 };
 
 /// Returns the keys of all methods. "brute-force" is the reference, and "multi-level-sb" can miss contacts.

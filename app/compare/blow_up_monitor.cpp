@@ -1,10 +1,10 @@
-#include "app/session/stability/blow_up_monitor.h"
+#include "app/compare/blow_up_monitor.h"
 
 #include <algorithm>
 
 #include <fmt/core.h>
 
-namespace app::session {
+namespace app::compare {
 
 std::optional<BlowUp> BlowUpMonitor::check(const softbody::World& world,
                                            const std::vector<softbody::BodyMeasures>& bodies) {
@@ -21,4 +21,4 @@ std::optional<BlowUp> BlowUpMonitor::check(const softbody::World& world,
                             change->body, change->gain)};
 }
 
-}  // namespace app::session
+}  // namespace app::compare

@@ -8,7 +8,7 @@
 
 #include "softbody/world/energy_watch.h"
 
-namespace app::session {
+namespace app::compare {
 
 struct BlowUp {
   softbody::BodyId body;
@@ -30,4 +30,4 @@ class BlowUpMonitor {
   bool compared_ = false;
 };
 
-}  // namespace app::session
+}  // namespace app::compare
