@@ -24,6 +24,7 @@ int processors() { return std::max(1, static_cast<int>(std::thread::hardware_con
 }  // namespace
 
 struct Workers::Shared {
+  using Clock = std::chrono::steady_clock;
   /// used: how many threads run at the same time. If they share processors, those that look for work would take them
   /// from those that they wait for: they sleep at once.
   Shared(int all_threads, int used)
@@ -41,6 +42,7 @@ struct Workers::Shared {
   int members = 0;                                 // threads that may take part: those with lower numbers
   bool by_all = true;                              // all of them take part; else those that come in time
   bool stopping = false;
+  int caution = 0, runs_alone = 0;          // see note_wait(); the latter: runs to come
   std::exception_ptr error;                 // the first one of the run
   std::atomic<std::uint32_t> at_work = 0;   // helpers that do their part, or will if it is by all
   std::atomic<std::uint32_t> barriers = 0;  // that all have reached, or left because a task has failed
@@ -52,11 +54,11 @@ struct Workers::Shared {
 
   /// Waits while `value` is `old`. No result depends on the clock.
   void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old, std::condition_variable& changed) {
-    const auto end = std::chrono::steady_clock::now() + looking_time;
+    const auto end = Clock::now() + looking_time;
     do {
       for (int look = 0; look < 100; ++look)
         if (value != old) return;
-    } while (std::chrono::steady_clock::now() < end);
+    } while (Clock::now() < end);
     std::unique_lock lock(mutex);
     changed.wait(lock, [&] { return value != old; });
   }
@@ -117,6 +119,13 @@ struct Workers::Shared {
     for (std::uint32_t others; (others = at_work) != 0;) wait_while(at_work, others, done);
   }
 
+  /// Where other programs take the processor from a helper in the midst of its work, the caller waits for milliseconds.
+  /// Then it works alone for a while, which grows with each such wait: no result depends on who does the work.
+  void note_wait(Clock::duration own, Clock::duration waited) {
+    caution = waited > 2 * own + std::chrono::microseconds(100) ? std::min(2 * caution + 64, 4096) : caution / 2;
+    runs_alone = caution >= 64 ? caution : 0;
+  }
+
   /// The caller's thread takes part.
   void run(int number, const std::function<void(int)>& next, bool all) {
     assert(at_work == 0);
@@ -130,13 +139,16 @@ struct Workers::Shared {
       for (Helper& helper : called) ++helper.run_number;
     }
     for (Helper& helper : called) helper.begun.notify_one();
+    const auto start = Clock::now();
     perform(next, 0);
+    const auto own = Clock::now() - start;
     if (all) wait_for_others();
     {
       const std::lock_guard lock(mutex);
       task = nullptr;
     }
     wait_for_others();
+    if (!all) note_wait(own, Clock::now() - start - own);
     if (!failed) return;
     failed = false;
     arrived = 0;
@@ -167,7 +179,9 @@ int Workers::threads_for(double work) const {
 
 void Workers::share(int threads, std::size_t count, const std::function<void(int thread, std::size_t item)>& use) {
   assert(threads >= 1 && threads <= threads_);
-  if (threads == 1 || count < 2) {
+  const bool alone = threads > 1 && shared_->runs_alone > 0;
+  if (alone) --shared_->runs_alone;
+  if (threads == 1 || count < 2 || alone) {
     for (std::size_t item = 0; item < count; ++item) use(0, item);
     return;
   }

@@ -32,8 +32,8 @@ class Workers {
   // and only one thread may call them at a time. If a task throws, they rethrow the first exception.
 
   /// Calls use(thread, item) once for each item below `count`, in any order: on the caller's thread, and on those
-  /// others that wake up before it is done. It waits for no thread that has not woken up. `use` must not call
-  /// barrier(). After an exception some items may have been left out.
+  /// others that wake up before it is done. It waits for no thread that has not woken up, and leaves the others alone
+  /// for a while after they took long. `use` must not call barrier(). After an exception some items may be left out.
   void share(int threads, std::size_t count, const std::function<void(int thread, std::size_t item)>& use);
 
   /// Calls task(part) once for each part below `parts`, as share() does on as many threads.

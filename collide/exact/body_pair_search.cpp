@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t max_uncounted_pairs = 1u << 16;  // of one thread
 
 // Of work: the bounds of a vertex; two near bodies, a body, a vertex of a large body; a contact in its order.
-constexpr double bounds_ns = 1, pair_ns = 100, body_ns = 50, patch_ns = 100, contact_ns = 10;
+constexpr double bounds_ns = 1, pair_ns = 100, body_ns = 50, patch_ns = 30, contact_ns = 10;
 
 /// See Slab. With u = 2^-24, a projection errs by at most 7u of the largest coordinate, the sum with the cutoff by 3u
 /// of it, and the normal is longer than 1 by a few u. Nothing where squares could overflow or underflow.

@@ -111,7 +111,7 @@ void SurfaceSearch::update(const Motion& motion, std::span<const SurfaceBody> bo
 void SurfaceSearch::search(const Motion& motion, float min_seconds, Workers& workers) {
   threads_.resize(static_cast<std::size_t>(workers.threads()));
   for (Thread& t : threads_) t.features.clear(), t.found.clear(), t.work = 0;
-  constexpr double vertex_ns = 50, task_ns = 500;  // of work
+  constexpr double vertex_ns = 20, task_ns = 500;  // of work
   const auto share = [&](double work, std::size_t count, const auto& task) {
     workers.share(workers.threads_for(work), count,
                   [&](int thread, std::size_t i) { task(threads_[static_cast<std::size_t>(thread)], i); });

@@ -39,15 +39,12 @@ TEST(ContactRows, SortWhatThreadsFoundInNoOrder) {
         return std::span(all).subspan(own.begin, own.end - own.begin);
       };
       rows.begin(vertices, threads);
-      workers.run([&](int thread) { rows.count(thread, part(thread)); });
+      workers.run(threads, [&](int thread) { rows.count(thread, part(thread)); });
       const std::size_t end = rows.place(runs[0], gaps[0]);
       EXPECT_EQ(end, gaps[0] + sizes[0]);
       EXPECT_EQ(rows.place(runs[1], end + gaps[1]), end + gaps[1] + sizes[1]);
-      workers.run([&](int thread) {
-        rows.scatter(thread, part(thread), placed);
-        workers.barrier();
-        rows.sort(thread, placed);
-      });
+      workers.run(threads, [&](int thread) { rows.scatter(thread, part(thread), placed); });
+      workers.run(threads, [&](int thread) { rows.sort(thread, placed); });
       const auto at = [&](std::size_t place) { return placed.begin() + static_cast<std::ptrdiff_t>(place); };
       std::vector<Contact> found(at(gaps[0]), at(end));
       found.insert(found.end(), at(end + gaps[1]), at(end + gaps[1] + sizes[1]));
