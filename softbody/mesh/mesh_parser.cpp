@@ -77,6 +77,8 @@ FileMesh read_file_mesh(const std::filesystem::path& file, const MeshReading& re
     try {
       std::string_view line;
       lines.next(line);
+      if (line.starts_with("\xFF\xFE") || line.starts_with("\xFE\xFF"))
+        throw MeshFileError(name + ":1: is UTF-16; save it as UTF-8");
       if (Words(line).next() == "ply") return parse_ply(name, lines, reading);
       if (extension == ".ply")
         throw MeshFileError(name + ":1: the line 'ply' is missing; is this a file in PLY format?");
