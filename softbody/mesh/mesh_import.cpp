@@ -169,8 +169,9 @@ class Importer {
     try {
       const SurfaceFindings found = orient(mesh_.triangles, mesh_.vertices);
       findings_.components = found.components;
+      findings_.cavities = found.cavities;
       findings_.turned_faces = found.turned_faces;
-      findings_.closed = found.border_edges == 0;
+      findings_.closed = found.closed;
     } catch (const SurfaceError& error) {
       fail(reason(error));
     }
@@ -276,7 +277,8 @@ std::string remarks(const ImportFindings& f) {
   add(f.duplicate_faces, " duplicate faces dropped");
   add(f.weights, " weights of vertices passed over");
   add(f.turned_faces, " faces turned");
-  if (f.components > 1) add(f.components, " separate pieces, one body");
+  if (f.components - f.cavities > 1) add(f.components - f.cavities, " separate pieces, one body");
+  add(f.cavities, " cavities, which hold no gas");
   const auto say = [&text](const std::string& what) { text.append(text.empty() ? "" : ", ").append(what); };
   if (!f.closed) say("open, so that it holds no gas");
   if (f.distance)

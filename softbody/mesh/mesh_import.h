@@ -36,6 +36,7 @@ struct ImportFindings {
   std::size_t weights = 0;                        // vertices with a weight other than 1, which is ignored
   std::size_t turned_faces = 0;                   // faces whose corners were reversed
   std::size_t components = 0;                     // parts connected by edges; all are one body
+  std::size_t cavities = 0;                       // of these, see orient()
   bool closed = false;                            // the mesh encloses a volume
   double file_extent = 0;                         // largest extent before scaling
   double extent = 0;                              // m, after scaling
