@@ -169,12 +169,13 @@ BodyMeshes divide(const FileMesh& mesh, BodiesBy by, const std::filesystem::path
   return bodies;
 }
 
-VertexPositions positions_of(const FileMesh& mesh, const BodyMeshes& bodies) {
+VertexPositions positions_of(const FileMesh& mesh, const BodyMeshes& bodies, const glm::dvec3& origin) {
   assert(mesh.x.size() == bodies.vertex_count());
   VertexPositions at;
-  for (const auto& [axis, in_file] : {std::pair(&at.x, &mesh.x), {&at.y, &mesh.y}, {&at.z, &mesh.z}}) {
-    axis->reserve(in_file->size());
-    for (const Index v : bodies.file_vertex) axis->push_back(static_cast<float>((*in_file)[v]));
+  for (std::vector<float>* axis : {&at.x, &at.y, &at.z}) axis->reserve(mesh.x.size());
+  for (const Index v : bodies.file_vertex) {
+    const glm::vec3 p(mesh.position(v) - origin);
+    at.x.push_back(p.x), at.y.push_back(p.y), at.z.push_back(p.z);
   }
   return at;
 }

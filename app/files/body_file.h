@@ -89,7 +89,7 @@ BodyFile read_bodies(const std::filesystem::path& file, std::optional<BodiesBy> 
 BodyMeshes divide(const softbody::FileMesh& mesh, BodiesBy by, const std::filesystem::path& file,
                   std::vector<std::string>& notes);
 
-/// Returns the positions of a mesh in the order of the bodies' vertices.
-VertexPositions positions_of(const softbody::FileMesh& mesh, const BodyMeshes& bodies);
+/// Returns the positions of a mesh relative to `origin`, in the order of the bodies' vertices.
+VertexPositions positions_of(const softbody::FileMesh& mesh, const BodyMeshes& bodies, const glm::dvec3& origin = {});
 
 }  // namespace app::files

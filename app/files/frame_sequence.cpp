@@ -6,6 +6,7 @@
 
 #include "app/base/usage_error.h"
 #include "app/files/inputs.h"
+#include "collide/surface/box_tree.h"
 
 namespace app::files {
 namespace {
@@ -48,15 +49,20 @@ std::size_t common_bodies(const BodyMeshes& one, const BodyMeshes& other) {
 }  // namespace
 
 FrameSequence::FrameSequence(std::vector<std::filesystem::path> files, const Options& options)
-    : files_(std::move(files)), may_grow_(options.may_grow) {
+    : files_(std::move(files)), may_grow_(options.may_grow), reading_{.doubles = options.any_distance} {
   assert(!files_.empty());
   for (const std::filesystem::path& file : files_) protect_input(file);
   if (options.rest) protect_input(*options.rest);
-  const softbody::FileMesh mesh = softbody::read_file_mesh(files_.front());
+  const softbody::FileMesh mesh = softbody::read_file_mesh(files_.front(), reading_);
+  if (options.any_distance && !mesh.x.empty()) {
+    collide::surface::Box box;
+    for (std::size_t v = 0; v < mesh.x.size(); ++v) box.add(mesh.position(v));
+    origin_ = softbody::origin_near(box.lo, box.hi);
+  }
   by_ = options.by.value_or(default_bodies_by(mesh));
   const auto first = std::make_shared<SequenceBodies>();
   first->meshes = divide(mesh, by_, files_.front(), notes_);
-  first_at_ = positions_of(mesh, first->meshes);
+  first_at_ = positions_of(mesh, first->meshes, origin_);
   first_ = last_ = first;
   const VertexPositions rest = options.rest ? read(*options.rest, false).at : VertexPositions{};
   add_bodies(first->bodies, first->meshes, options.rest ? &rest : nullptr);
@@ -69,7 +75,7 @@ SequenceFrame FrameSequence::read(std::size_t frame) {
 }
 
 SequenceFrame FrameSequence::read(const std::filesystem::path& file, bool may_grow) {
-  const softbody::FileMesh mesh = softbody::read_file_mesh(file);
+  const softbody::FileMesh mesh = softbody::read_file_mesh(file, reading_);
   SequenceFrame frame{first_, {}};
   if (by_ == BodiesBy::objects || !mesh.faces.empty() || mesh.x.size() != first_->meshes.vertex_count()) {
     std::vector<std::string> notes;
@@ -80,7 +86,7 @@ SequenceFrame FrameSequence::read(const std::filesystem::path& file, bool may_gr
         notes_.push_back(std::move(named));
     }
   }
-  frame.at = positions_of(mesh, frame.of->meshes);
+  frame.at = positions_of(mesh, frame.of->meshes, origin_);
   return frame;
 }
 

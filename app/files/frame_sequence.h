@@ -32,6 +32,7 @@ class FrameSequence {
     std::optional<BodiesBy> by{};                 // left out: the default of the first file's format
     std::optional<std::filesystem::path> rest{};  // the bodies of the first file at rest
     bool may_grow = false;                        // later files may have further bodies behind those of the first
+    bool any_distance = false;                    // positions are exact far from the origin, too: see origin()
   };
 
   /// Reads the first file and the one of `rest`. No output may replace any of the files from now on. Throws
@@ -46,6 +47,9 @@ class FrameSequence {
   /// Reads a frame. Frames with the same bodies share them, unless frames with others were read in between. Bodies that
   /// a frame has in common with the first one, or with the one that was read before, have the same shapes in both.
   SequenceFrame read(std::size_t frame);
+  /// Returns the point of the files to which positions are relative, which is near the middle of the first file's
+  /// vertices (origin_near()); the files' own origin unless Options::any_distance is set.
+  const glm::dvec3& origin() const { return origin_; }
   /// Returns what the authors of the files read so far may have meant differently: of the first file as it is, of
   /// others after the name of the file.
   const std::vector<std::string>& notes() const { return notes_; }
@@ -57,6 +61,8 @@ class FrameSequence {
   std::vector<std::filesystem::path> files_;
   BodiesBy by_;
   bool may_grow_;
+  softbody::MeshReading reading_;
+  glm::dvec3 origin_{0.0};
   std::shared_ptr<const SequenceBodies> first_, last_;  // of the first file; of the last one read that has more, if any
   std::optional<VertexPositions> first_at_;             // until read(0) returns it
   std::vector<std::string> notes_;

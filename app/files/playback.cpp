@@ -49,7 +49,7 @@ bool suits(const softbody::BodyModel& model, const collide::Shape& shape,
 }  // namespace
 
 Playback::Playback(std::vector<std::filesystem::path> files, std::optional<BodiesBy> by, std::size_t kept_bytes)
-    : sequence_(std::move(files), {.by = by, .may_grow = true}), free_bytes_(kept_bytes) {
+    : sequence_(std::move(files), {.by = by, .may_grow = true, .any_distance = true}), free_bytes_(kept_bytes) {
   const std::shared_ptr<const softbody::RecordedFrame> first = frame(0);
   if (first->x.empty())
     throw softbody::SceneError(sequence_.file(0).string() + ": has no vertex; nothing can be played");
@@ -122,11 +122,12 @@ void Playback::release() {
 
 /// Makes models of bodies that no frame had before. Bodies of one mesh share a model.
 std::shared_ptr<const softbody::RecordedFrame> Playback::record(int number, SequenceFrame frame) {
-  for (const std::vector<float>* axis : {&frame.at.x, &frame.at.y, &frame.at.z})
+  const glm::dvec3& origin = sequence_.origin();
+  for (const auto& [axis, zero] : {std::pair(&frame.at.x, origin.x), {&frame.at.y, origin.y}, {&frame.at.z, origin.z}})
     for (const float at : *axis)
-      if (std::abs(at) > max_coordinate)
+      if (const double in_file = double{at} + zero; !(std::abs(in_file) <= max_coordinate))
         throw softbody::SceneError(fmt::format("{}: a coordinate of {:g}; they must lie within {:g} to be played",
-                                               sequence_.file(static_cast<std::size_t>(number)).string(), at,
+                                               sequence_.file(static_cast<std::size_t>(number)).string(), in_file,
                                                max_coordinate));
   const SequenceBodies& of = *frame.of;
   std::uint32_t count = 0;

@@ -9,12 +9,13 @@
 
 namespace app::files {
 
+/// Moves frames far from the origin to it, all by the same way, so that floats hold them as exactly as the files do.
 /// Reads frames when they are shown, and the next one ahead of time, on a thread of its own. The first frames, as many
 /// as fit into the memory that a Playback may take, are read only once. Bodies without vertices are left out.
 class Playback : public softbody::Recording {
  public:
   static constexpr std::size_t max_kept_bytes = std::size_t{512} << 20;  // of positions
-  static constexpr float max_coordinate = 1e15f;  // m; squares of distances must fit into a float
+  static constexpr double max_coordinate = 1e15;  // in a file, m; squares of distances must fit into a float
 
   /// Reads the first frame, and for bounds() one in the middle and the last. by: left out, the default of the first
   /// file's format. Throws as FrameSequence does, and SceneError if the first frame cannot be read, has no vertex or

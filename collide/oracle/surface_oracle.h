@@ -52,8 +52,8 @@ struct Overlaps {
   std::vector<Piercing> piercings;        // ascending by edge, then body and triangle
 };
 
-/// Finds all overlaps in a frame.
-Overlaps find_overlaps(const Frame& frame, const surface::Surfaces& surfaces, Workers& workers);
+/// Finds all overlaps in a frame. depths: false leaves out how deep and where penetrations are, which takes most time.
+Overlaps find_overlaps(const Frame& frame, const surface::Surfaces& surfaces, Workers& workers, bool depths = true);
 
 /// A vertex that passed through a face, or an edge that passed through an edge, while all vertices moved along straight
 /// lines from one frame to the next. Each pair is listed once, with its first passage. The features belong to different

@@ -35,7 +35,8 @@ glm::dvec3 nearest_point(const glm::dvec3& p, const Corners& corners) {
 
 class OverlapSearch {
  public:
-  OverlapSearch(const Frame& frame, const surface::Surfaces& surfaces) : frame_(frame), surfaces_(surfaces) {
+  OverlapSearch(const Frame& frame, const surface::Surfaces& surfaces, bool depths)
+      : frame_(frame), surfaces_(surfaces), depths_(depths) {
     require_match(frame, surfaces);
     std::vector<surface::Box> boxes;
     for (Index body = 0; body < frame.bodies->count(); ++body) boxes.push_back(box_of_body(frame, body));
@@ -72,7 +73,8 @@ class OverlapSearch {
     const surface::Box& box = bodies_.box(other);
     for (Index v = frame_.bodies->first[body]; v < frame_.bodies->first[body + 1]; ++v) {
       const glm::vec3 p = position(frame_, v);
-      if (overlap(box, point_box(p)) && inside(p, other)) found.push_back(penetration(v, other));
+      if (overlap(box, point_box(p)) && inside(p, other))
+        found.push_back(depths_ ? penetration(v, other) : Penetration{v, other, 0, 0, {}, {}});
     }
   }
 
@@ -181,14 +183,15 @@ class OverlapSearch {
 
   Frame frame_;
   const surface::Surfaces& surfaces_;
+  bool depths_;
   BodyNeighbours bodies_;
   std::vector<surface::BoxTree> faces_;  // of each body
 };
 
 }  // namespace
 
-Overlaps find_overlaps(const Frame& frame, const surface::Surfaces& surfaces, Workers& workers) {
-  OverlapSearch search(frame, surfaces);
+Overlaps find_overlaps(const Frame& frame, const surface::Surfaces& surfaces, Workers& workers, bool depths) {
+  OverlapSearch search(frame, surfaces, depths);
   constexpr double vertex_ns = 500;  // of work
   const int threads = workers.threads_for(vertex_ns * static_cast<double>(frame.x.size()));
   std::vector<Overlaps> found(static_cast<std::size_t>(threads));

@@ -99,7 +99,7 @@ softbody::MeshSource mesh_source(std::span<const float> xyz, std::span<const std
   mesh.triangles.assign(triangles.begin(), triangles.end());
   try {
     const softbody::SurfaceFindings found = softbody::orient(mesh.triangles, mesh.vertices);
-    imported->findings.closed = found.border_edges == 0;
+    imported->findings.closed = found.closed;
   } catch (const softbody::SurfaceError& error) {
     throw Error("mesh: " +
                 std::string(error.triangles.size() == 2 ? "the surface "

@@ -82,6 +82,15 @@ std::set<Index> open_parts(const Mesh& mesh, const std::vector<Index>& part) {
   return open;
 }
 
+/// Returns the closed parts that face inwards.
+std::set<Index> cavities_of(const Mesh& mesh, const std::vector<Index>& part) {
+  std::vector<Triangle> triangles = mesh.triangles;
+  std::set<Index> cavities;
+  for (const SurfacePart& p : align(triangles))
+    if (p.closed && volume(mesh.vertices, mesh.triangles, p) < 0) cavities.insert(part[triangles[p.faces[0]][0]]);
+  return cavities;
+}
+
 std::vector<glm::vec3> rounded(const std::vector<glm::dvec3>& points) { return {points.begin(), points.end()}; }
 
 glm::vec3 normal_of(std::span<const glm::vec3> at, const Triangle& t) {
@@ -163,6 +172,7 @@ class Coarsener {
         at_(rounded(fine.vertices)),
         part_(parts_of(fine)),
         open_(open_parts(fine, part_)),
+        cavities_(cavities_of(fine, part_)),
         normal_(at_.size(), glm::vec3(0.0f)),
         faces_(at_, fine.triangles) {
     for (const Triangle& t : fine.triangles)
@@ -236,8 +246,12 @@ class Coarsener {
   bool has_same_form(const Mesh& mesh, const std::vector<Index>& from) const {
     try {
       std::vector<Triangle> turned = mesh.triangles;
-      const SurfaceFindings found = orient(turned, mesh.vertices);
-      if (found.turned_faces > 0) return false;
+      const std::vector<SurfacePart> parts = align(turned);
+      if (turned != mesh.triangles) return false;
+      for (const SurfacePart& p : parts) {
+        const bool is_cavity = cavities_.contains(part_[from[turned[p.faces[0]][0]]]);
+        if (p.closed && (volume(mesh.vertices, turned, p) < 0) != is_cavity) return false;
+      }
     } catch (const SurfaceError&) {
       return false;
     }
@@ -305,6 +319,7 @@ class Coarsener {
   std::vector<glm::vec3> at_;      // its vertices
   std::vector<Index> part_;        // of each of them
   std::set<Index> open_;           // parts that are not closed
+  std::set<Index> cavities_;       // closed parts that face inwards
   std::vector<glm::vec3> normal_;  // at each of them, of any length
   FaceTree faces_;                 // of its triangles
   float extent_;                   // m, the largest one

@@ -39,6 +39,7 @@ struct FileMesh {
   std::vector<Face> faces;        // of 3 or more corners
   std::vector<Segment> segments;  // of the lines `l`, in the order of the file
   std::size_t weights = 0;        // lines v X Y Z W with W other than 1, which only curves and surfaces use
+  int digits = 0;                 // the most significant ones of a coordinate; 0: a binary file
 
   /// Calls visit(corners, face) for each face in the order of the file.
   void for_each_face(const auto& visit) const {
@@ -48,6 +49,7 @@ struct FileMesh {
       begin = faces[face].end;
     }
   }
+  glm::dvec3 position(std::size_t vertex) const { return {x[vertex], y[vertex], z[vertex]}; }
   bool has_lines() const { return format != Format::ply_binary; }
   /// Returns the number by which a message names a face: its line from 1; in a file without lines its own from 0.
   std::uint64_t number_of(std::size_t face) const { return has_lines() ? faces[face].line : face; }
@@ -63,6 +65,11 @@ struct MeshReading {
   bool doubles = false;  // coordinates are rounded to double, not to float
   bool lines = false;    // of OBJ files, the lines `l` are read, too
 };
+
+/// Returns a point of which floats can tell the points of a box from lo to hi: none is farther from it along an axis
+/// than 2.5 times the box's extent. Its coordinates are multiples of a power of two of 2 to 4 times the extent. So it
+/// is the origin itself for a box near the origin, and what floats hold they hold relative to it, too. lo, hi: finite.
+glm::dvec3 origin_near(const glm::dvec3& lo, const glm::dvec3& hi);
 
 /// Reads a Wavefront OBJ or a PLY file. A file is PLY if its name ends in .ply or its first line is `ply`. The result
 /// has at least one object; a PLY file is one object. A face may use vertices that come later in the file. The time is

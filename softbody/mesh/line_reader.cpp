@@ -29,7 +29,7 @@ LineReader::LineReader(const std::filesystem::path& file)
 
 LineReader::~LineReader() { ::close(file_); }
 
-bool LineReader::next(std::string_view& line) {
+bool LineReader::next(std::string_view& line, bool cr_alone) {
   number_ = lines_read_ + 1;
   if (!has(0)) return false;
   std::size_t begin, end, after = 0;  // of the last of the joined lines, and where the next one begins
@@ -37,7 +37,8 @@ bool LineReader::next(std::string_view& line) {
     begin = after;
     end = find(ends_line, begin);
     after = has(end) ? end + 1 : end;
-    if (has(after) && at(end) == '\r' && at(after) == '\n') ++after;
+    line_end_ = after == end ? End::file : at(end) == '\n' ? End::lf : End::cr;
+    if (line_end_ == End::cr && !cr_alone && has(after) && at(after) == '\n') ++after, line_end_ = End::lf;
     ++lines_read_;
   } while (joins_next(begin, end, after));
   if (end > 0 && is_padding(at(end - 1))) {
@@ -48,6 +49,7 @@ bool LineReader::next(std::string_view& line) {
     }
   }
   line = {buffer_.data() + begin_, end};
+  if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
   begin_ += after;
   return true;
 }

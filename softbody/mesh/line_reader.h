@@ -19,17 +19,21 @@ class LineReader {
   LineReader(const LineReader&) = delete;
   LineReader& operator=(const LineReader&) = delete;
 
-  /// Reads the next line into `line`, without its end (LF, CRLF or CR). Returns false if there is none. The text is
-  /// valid until the next call. A line that ends with a backslash is joined with the next one, unless that one begins
-  /// with a letter or #; the backslash and the line end become spaces. Ctrl-Z and NUL at the end of the file are
-  /// skipped. Throws std::length_error if the line is longer than max_line_length.
-  bool next(std::string_view& line);
+  /// Reads the next line into `line`, without its end (LF, CRLF or CR) and without a byte order mark before it. Returns
+  /// false if there is none. The text is valid until the next call. A line that ends with a backslash is joined with
+  /// the next one, unless that one begins with a letter or #; the backslash and the line end become spaces. Ctrl-Z and
+  /// NUL at the end of the file are skipped. cr_alone: CR ends a line by itself, and an LF behind it is of the next
+  /// line or of a binary part. Throws std::length_error if the line is longer than max_line_length.
+  bool next(std::string_view& line, bool cr_alone = false);
   /// Returns the next `count` bytes as they are; empty if the file has fewer. They are valid until the next call.
   /// count: at most max_line_length.
   std::string_view bytes(std::size_t count);
   /// Returns the number, from 1, of the line that next() returned last or at which it threw. Of joined lines it is the
   /// number of the first one.
   std::uint64_t number() const { return number_; }
+  enum class End { file, cr, lf };  // lf: of CRLF, too
+  /// Returns what ended the line that next() returned last.
+  End end() const { return line_end_; }
 
  private:
   // Offsets count from begin_, so that they outlast read_more().
@@ -44,6 +48,7 @@ class LineReader {
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0;  // of the part of the buffer that next() has not returned yet
   std::uint64_t number_ = 0, lines_read_ = 0;
+  End line_end_ = End::file;
 };
 
 }  // namespace softbody

@@ -6,6 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
+#include <limits>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,6 +17,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "collide/surface/box_tree.h"
 #include "softbody/mesh/file_mesh.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/mesh/polygon.h"
@@ -24,14 +28,10 @@
 namespace softbody {
 namespace {
 
+using collide::surface::Box;
+
 constexpr Index no_vertex = ~Index{0};
 constexpr const char* where_weld_is = "(in the window under Files, in a scene beside the mesh's path)";
-
-struct Box {
-  glm::dvec3 lo{INFINITY}, hi{-INFINITY};
-  void add(const glm::dvec3& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
-  double extent() const { return std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z}); }
-};
 
 /// Returns the smallest rotation that brings `up` to the y axis.
 glm::dmat3 to_y(const glm::dvec3& up) {
@@ -42,10 +42,29 @@ glm::dmat3 to_y(const glm::dvec3& up) {
   return glm::dmat3(1.0) + cross + cross * cross / (1 + u.y);
 }
 
-std::string millimetres(double metres) {
+double extent(const Box& box) { return std::max({box.extent(0), box.extent(1), box.extent(2)}); }
+
+std::string two_digits(double value) {
   std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.2g mm", 1e3 * metres);
+  std::snprintf(text.data(), text.size(), "%.2g", value);
   return text.data();
+}
+
+/// Returns the step between the values that a file can give for the largest coordinate along an axis. at: of all
+/// vertices; corners: those that count.
+double step_of(std::span<const double> at, std::span<const Index> corners, int digits) {
+  double largest = 0;
+  for (const Index v : corners) largest = std::max(largest, std::abs(at[v]));
+  const bool floats = std::ranges::all_of(corners, [&](Index v) { return double(static_cast<float>(at[v])) == at[v]; });
+  const double binary = floats ? double(std::nextafter(static_cast<float>(largest), INFINITY)) - largest
+                               : std::nextafter(largest, INFINITY) - largest;
+  const bool written = digits > 0 && largest > 0;
+  return written ? std::max(binary, std::pow(10, std::floor(std::log10(largest)) + 1 - digits)) : binary;
+}
+
+std::string advice_on_digits(double step) {
+  return "the file gives coordinates in steps of " + two_digits(step) +
+         ", which is much of its edges: export it with more digits, or nearer to the origin";
 }
 
 class Importer {
@@ -57,7 +76,7 @@ class Importer {
 
   ImportedMesh run() {
     begin("reading the file");
-    mesh_file_ = read_file_mesh(file_.path);
+    mesh_file_ = read_file_mesh(file_.path, {.doubles = true});
     findings_.file_vertices = mesh_file_.x.size();
     findings_.file_faces = mesh_file_.faces.size();
     findings_.weights = mesh_file_.weights;
@@ -83,9 +102,13 @@ class Importer {
   void begin(std::string_view stage) const {
     if (begin_stage_) begin_stage_(stage);
   }
-  [[noreturn]] void fail(const std::string& what) const { throw MeshFileError(name_ + ": " + what); }
+  [[noreturn]] void fail(const std::string& what) const { fail_at("", what); }
+  [[noreturn]] void fail_at(const std::string& place, const std::string& what) const {
+    const double step = findings_.coarse_step;
+    throw MeshFileError(name_ + ":" + place + " " + what + (step > 0 ? "; " + advice_on_digits(step) : ""));
+  }
   [[noreturn]] void fail_at(std::size_t polygon, const std::string& what) const {
-    throw MeshFileError(name_ + ":" + mesh_file_.place(outlines_.face[polygon]) + ": " + what);
+    fail_at(mesh_file_.place(outlines_.face[polygon]) + ":", what);
   }
 
   void require_sensible_file() const {
@@ -96,21 +119,30 @@ class Importer {
       fail("is larger than " + std::to_string(max_mesh_file_size >> 20) + " MiB; simplify the mesh first");
   }
 
-  /// Finds positions in metres. The origin is the middle of the bounding box of the vertices that faces use.
+  /// Finds positions in metres: floats, but relative to the middle of the bounding box of the vertices that faces use.
+  /// Vertices that no face uses are left where that is.
   void place() {
     const std::size_t count = mesh_file_.x.size();
     std::vector<char> used(count, false);
-    for (const Index corner : mesh_file_.corners) used[corner] = true;
+    Box in_file, box;
+    for (const Index corner : mesh_file_.corners) {
+      used[corner] = true;
+      in_file.add(mesh_file_.position(corner));
+    }
+    const glm::dvec3 most = glm::max(glm::abs(in_file.lo), glm::abs(in_file.hi));
+    if (std::max({most.x, most.y, most.z}) > double{std::numeric_limits<float>::max()})
+      fail("has a coordinate beyond 3.4e38; move it to the origin, or make it smaller");
     findings_.unused_vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), char(false)));
+    findings_.coarse_step = coarse_step();
+    const glm::dvec3 origin = origin_near(in_file.lo, in_file.hi);
     const glm::dmat3 turn = to_y(file_.up);
-    Box box;
     for (std::size_t i = 0; i < count; ++i) {
-      position_.push_back(turn * glm::dvec3(mesh_file_.x[i], mesh_file_.y[i], mesh_file_.z[i]));
+      position_.push_back(used[i] ? turn * glm::dvec3(glm::vec3(mesh_file_.position(i) - origin)) : glm::dvec3(0));
       if (used[i]) box.add(position_.back());
     }
-    findings_.file_extent = box.extent();
-    if (!(box.extent() > 0)) fail("has all its faces in one point; check the export");
-    const double size = file_.size > 0 ? file_.size : box.extent(), scale = size / box.extent();
+    findings_.file_extent = extent(box);
+    if (!(extent(box) > 0)) fail("has all its faces in one point; check the export");
+    const double size = file_.size > 0 ? file_.size : extent(box), scale = size / extent(box);
     if (size < min_body_size || size > max_body_size)
       fail("is " + shortest_text(size) + " m large (" + shortest_text(min_body_size) + " to " +
            shortest_text(std::int64_t(max_body_size)) +
@@ -118,6 +150,30 @@ class Importer {
     findings_.extent = size;
     const glm::dvec3 middle = 0.5 * (box.lo + box.hi);
     for (glm::dvec3& p : position_) p = scale * (p - middle);
+  }
+
+  /// Returns the step between the values of the file's coordinates if it is more than a tenth of the mean side of a
+  /// face, unless the sides are those of a mesh of few forms, such as a cube, that is exact in such steps.
+  double coarse_step() const {
+    double step = 0;
+    for (const std::vector<double>& axis : {std::cref(mesh_file_.x), std::cref(mesh_file_.y), std::cref(mesh_file_.z)})
+      step = std::max(step, step_of(axis, mesh_file_.corners, mesh_file_.digits));
+    const auto for_each_side = [&](const auto& visit) {
+      mesh_file_.for_each_face([&](std::span<const Index> corners, std::size_t) {
+        for (std::size_t i = 0; i < corners.size(); ++i)
+          visit(mesh_file_.position(corners[i]) - mesh_file_.position(corners[i > 0 ? i - 1 : corners.size() - 1]));
+      });
+    };
+    double sum = 0;
+    for_each_side([&](const glm::dvec3& side) { sum += glm::length(side); });
+    if (step <= 0.1 * sum / double(mesh_file_.corners.size())) return 0;
+    constexpr std::size_t few = 12;
+    std::set<std::array<double, 3>> forms;
+    for_each_side([&](const glm::dvec3& side) {
+      const glm::dvec3 steps = glm::round(glm::abs(side) / step);
+      if (forms.size() <= few) forms.insert({steps.x, steps.y, steps.z});
+    });
+    return forms.size() > few || forms.contains({0, 0, 0}) ? step : 0;
   }
 
   void take_outlines() {
@@ -169,8 +225,9 @@ class Importer {
     try {
       const SurfaceFindings found = orient(mesh_.triangles, mesh_.vertices);
       findings_.components = found.components;
+      findings_.cavities = found.cavities;
       findings_.turned_faces = found.turned_faces;
-      findings_.closed = found.border_edges == 0;
+      findings_.closed = found.closed;
     } catch (const SurfaceError& error) {
       fail(reason(error));
     }
@@ -276,14 +333,16 @@ std::string remarks(const ImportFindings& f) {
   add(f.duplicate_faces, " duplicate faces dropped");
   add(f.weights, " weights of vertices passed over");
   add(f.turned_faces, " faces turned");
-  if (f.components > 1) add(f.components, " separate pieces, one body");
+  if (f.components - f.cavities > 1) add(f.components - f.cavities, " separate pieces, one body");
+  add(f.cavities, " cavities, which hold no gas");
   const auto say = [&text](const std::string& what) { text.append(text.empty() ? "" : ", ").append(what); };
   if (!f.closed) say("open, so that it holds no gas");
   if (f.distance)
     say("simulated by " + std::to_string(f.particles) + " particles, whose surface is within " +
-        millimetres(*f.distance) + " of the mesh");
+        two_digits(1e3 * *f.distance) + " mm of the mesh");
   if (f.crossings > 0) say("the simulated surface crosses itself");
   if (f.too_fine) say("no coarse mesh has its form, so all vertices are simulated");
+  if (f.coarse_step > 0) say(advice_on_digits(f.coarse_step));
   return text;
 }
 

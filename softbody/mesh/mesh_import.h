@@ -1,6 +1,6 @@
 #pragma once
-// Imports a mesh from an OBJ or PLY file and prepares it for a soft body: seams are welded, polygons are cut into
-// triangles, unused vertices are dropped, faces are turned outwards, and the surface is checked.
+// Imports a mesh from an OBJ or PLY file and prepares it for a soft body: it comes to the origin, seams are welded,
+// polygons are cut into triangles, unused vertices are dropped, faces are turned outwards, and the surface is checked.
 
 #include <filesystem>
 #include <functional>
@@ -36,8 +36,10 @@ struct ImportFindings {
   std::size_t weights = 0;                        // vertices with a weight other than 1, which is ignored
   std::size_t turned_faces = 0;                   // faces whose corners were reversed
   std::size_t components = 0;                     // parts connected by edges; all are one body
+  std::size_t cavities = 0;                       // of these, see orient()
   bool closed = false;                            // the mesh encloses a volume
   double file_extent = 0;                         // largest extent before scaling
+  double coarse_step = 0;                         // the file's coordinates are multiples of it, too coarse; 0: fine
   double extent = 0;                              // m, after scaling
   bool too_fine = false;                          // a coarse mesh was asked for, but none keeps the form of the mesh
   std::size_t particles = 0;                      // vertices of the mesh that is simulated

@@ -6,6 +6,8 @@
 #include <limits>
 #include <system_error>
 
+#include <glm/common.hpp>
+
 namespace softbody {
 namespace {
 
@@ -31,7 +33,11 @@ std::string quoted(std::string_view word) {
   return "'" + text + (word.size() > longest ? "...'" : "'");
 }
 
-double MeshParser::number(std::string_view word) const {
+double MeshParser::number(std::string_view word) {
+  int digits = 0;
+  for (const char c : word.substr(0, word.find_first_of("eE")))
+    if (c >= (digits > 0 ? '0' : '1') && c <= '9') ++digits;
+  mesh_.digits = std::max(mesh_.digits, digits);
   const auto read = [&](auto value, auto from_text) {
     const auto [stop, error] = parse(word, value);
     if (stop != word.data() + word.size() || error == std::errc::invalid_argument)
@@ -68,6 +74,14 @@ void MeshParser::require_vertices() const {
   }
 }
 
+glm::dvec3 origin_near(const glm::dvec3& lo, const glm::dvec3& hi) {
+  const glm::dvec3 half = 0.5 * hi - 0.5 * lo;
+  int exponent = 0;
+  std::frexp(std::max({half.x, half.y, half.z}), &exponent);
+  const double step = std::ldexp(1.0, std::min(exponent + 2, std::numeric_limits<double>::max_exponent - 1));
+  return step * glm::round((0.5 * lo + 0.5 * hi) / step);
+}
+
 FileMesh read_file_mesh(const std::filesystem::path& file, const MeshReading& reading) {
   const std::string name = file.string();
   try {
@@ -77,6 +91,8 @@ FileMesh read_file_mesh(const std::filesystem::path& file, const MeshReading& re
     try {
       std::string_view line;
       lines.next(line);
+      if (line.starts_with("\xFF\xFE") || line.starts_with("\xFE\xFF"))
+        throw MeshFileError(name + ":1: is UTF-16; save it as UTF-8");
       if (Words(line).next() == "ply") return parse_ply(name, lines, reading);
       if (extension == ".ply")
         throw MeshFileError(name + ":1: the line 'ply' is missing; is this a file in PLY format?");

@@ -53,8 +53,8 @@ class MeshParser {
   }
 
   Index vertex_count() const { return static_cast<Index>(mesh_.x.size()); }
-  /// Returns a number of the line.
-  double number(std::string_view word) const;
+  /// Returns a coordinate of the line.
+  double number(std::string_view word);
   /// Rounds a coordinate. Returns nothing if it is not finite then.
   std::optional<double> rounded(double value) const;
   std::string not_finite() const {

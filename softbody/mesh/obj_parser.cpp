@@ -31,8 +31,6 @@ class ObjParser : public MeshParser {
 
   void run(std::string_view line) {
     do {
-      if (line.starts_with("\xFF\xFE") || line.starts_with("\xFE\xFF")) fail_at_line("is UTF-16; save it as UTF-8");
-      if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
       statement(Words(line));
     } while (lines_.next(line));
     if (mesh_.objects.empty() || (mesh_.x.empty() && passed_over_))

@@ -76,9 +76,14 @@ class PlyParser : public MeshParser {
   // ---- header ----
 
   void header() {
+    // CR, LF after the last line is one end or two: if it is two, a binary part begins with the LF.
+    const bool cr_alone = lines_.end() == LineReader::End::cr;
     bool has_format = false;
     for (std::string_view line;;) {
-      if (!lines_.next(line)) fail_at_line("the file ends before the line 'end_header'; save the file again");
+      if (!lines_.next(line, cr_alone)) fail_at_line("the file ends before the line 'end_header'; save the file again");
+      if (lines_.end() == (cr_alone ? LineReader::End::lf : LineReader::End::cr))
+        fail_at_line("ends in " + std::string(cr_alone ? "LF and line 1 in CR" : "CR and line 1 in LF") +
+                     "; end all lines of the header alike");
       Words words(line);
       const std::string_view keyword = words.next();
       if (keyword == "end_header") break;

@@ -1,7 +1,13 @@
 #include "softbody/mesh/surface.h"
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <utility>
+
+#include "collide/core/workers.h"
+#include "collide/oracle/surface_oracle.h"
+#include "softbody/mesh/points.h"
 
 namespace softbody {
 namespace {
@@ -33,21 +39,19 @@ struct Neighbour {
   Edge edge{};
 };
 
-/// Walks over the components and decides for each face whether it must be reversed.
-class Orientation {
+/// Walks over the parts and decides for each face whether it must be reversed.
+class Alignment {
  public:
-  Orientation(std::vector<Triangle>& triangles, const std::vector<glm::dvec3>& vertices)
-      : triangles_(triangles), vertices_(vertices), neighbours_(triangles.size()), turned_(triangles.size(), unseen) {
+  explicit Alignment(std::vector<Triangle>& triangles)
+      : triangles_(triangles), neighbours_(triangles.size()), turned_(triangles.size(), unseen) {
     join(sorted_sides(triangles));
   }
 
-  SurfaceFindings run() {
-    for (Index f = 0; f < triangles_.size(); ++f) {
-      if (turned_[f] != unseen) continue;
-      ++findings_.components;
-      settle(walk(f));
-    }
-    return findings_;
+  std::vector<SurfacePart> run() {
+    std::vector<SurfacePart> parts;
+    for (Index f = 0; f < triangles_.size(); ++f)
+      if (turned_[f] == unseen) settle(parts.emplace_back(walk(f)));
+    return parts;
   }
 
  private:
@@ -67,7 +71,6 @@ class Orientation {
       const Side &a = sides[i], &b = sides[end - 1];
       if (end - i == 1) {
         add(a.face, {});
-        ++findings_.border_edges;
       } else {
         add(a.face, {b.face, a.ascends != b.ascends, a.edge});
         add(b.face, {a.face, a.ascends != b.ascends, a.edge});
@@ -76,13 +79,15 @@ class Orientation {
     }
   }
 
-  /// Returns the component of a face, and marks the faces that must be reversed to agree with it.
-  std::vector<Index> walk(Index start) {
+  /// Returns the part of a face, and marks the faces that must be reversed to agree with it.
+  SurfacePart walk(Index start) {
     std::vector<Index> component{start};
+    bool closed = true;
     turned_[start] = no;
     for (std::size_t i = 0; i < component.size(); ++i) {
       const Index face = component[i];
       for (const Neighbour& n : neighbours_[face]) {
+        closed = closed && n.face != none;
         if (n.face == none) continue;
         const Turned wanted = n.agrees == (turned_[face] == no) ? no : yes;
         if (turned_[n.face] == unseen) {
@@ -93,40 +98,94 @@ class Orientation {
         }
       }
     }
-    return component;
+    return {std::move(component), closed};
   }
 
-  /// Reverses the marked faces, or the others if the closed component would be inside out.
-  void settle(const std::vector<Index>& component) {
-    bool closed = true;
-    std::vector<Triangle> faces;
-    for (const Index f : component) {
-      Triangle t = triangles_[f];
-      if (turned_[f] == yes) std::swap(t[1], t[2]);
-      faces.push_back(t);
-      for (const Neighbour& n : neighbours_[f]) closed = closed && n.face != none;
-    }
-    const bool inside_out = closed && volume(vertices_, faces) < 0;
-    for (std::size_t i = 0; i < component.size(); ++i) {
-      Triangle& t = triangles_[component[i]];
-      if (inside_out) std::swap(faces[i][1], faces[i][2]);
-      if (t == faces[i]) continue;
-      t = faces[i];
-      ++findings_.turned_faces;
-    }
+  /// Reverses the marked faces, or the others if they are fewer and the part is closed.
+  void settle(const SurfacePart& part) {
+    const auto marked = std::ranges::count_if(part.faces, [&](Index f) { return turned_[f] == yes; });
+    const Turned wrong = part.closed && 2 * marked > std::ssize(part.faces) ? no : yes;
+    for (const Index f : part.faces)
+      if (turned_[f] == wrong) std::swap(triangles_[f][1], triangles_[f][2]);
   }
 
   std::vector<Triangle>& triangles_;
-  const std::vector<glm::dvec3>& vertices_;
   std::vector<std::array<Neighbour, 3>> neighbours_;  // of each face
   std::vector<Turned> turned_;
-  SurfaceFindings findings_;
 };
+
+/// Returns for each of these closed parts how many others it lies wholly inside; none for one that meets another.
+std::vector<std::size_t> depths_of(const std::vector<SurfacePart>& parts, const std::vector<Triangle>& triangles,
+                                   const std::vector<glm::dvec3>& vertices) {
+  Points at;
+  collide::Bodies bodies;
+  collide::surface::Surfaces surfaces;
+  std::vector<Index> owner;  // of each vertex of the bodies
+  for (const SurfacePart& part : parts) {
+    std::map<Index, Index> local;
+    std::vector<glm::dvec3> points;
+    std::vector<Triangle> faces;
+    for (const Index f : part.faces) {
+      Triangle& t = faces.emplace_back(triangles[f]);
+      for (Index& corner : t) {
+        const auto [known, is_new] = local.try_emplace(corner, static_cast<Index>(points.size()));
+        if (is_new) points.push_back(vertices[corner]);
+        corner = known->second;
+      }
+    }
+    at.add(points);
+    owner.resize(owner.size() + points.size(), static_cast<Index>(surfaces.size()));
+    const auto count = static_cast<Index>(points.size());
+    surfaces.push_back(std::make_shared<const collide::surface::Surface>(count, std::move(faces)));
+    bodies.add(std::make_shared<collide::Shape>(count, surfaces.back()->edges()));
+  }
+  collide::Workers workers(1);
+  const auto overlaps = collide::oracle::find_overlaps({at.x, at.y, at.z, &bodies}, surfaces, workers, false);
+  std::map<std::pair<Index, Index>, std::size_t> inside;  // vertices of a part inside another
+  for (const auto& p : overlaps.penetrations) ++inside[{owner[p.vertex], p.body}];
+  std::vector<std::size_t> depth(parts.size(), 0);
+  std::vector<char> meets(parts.size(), false);
+  for (const auto& [pair, count] : inside) {
+    ++depth[pair.first];
+    if (count < bodies.size(pair.first)) meets[pair.first] = meets[pair.second] = true;
+  }
+  for (const auto& p : overlaps.piercings)
+    if (p.edge_body != p.triangle_body) meets[p.edge_body] = meets[p.triangle_body] = true;
+  for (Index i = 0; i < parts.size(); ++i)
+    if (meets[i]) depth[i] = 0;
+  return depth;
+}
 
 }  // namespace
 
+std::vector<SurfacePart> align(std::vector<Triangle>& triangles) { return Alignment(triangles).run(); }
+
+double volume(const std::vector<glm::dvec3>& vertices, const std::vector<Triangle>& triangles,
+              const SurfacePart& part) {
+  std::vector<Triangle> faces;
+  for (const Index f : part.faces) faces.push_back(triangles[f]);
+  return volume(vertices, faces);
+}
+
 SurfaceFindings orient(std::vector<Triangle>& triangles, const std::vector<glm::dvec3>& vertices) {
-  return Orientation(triangles, vertices).run();
+  const std::vector<Triangle> before = triangles;
+  std::vector<SurfacePart> parts = align(triangles);
+  SurfaceFindings findings{.components = parts.size()};
+  findings.closed = std::erase_if(parts, [](const SurfacePart& part) { return !part.closed; }) == 0;
+  std::vector<char> inwards;
+  for (const SurfacePart& part : parts) inwards.push_back(volume(vertices, triangles, part) < 0);
+  const bool may_have_cavities = parts.size() > 1 && std::ranges::count(inwards, char(true)) > 0;
+  const std::vector<std::size_t> depth =
+      may_have_cavities ? depths_of(parts, triangles, vertices) : std::vector<std::size_t>(parts.size(), 0);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!inwards[i]) continue;
+    if (depth[i] % 2 == 1)
+      ++findings.cavities;
+    else
+      for (const Index f : parts[i].faces) std::swap(triangles[f][1], triangles[f][2]);
+  }
+  for (std::size_t f = 0; f < before.size(); ++f) findings.turned_faces += triangles[f] != before[f];
+  return findings;
 }
 
 }  // namespace softbody

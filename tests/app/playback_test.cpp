@@ -131,6 +131,29 @@ TEST_F(PlaybackTest, RefusesCoordinatesWhoseSquaresWouldOverflow) {
   EXPECT_TRUE(std::isfinite(playback.bounds()[1].x));
 }
 
+/// Returns a row of the vertices of a triangle, at so many metres along x.
+std::string triangle_at(double x) {
+  std::ostringstream text;
+  text.precision(17);
+  for (const auto& [dx, dy] : {std::pair(0.0, 0.0), {1.25, 0.0}, {0.0, 0.75}})
+    text << "v " << 448262.1 + x + dx << ' ' << 112.3 + dy << " 5411932.7\n";
+  return text.str() + "f 1 2 3\n";
+}
+
+TEST_F(PlaybackTest, KeepsMotionFarFromTheOrigin) {
+  std::vector<std::filesystem::path> files;
+  for (const double x : {0.0, 0.01, 12.34})
+    files.push_back(folder.write(std::to_string(files.size()) + ".obj", triangle_at(x)));
+  files::Playback playback(files);
+  const auto first = playback.frame(0);
+  EXPECT_NEAR(first->x[1] - first->x[0], 1.25, 1e-6);
+  EXPECT_NEAR(first->y[2] - first->y[0], 0.75, 1e-6);
+  EXPECT_NEAR(playback.frame(1)->x[0] - first->x[0], 0.01, 1e-6) << "all frames are moved by the same way";
+  EXPECT_NEAR(playback.frame(2)->x[2] - first->x[2], 12.34, 2e-6);
+  EXPECT_LT(glm::length(playback.bounds()[0]), 10);
+  EXPECT_NEAR(playback.usual_tolerance(), 0.625f, 1e-6f);
+}
+
 TEST_F(PlaybackTest, NamesItsFilesForACommandLine) {
   const auto files = three();
   EXPECT_EQ(files::Playback(files, files::BodiesBy::components).command_words(),

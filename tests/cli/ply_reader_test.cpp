@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <functional>
 #include <random>
 #include <string>
 #include <vector>
@@ -75,6 +77,61 @@ TEST(ReadPly, ReadsABinaryPartAfterAHeadWithAnyLineEnd) {
   // Bytes that look like ends of lines, of the file, or of a joined line.
   const float odd = std::bit_cast<float>(0x0a0d1a5c);
   EXPECT_EQ(read(ply({{odd, odd, odd}}, {}, form)).at.x, std::vector<float>{odd});
+}
+
+/// Returns a binary file of one vertex (x, 2, 3), with another end for each line of its head.
+std::string with_ends(const std::function<std::string(int line)>& end, float x) {
+  std::string text = ply({{x, 2, 3}}, {}, {.format = "binary_little_endian"}), changed;
+  const std::size_t rows = text.size() - 12;
+  int line = 0;
+  for (const char c : text.substr(0, rows)) changed += c == '\n' ? end(++line) : std::string(1, c);
+  return changed + text.substr(rows);
+}
+
+TEST(ReadPly, DecidesByTheFirstLineWhereTheBinaryPartBegins) {
+  for (const unsigned first : {0x0au, 0x0du, 0x0d0au, 0x0a0du, 0x0a0au, 0x20u, 0x1au, 0u})
+    for (const std::string end : {"\n", "\r\n", "\r"}) {
+      const float x = std::bit_cast<float>(0x3f800000u + first);
+      EXPECT_EQ(read(with_ends([&](int) { return end; }, x)).at.x, std::vector<float>{x})
+          << first << ' ' << int(end[0]);
+    }
+  const float x = std::bit_cast<float>(0x3f80000au);
+  for (const std::string one : {"\n", "\r\n"})  // either is one end, whatever the others are
+    EXPECT_EQ(read(with_ends([&](int line) { return line % 2 == 0 ? "\n" : one; }, x)).at.x, std::vector<float>{x});
+}
+
+TEST(ReadPly, RefusesAHeadWhoseLinesEndOtherwiseThanTheFirst) {
+  for (const std::string first : {"\n", "\r\n", "\r"})
+    for (const std::string other : {"\n", "\r\n", "\r"})
+      for (const int odd : {2, 3, 7, 8}) {
+        if ((first == "\r") == (other == "\r")) continue;
+        const std::string text = with_ends([&](int line) { return line == odd ? other : first; }, 1);
+        if (first == "\r" && other == "\r\n" && text.find("end_header\r\n") != text.npos) continue;  // LF is data
+        try {
+          read(text);
+          ADD_FAILURE() << "was taken: " << text;
+        } catch (const app::files::MeshFileError& error) {
+          const std::string line = error.what();
+          EXPECT_NE(line.find("end all lines of the header alike"), line.npos) << line;
+        }
+      }
+  EXPECT_THROW(read("ply\nformat ascii 1.0\ncomment a\rproperty\n"), app::files::MeshFileError);
+}
+
+TEST(ReadPly, TakesAByteOrderMark) {
+  for (const char* format : {"ascii", "binary_little_endian"}) {
+    const std::string text = "\xEF\xBB\xBF" + ply({{1, 2, 3}}, {}, {.format = format});
+    EXPECT_EQ(read(text).at.x, std::vector<float>{1});
+    const TemporaryFolder folder;
+    EXPECT_EQ(app::files::read_bodies(folder.write("a.obj", text)).at.x, std::vector<float>{1});
+  }
+  try {
+    read("\xFF\xFEp\0l\0y\0\n");
+    FAIL();
+  } catch (const app::files::MeshFileError& error) {
+    EXPECT_NE(std::string(error.what()).find("a.ply:1: is UTF-16; save it as UTF-8"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(ReadPly, ReadsTriangleStrips) {

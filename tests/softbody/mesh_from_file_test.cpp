@@ -117,6 +117,42 @@ TEST(MeshFromFile, AConcaveBodyFallsComesToRestAndKeepsItsShape) {
   EXPECT_GT(distortion(other), 3 * distortion(world)) << "springs and gas alone do not hold it";
 }
 
+/// Returns a sphere as an OBJ file, whose faces may be reversed.
+std::string ball_obj(const Mesh& ball, bool inwards) {
+  std::string text;
+  for (const glm::dvec3& v : ball.vertices) text += vertex(v);
+  const int count = int(ball.vertices.size());
+  for (const auto& [a, b, c] : ball.triangles)
+    text += face({int(a) - count, int(inwards ? c : b) - count, int(inwards ? b : c) - count});
+  return text;
+}
+
+TEST(MeshFromFile, AHollowBallFallsAndStaysHollow) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "meshes");
+  const Mesh outer = icosphere(2, 0.5), inner = icosphere(1, 0.3);
+  folder.write("meshes/ring.obj", ball_obj(outer, false) + ball_obj(inner, true));
+  Scene scene = load_scene(folder.write("hollow.toml", falling_ring));
+  const double hollow = volume(outer.vertices, outer.triangles) - volume(inner.vertices, inner.triangles);
+  scene.bodies.push_back(scene.bodies[0]);
+  scene.bodies[1].position = {0.6, 4.2, 0.2};  // falls on the first one
+  for (const ContactSurface surface : {ContactSurface::vertices, ContactSurface::surfaces}) {
+    scene.contact_surface = surface;
+    World world(scene, {});
+    EXPECT_NEAR(world.model(0).start_volume, hollow * 1.3 * 1.3 * 1.3, 0.01);
+    for (int i = 0; i < 200; ++i) {
+      world.step();
+      const Measures m = measure(world);
+      ASSERT_TRUE(m.finite);
+      ASSERT_NEAR(m.volume_ratio_min, 1, 0.05);
+      ASSERT_NEAR(m.volume_ratio_max, 1, 0.05);
+    }
+    double lowest = INFINITY;
+    for (const Particle& p : particles_of(world)) lowest = std::min(lowest, p.position.y);
+    EXPECT_LT(lowest, 1.5) << "it has fallen";
+  }
+}
+
 TEST(MeshFromFile, IsReadOnceForAllBodiesAndFoundFromTheSceneFile) {
   const TemporaryFolder folder;
   folder.write("a.obj", tetrahedron);

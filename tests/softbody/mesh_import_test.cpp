@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iomanip>
 #include <sstream>
 
 #include "softbody/mesh/file_mesh.h"
@@ -407,6 +409,148 @@ TEST(MeshImport, ReadsPlyAsItReadsObj) {
                 .find("between vertices 0 and 1 (counted from 0) has more than two faces: see faces 0, 2 and 6 "
                       "(counted from 0);"),
             std::string::npos);
+}
+
+/// Returns a mesh as a PLY file with coordinates of this type, moved by `at`.
+template <class Real>
+std::string binary_ply(const Mesh& mesh, const glm::dvec3& at, bool big_endian) {
+  std::string text = std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
+                     "_endian 1.0\nelement vertex " + std::to_string(mesh.vertices.size()) + '\n';
+  for (const char* axis : {"x", "y", "z"})
+    text += std::string("property ") + (sizeof(Real) == 8 ? "double " : "float ") + axis + '\n';
+  text +=
+      "element face " + std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_index\nend_header\n";
+  const auto add = [&]<class Number>(Number number) {
+    auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(number);
+    if (big_endian != (std::endian::native == std::endian::big)) std::ranges::reverse(bytes);
+    text.append(bytes.begin(), bytes.end());
+  };
+  for (const glm::dvec3& v : mesh.vertices)
+    for (int axis = 0; axis < 3; ++axis) add(static_cast<Real>(at[axis] + v[axis]));
+  for (const Triangle& t : mesh.triangles) {
+    text += '\3';
+    for (const Index corner : t) add(static_cast<std::int32_t>(corner));
+  }
+  return text;
+}
+
+/// Returns a mesh as an OBJ file with so many decimals, moved by `at`. turned: its faces are reversed.
+std::string obj_of(const Mesh& mesh, const glm::dvec3& at, int decimals, bool turned = false) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(decimals);
+  for (const glm::dvec3& v : mesh.vertices)
+    text << "v " << at.x + v.x << ' ' << at.y + v.y << ' ' << at.z + v.z << '\n';
+  const auto count = int(mesh.vertices.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const int i = int(a) - count, j = int(b) - count, k = int(c) - count;
+    text << (turned ? face({i, k, j}) : face({i, j, k}));
+  }
+  return text.str();
+}
+
+constexpr glm::dvec3 on_a_map(448262.25, 112.5, 5411932.75), on_the_globe(4027893.7517, 307045.6003, 4919474.9114);
+
+TEST(MeshImport, AMeshFarFromTheOriginKeepsItsForm) {
+  const Mesh large = icosphere(3, 6), small = icosphere(3, 0.5);
+  for (const std::string& file :
+       {obj_of(large, on_a_map, 4), obj_of(large, on_a_map, 6), binary_ply<double>(large, on_a_map, false),
+        binary_ply<double>(large, on_a_map, true), obj_of(small, on_the_globe, 6),
+        binary_ply<double>(small, on_the_globe, false), binary_ply<double>(small, 1e4 * on_the_globe, false)})
+    for (const glm::dvec3& up : {glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(1, 2, 3)}) {
+      const auto [mesh, found] = read(file, {.size = 1, .up = up});
+      ASSERT_EQ(mesh.vertices.size(), 642u) << "no vertex vanishes";
+      const double widest = up == glm::dvec3(1, 2, 3) ? 0.002 : 0;  // a box of its corners, not of the round sphere
+      for (const glm::dvec3& v : mesh.vertices) ASSERT_NEAR(glm::length(v), 0.5, 1e-5 + widest);
+      EXPECT_EQ(found.coarse_step, 0);
+      EXPECT_EQ(remarks(found), "");
+    }
+}
+
+TEST(MeshImport, SaysWhereAFileHasTooFewDigits) {
+  const Mesh ball = icosphere(3, 6);
+  const auto remark = [&](const std::string& file) { return remarks(read(file, {.size = 1}).findings); };
+  for (const std::string& file : {binary_ply<float>(ball, on_a_map, false), binary_ply<float>(ball, on_a_map, true)})
+    EXPECT_EQ(remark(file),
+              "the file gives coordinates in steps of 0.5, which is much of its edges: export it with more digits, or "
+              "nearer to the origin");
+  EXPECT_NE(remark(obj_of(ball, on_a_map, 0)).find("in steps of 1,"), std::string::npos);
+  EXPECT_NE(remark(obj_of(ball, glm::dvec3(0), 0)).find("in steps of 1,"), std::string::npos) << "anywhere";
+  EXPECT_EQ(remark(obj_of(ball, on_a_map, 2)), "");
+  EXPECT_EQ(remark(binary_ply<float>(ball, {3e3, 0, 0}, false)), "");
+  const std::string lost = error_of(binary_ply<float>(icosphere(3, 0.5), on_the_globe, false), {.size = 1});
+  EXPECT_TRUE(lost == "was taken" || lost.find("in steps of 0.5, ") != std::string::npos) << lost;
+  EXPECT_EQ(read(cube_vertices + cube_faces, {.size = 1}).findings.coarse_step, 0) << "whole numbers are meant so";
+  EXPECT_EQ(read(obj_of(read(cube_vertices + cube_faces).mesh, on_a_map, 0)).findings.coarse_step, 0);
+}
+
+TEST(MeshImport, RefusesWhatFloatsCannotHold) {
+  const std::string faces = "f 1 2 3\n";
+  EXPECT_NE(error_of("v 0 0 0\nv 1e39 0 0\nv 0 1e39 0\n" + faces, {.size = 1}).find("beyond 3.4e38"),
+            std::string::npos);
+  EXPECT_NE(error_of("v 0 0 0\nv 1e-200 0 0\nv 0 1e-200 0\n" + faces, {.size = 1}).find("one point"),
+            std::string::npos);
+  EXPECT_EQ(error_of("v 3e38 0 0\nv -3e38 0 0\nv 0 3e38 0\n" + faces, {.size = 1}), "was taken");
+}
+
+std::string ball(double radius, const glm::dvec3& at, bool inwards) {
+  return obj_of(icosphere(1, radius), at, 6, inwards);
+}
+double ball_volume(double radius) {
+  const Mesh mesh = icosphere(1, radius);
+  return volume(mesh.vertices, mesh.triangles);
+}
+
+TEST(MeshImport, APartInsideAnotherThatFacesInwardsIsACavity) {
+  const glm::dvec3 here(0), off(0.2, 0.1, 0);
+  const auto [mesh, found] = read(ball(1, here, false) + ball(0.6, off, true));
+  EXPECT_TRUE(mesh.closed);
+  EXPECT_NEAR(volume(mesh.vertices, mesh.triangles), ball_volume(1) - ball_volume(0.6), 1e-5);
+  EXPECT_EQ(found.turned_faces, 0u);
+  EXPECT_EQ(remarks(found), "1 cavities, which hold no gas");
+
+  const auto expect = [](const std::string& obj, double wanted, std::size_t cavities, std::size_t turned) {
+    const auto [m, f] = read(obj);
+    EXPECT_NEAR(volume(m.vertices, m.triangles), wanted, 1e-5);
+    EXPECT_EQ(f.cavities, cavities);
+    EXPECT_EQ(f.turned_faces, turned);
+  };
+  const double one = ball_volume(1), large = ball_volume(0.6), small = ball_volume(0.2);
+  expect(ball(0.6, off, true) + ball(1, here, false), one - large, 1, 0);   // in any order
+  expect(ball(1, here, true) + ball(0.6, off, true), one - large, 1, 80);   // nothing is outside the first
+  expect(ball(1, here, false) + ball(0.6, off, false), one + large, 0, 0);  // another body in it
+  expect(ball(1, here, false) + ball(0.6, off, true) + ball(0.2, off, false), one - large + small, 1, 0);
+  expect(ball(1, here, false) + ball(0.6, off, true) + ball(0.2, off, true), one - large + small, 1, 80);
+  expect(ball(1, here, false) + ball(0.2, {0.5, 0, 0}, true) + ball(0.2, {-0.5, 0, 0}, true), one - 2 * small, 2, 0);
+  expect(ball(1, here, false) + ball(0.6, {0.7, 0, 0}, true), one + large, 0, 80);  // sticks out
+  expect(ball(1, here, false) + ball(0.6, {3, 0, 0}, true), one + large, 0, 80);    // lies beside it
+  expect(ball(1, here, false) + ball(0.2, {0.5, 0, 0}, true) + ball(0.2, {0.6, 0, 0}, true), one + 2 * small, 0, 160);
+  const std::string sleeve = vertex({0.5, 0, 0}) + vertex({2, 0, 0}) + vertex({2, 1, 0}) + face({-3, -2, -1});
+  EXPECT_EQ(read(ball(1, here, false) + sleeve + ball(0.2, here, true)).findings.cavities, 1u)
+      << "open parts do not count";
+}
+
+TEST(MeshImport, ACavityMayHaveSomeFacesTurned) {
+  const std::string inner = ball(0.6, {0, 0, 0}, true);
+  const std::size_t first = inner.find('f'), second = inner.find('f', first + 1);
+  const Mesh sphere = icosphere(1, 0.6);
+  const int n = int(sphere.vertices.size());
+  const auto& [a, b, c] = sphere.triangles[0];
+  const std::string mixed = inner.substr(0, first) + face({int(a) - n, int(b) - n, int(c) - n}) + inner.substr(second);
+  const auto found = read(ball(1, {0, 0, 0}, false) + mixed).findings;
+  EXPECT_EQ(found.cavities, 1u);
+  EXPECT_EQ(found.turned_faces, 1u) << "most faces tell";
+}
+
+TEST(MeshImport, ACoarseMeshKeepsCavities) {
+  const TemporaryFolder folder;
+  const Mesh outer = icosphere(4, 1), inner = icosphere(3, 0.7);
+  const auto file = folder.write("a.obj", obj_of(outer, {0, 0, 0}, 6) + obj_of(inner, {0, 0.1, 0}, 6, true));
+  const ImportedMesh imported = import_mesh({.path = file, .resolution = 400});
+  ASSERT_TRUE(imported.coarse);
+  const double wanted = volume(imported.mesh.vertices, imported.mesh.triangles);
+  EXPECT_NEAR(volume(imported.coarse->mesh.vertices, imported.coarse->mesh.triangles), wanted, 0.06 * wanted);
+  EXPECT_NEAR(wanted, volume(outer.vertices, outer.triangles) - volume(inner.vertices, inner.triangles), 1e-4);
+  EXPECT_EQ(imported.findings.crossings, 0u);
 }
 
 TEST(MeshImport, RefusesWithTheReason) {
