@@ -53,6 +53,11 @@ report() {
   "$program" report "$@" --out "$work/$1" >/dev/null
 }
 
+# picture PLOT FILE: puts a plot of a report among the pictures of the pages, if gnuplot has drawn it.
+picture() {
+  if [ -f "$work/$1" ]; then cp "$work/$1" "assets/screenshots/$2"; else echo "$2: left as it is, without gnuplot"; fi
+}
+
 # Of detection.csv only the paper's level on its scenes and on the cloth, and the growth; of stability.csv the integrators
 # that are stable at any step: the pages need no more.
 detection() {
@@ -61,6 +66,8 @@ detection() {
     publish detection.csv "$program" "$command"
   table "$work/detection/report.md" "Table 1" | publish detection-table-1.csv "$program" "$command"
   table "$work/detection/report.md" "Growth" | publish detection-growth.csv "$program" "$command"
+  picture detection/error-time-D.png error-time-D.png
+  picture detection/cost-bodies.png cost-bodies.png
 }
 contact() {
   report contact --threads 1
@@ -74,6 +81,7 @@ solver() {
   table "$work/solver/solver.md" "promises" | publish solver-promise.csv "$program" "$command"
   table "$work/solver/solver.md" "Stiffness against resolution" | publish solver-stiffness.csv "$program" "$command"
   table "$work/solver/solver.md" "Coarse against fine" | publish solver-coarse.csv "$program" "$command"
+  picture solver/solver-free-1e3.png error-time-free-flight.png
 }
 stability() {
   report stability

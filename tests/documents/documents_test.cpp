@@ -9,6 +9,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -176,8 +178,11 @@ int write() {
 }  // namespace
 }  // namespace softbody::test
 
-int main(int count, char** arguments) {
+int main(int count, char** arguments) try {
   testing::InitGoogleTest(&count, arguments);
   if (count == 2 && std::string(arguments[1]) == "--write") return softbody::test::write();
   return RUN_ALL_TESTS();
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "test_documents: %s\n", error.what());
+  return 1;
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "app/base/parse_numbers.h"
@@ -69,14 +70,12 @@ struct OpenByDoubleClick {
   ~OpenByDoubleClick() { ImGui::GetIO().KeyCtrl = before; }
 };
 
-}  // namespace
-
-namespace {
-
 template <class Value>
 constexpr ImGuiDataType imgui_type = std::is_same_v<Value, float> ? ImGuiDataType_Float
                                      : std::is_signed_v<Value>    ? ImGuiDataType_S32
                                                                   : ImGuiDataType_U32;
+
+std::string id_of(const char* label) { return fmt::format("##{}", label); }
 
 /// Returns the value as a field for typing shows it: without what stands round the number in `format`.
 template <class Value>
@@ -95,7 +94,8 @@ bool Widgets::type(const Number<Value>& n) {
   const std::string shown = field_text(n.value, n.format);
   std::array<char, 1024> typed{};
   shown.copy(typed.data(), typed.size() - 1);
-  const bool edited = ImGui::InputText(n.id, typed.data(), typed.size(), ImGuiInputTextFlags_AutoSelectAll);
+  const bool edited =
+      ImGui::InputText(id_of(n.label).c_str(), typed.data(), typed.size(), ImGuiInputTextFlags_AutoSelectAll);
   const ImGuiID id = ImGui::GetItemID();
   if (ImGui::IsItemActivated()) open_field(id, n.value);
   if (!edited) return false;
@@ -107,8 +107,9 @@ bool Widgets::type(const Number<Value>& n) {
   if (text == kept_text) {  // the value itself may have more digits
     n.value = kept;
   } else if (number) {
-    n.value = static_cast<Value>(std::clamp(*number, static_cast<double>(n.min), static_cast<double>(n.max)));
-    if (*number < static_cast<double>(n.min) || *number > static_cast<double>(n.max))
+    const double nearest = std::clamp(*number, static_cast<double>(n.min), static_cast<double>(n.max));
+    n.value = static_cast<Value>(nearest);
+    if (std::abs(*number - nearest) > std::abs(nearest) * static_cast<double>(std::numeric_limits<Value>::epsilon()))
       input_.field_problem =
           fmt::format("{}: {:.40} is beyond the limits and becomes {}", n.label, text, field_text(n.value, n.format));
   } else {
@@ -121,9 +122,10 @@ bool Widgets::type(const Number<Value>& n) {
 
 template <class Value, class Show>
 bool Widgets::drag_or_type(const Number<Value>& n, const Show& show) {
-  const ImGuiID id = ImGui::GetID(n.id);
+  const std::string name = id_of(n.label);
+  const ImGuiID id = ImGui::GetID(name.c_str());
   if (ImGui::TempInputIsActive(id)) return type(n);
-  const bool changed = show();
+  const bool changed = show(name.c_str());
   if (ImGui::TempInputIsActive(id)) open_field(id, n.value);
   return changed;
 }
@@ -136,7 +138,7 @@ bool Widgets::slide(const Number<Value>& n, const Show& show) {
   const bool changed = [&] {
     const HiddenGrab hide;
     const OpenByDoubleClick opens;
-    return drag_or_type(n, [&] { return show(double_clicked); });
+    return drag_or_type(n, [&](const char* id) { return show(id, double_clicked); });
   }();
   if (double_clicked) {
     if (!ImGui::IsItemActive()) n.value = now;  // the second click missed the slider
@@ -149,9 +151,8 @@ bool Widgets::slide(const Number<Value>& n, const Show& show) {
 }
 
 bool Widgets::slider(const char* label, int& value, int min, int max, const char* format, const char* tooltip) {
-  const std::string id = fmt::format("##{}", label);
-  const bool changed = slide<int>({label, id.c_str(), value, min, max, format}, [&](bool) {
-    return ImGui::SliderInt(id.c_str(), &value, min, max, format, clamped);
+  const bool changed = slide<int>({label, value, min, max, format}, [&](const char* id, bool) {
+    return ImGui::SliderInt(id, &value, min, max, format, clamped);
   });
   draw_grab(relative_position(value, min, max, false), static_cast<float>(max - min), px(slider_bar));
   register_number(label, tooltip);
@@ -160,10 +161,9 @@ bool Widgets::slider(const char* label, int& value, int min, int max, const char
 
 bool Widgets::slider(const char* label, float& value, float min, float max, const char* format, const char* tooltip,
                      bool logarithmic) {
-  const std::string id = fmt::format("##{}", label);
   const ImGuiSliderFlags flags = clamped | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-  const bool changed = slide<float>({label, id.c_str(), value, min, max, format}, [&](bool) {
-    return ImGui::SliderFloat(id.c_str(), &value, min, max, format, flags);
+  const bool changed = slide<float>({label, value, min, max, format}, [&](const char* id, bool) {
+    return ImGui::SliderFloat(id, &value, min, max, format, flags);
   });
   // A logarithmic slider from 0 begins at the smallest number that ImGui shows.
   const double begin = logarithmic ? std::max(double{min}, std::pow(0.1, ImParseFormatPrecision(format, 3))) : min;
@@ -175,9 +175,8 @@ bool Widgets::slider(const char* label, float& value, float min, float max, cons
 bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
                      const char* tooltip) {
   assert(min > 0);
-  const std::string id = fmt::format("##{}", label);
-  const bool changed = slide<std::uint32_t>({label, id.c_str(), value, min, max, "%u"}, [&](bool typed) {
-    return ImGui::SliderScalar(id.c_str(), ImGuiDataType_U32, &value, &min, &max, typed ? "%u" : "",
+  const bool changed = slide<std::uint32_t>({label, value, min, max, "%u"}, [&](const char* id, bool typed) {
+    return ImGui::SliderScalar(id, ImGuiDataType_U32, &value, &min, &max, typed ? "%u" : "",
                                clamped | ImGuiSliderFlags_Logarithmic);
   });
   draw_grab(relative_position(value, min, max, true), 0, px(slider_bar));
@@ -187,17 +186,16 @@ bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t min,
 
 bool Widgets::drag(const char* label, glm::dvec3& value, float min, float max, const char* tooltip) {
   constexpr float metres_per_pixel = 0.01f;
-  constexpr std::array axes{"x", "y", "z"};
   bool changed = false;
   ImGui::BeginGroup();
   ImGui::PushMultiItemsWidths(3, ImGui::CalcItemWidth());
   for (glm::length_t axis = 0; axis < 3; ++axis) {
     if (axis > 0) ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-    const std::string name = fmt::format("{}, {}", label, axes[static_cast<std::size_t>(axis)]), id = "##" + name;
+    const std::string name = fmt::format("{}, {}", label, "xyz"[axis]);
     auto shown = static_cast<float>(value[axis]);
-    const Number<float> number{name.c_str(), id.c_str(), shown, min, max, "%.2f"};
-    if (drag_or_type(number, [&] {
-          return ImGui::DragFloat(id.c_str(), &shown, metres_per_pixel, min, max, number.format, clamped);
+    const Number<float> number{name.c_str(), shown, min, max, "%.2f"};
+    if (drag_or_type(number, [&](const char* id) {
+          return ImGui::DragFloat(id, &shown, metres_per_pixel, min, max, number.format, clamped);
         })) {
       value[axis] = static_cast<double>(shown);
       changed = true;
@@ -212,8 +210,7 @@ bool Widgets::drag(const char* label, glm::dvec3& value, float min, float max, c
 bool Widgets::number_field(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
                            const char* tooltip) {
   value = std::clamp(value, min, max);
-  const std::string id = fmt::format("##{}", label);
-  const bool changed = type<std::uint32_t>({label, id.c_str(), value, min, max, "%u"});
+  const bool changed = type<std::uint32_t>({label, value, min, max, "%u"});
   register_item(label, tooltip);
   return changed;
 }

@@ -145,10 +145,10 @@ class Widgets {
  private:
   /// As register_item(); the tooltip also says how to change a number by dragging or typing.
   void register_number(const char* label, const char* tooltip);
-  /// A number and how it is shown. `id`: ImGui's identifier of the item.
+  /// A number and how it is shown.
   template <class Value>
   struct Number {
-    const char *label, *id;
+    const char* label;
     Value &value, min, max;
     const char* format;
   };
@@ -160,11 +160,11 @@ class Widgets {
   /// no number or beyond the limits, InputState::field_problem says so.
   template <class Value>
   bool type(const Number<Value>& number);
-  /// Draws a number by show(), an ImGui slider or the like that opens a field for typing. In place of that field, which
-  /// drops what it cannot read, draws type().
+  /// Draws a number by show(id), an ImGui slider or the like that opens a field for typing. In place of that field,
+  /// which drops what it cannot read, draws type().
   template <class Value, class Show>
   bool drag_or_type(const Number<Value>& number, const Show& show);
-  /// Draws a slider by drag_or_type() with show(opens_field). `opens_field`: the user is about to type.
+  /// Draws a slider by show(id, opens_field) and drag_or_type(). `opens_field`: the user is about to type.
   template <class Value, class Show>
   bool slide(const Number<Value>& number, const Show& show);
 
