@@ -40,14 +40,14 @@ struct FrameRow {
   std::optional<collide::oracle::SurfaceFigures> oracle;  // on request
 };
 
-FrameRow measure_row(const softbody::World& world) {
+FrameRow measure_row(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
   const auto& d = world.detection();
   return {world.frame(),
           world.last_step(),
           d.contacts.size() - d.self_contacts,
           d.self_contacts,
           softbody::solid_contacts(world).size(),
-          softbody::measure(world),
+          softbody::measure(world, bodies),
           {}};
 }
 
@@ -337,15 +337,13 @@ void simulate(const Options& options) {
   std::optional<compare::BlowUp> blow_up = monitor.check(world, softbody::measure_bodies(world));
   while (world.frame() < options.frames) {
     world.step();
-    if (!blow_up) {
-      blow_up = monitor.check(world, softbody::measure_bodies(world));
-      if (blow_up)
-        warn(warnings, fmt::format("frame {}: {}; see --integrator and --substeps", blow_up->frame, blow_up->what));
-    }
     pictures.take(world);
     obj_sequence.take(world);
     if (world.frame() % stride == 0 || world.frame() == options.frames) {
-      FrameRow row = measure_row(world);
+      const std::vector<softbody::BodyMeasures> bodies = softbody::measure_bodies(world);
+      if (!blow_up && (blow_up = monitor.check(world, bodies)))
+        warn(warnings, fmt::format("frame {}: {}; see --integrator and --substeps", blow_up->frame, blow_up->what));
+      FrameRow row = measure_row(world, bodies);
       if (options.oracle)
         row.oracle =
             collide::oracle::figures_of(world.simulated().positions, oracle.overlaps(world), oracle.crossings(world));

@@ -169,8 +169,10 @@ std::vector<SolidContactPoint> solid_contacts(const World& world) {
   return contacts;
 }
 
-Measures measure(const World& world) {
-  Measures m = total(measure_bodies(world));
+Measures measure(const World& world) { return measure(world, measure_bodies(world)); }
+
+Measures measure(const World& world, std::span<const BodyMeasures> bodies) {
+  Measures m = total(bodies);
   if (!m.finite) {
     m.deepest_penetration = std::numeric_limits<double>::quiet_NaN();
     return m;

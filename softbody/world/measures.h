@@ -25,6 +25,8 @@ struct Measures {
 };
 
 Measures measure(const World& world);
+/// The same, with the bodies measured already.
+Measures measure(const World& world, std::span<const BodyMeasures> bodies);
 /// Returns the sum of the measures of bodies, without their depth in solids.
 Measures total(std::span<const BodyMeasures> bodies);
 
