@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -12,7 +13,10 @@
 namespace softbody {
 namespace {
 
+// Eigen's own sums depend on how many numbers a register holds; what it does here element by element does not.
 using Vector = Eigen::VectorXd;
+double dot(const Vector& a, const Vector& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
+double norm(const Vector& v) { return std::sqrt(dot(v, v)); }
 
 class Laplacian {
  public:
@@ -38,11 +42,13 @@ class Laplacian {
 };
 
 /// Returns a unit vector without the symmetries of a mesh, so that it has a component along every eigenvector.
-Vector start(Eigen::Index size, int power) {
+Vector start(Eigen::Index size, bool squares) {
   Vector v(size);
-  for (Eigen::Index i = 0; i < size; ++i)
-    v[i] = std::fmod(std::pow(double(i + 1), power) * 0.6180339887498949, 1.0) - 0.5;
-  return v / v.norm();
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const auto number = double(i + 1);
+    v[i] = std::fmod((squares ? number * number : number) * 0.6180339887498949, 1.0) - 0.5;
+  }
+  return v / norm(v);
 }
 
 struct LargestEigenvalue {
@@ -59,11 +65,11 @@ LargestEigenvalue largest_eigenvalue(const Laplacian& laplacian, Vector v) {
   Eigen::Index count = 0;
   while (count < steps && (count == 0 || beside[count - 1] > 1e-12 * most)) {
     Vector next = laplacian * v;
-    diagonal[count] = v.dot(next);
+    diagonal[count] = dot(v, next);
     next -= diagonal[count] * v;
     if (count > 0) next -= beside[count - 1] * before;
-    beside[count++] = next.norm();
-    before = std::exchange(v, Vector(next / std::max(next.norm(), 1e-300)));
+    const double length = beside[count++] = norm(next);
+    before = std::exchange(v, Vector(next / std::max(length, 1e-300)));
   }
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
   ritz.computeFromTridiagonal(diagonal.head(count), beside.head(count - 1));
@@ -92,9 +98,9 @@ struct SumStretch {
 double pair_bound(std::size_t particles, std::span<const WeightedPair> pairs) {
   const Laplacian laplacian(particles, pairs);
   if (laplacian.gershgorin() <= 0) return 0;
-  const LargestEigenvalue first = largest_eigenvalue(laplacian, start(Eigen::Index(particles), 1));
+  const LargestEigenvalue first = largest_eigenvalue(laplacian, start(Eigen::Index(particles), false));
   if (!first.ended) return first.bound;
-  return std::max(first.bound, largest_eigenvalue(laplacian, start(Eigen::Index(particles), 2)).bound);
+  return std::max(first.bound, largest_eigenvalue(laplacian, start(Eigen::Index(particles), true)).bound);
 }
 
 void ModelForces::set_bounds(std::size_t particles) {

@@ -66,8 +66,12 @@ void ForceSet::kick(const ForceBatch& b) const {
   });
 }
 
-ForceBound bound_of(const Batch& b, Field<const float> x) {
+ForceBound bound_of(const Batch& b, Field<const float> x, bool projects) {
   const BodyModel& p = *b.model;
+  if (projects) {
+    const double unprojected = p.forces->offset_stiffness / p.particle_mass;
+    return {unprojected, unprojected};
+  }
   const double springs = stiffness_per_mass(p, {});
   ForceBound bound{springs, springs, damping_bound(p) / p.particle_mass};
   if (p.forces->pressure <= 0) return bound;

@@ -43,8 +43,9 @@ class ForceSet {
   ForceMask taken_;
 };
 
-/// Returns the bound of the forces inside those bodies of a batch that move. Its particles are at x.
-ForceBound bound_of(const Batch& batch, Field<const float> x);
+/// Returns the bound of the forces inside those bodies of a batch that move. Its particles are at x. projects: XPBD
+/// moves the particles, so that only those forces count that act as forces in it.
+ForceBound bound_of(const Batch& batch, Field<const float> x, bool projects);
 
 /// True if some force of a model acts on its bodies from outside.
 bool has_external_force(const BodyModel& model);

@@ -163,7 +163,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
     steps_.spend(work::surface * contacts_.find(frame.left, longest, longest));
     for (const collide::surface::SurfacePair& p : candidates.search().pairs()) join(p.a), join(p.b);
     frame.bound.passing = std::max(frame.bound.passing, double(candidates.substep_rate()));
-    const int without = plan.substeps;
+    const double without = plan.substeps;
     plan = steps_.plan(frame.bound, frame.left);
     surfaces_decide = plan.substeps > without;
   }
@@ -172,7 +172,8 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   if (frame.substeps == 0 && !implicit && plan.substeps >= many_substeps)
     for (const Batch* b : crew_.moving()) frame.momenta.note({*b, field(state_.x, b->base), field(state_.v, b->base)});
   const double h = frame.left / plan.substeps;
-  int now = fixed ? plan.substeps : std::clamp(StepBounds::trusted_substeps(frame.bound.fastest, h), 1, plan.substeps);
+  int now = int(fixed ? plan.substeps
+                      : std::clamp(double(StepBounds::trusted_substeps(frame.bound.fastest, h)), 1.0, plan.substeps));
   // Then it is looked whether the candidates still hold: at once where their speed decides the count.
   if (!candidates.empty()) now = std::min(now, fixed || surfaces_decide ? 1 : 4);
   // What pulls at bodies, and drives them off the motion that candidates were found for, shows only after a substep.

@@ -41,11 +41,13 @@ StepBound StepBounds::measure(const Integrator& integrator) const {
 
 StepBound StepBounds::measure(const Batch& b, const Integrator& integrator) const {
   const BodyModel& p = *b.model;
-  const ForceBound force = bound_of(b, field(state_.x, b.base));
+  const ForceBound force = bound_of(b, field(state_.x, b.base), integrator.projects);
   const double contact = penalty_.pairs.empty()
                              ? 0
                              : PenaltyLaw<double>::stiffness_bound(p.material[contact::stiffness]) / p.particle_mass;
-  const auto rate = [&](double stiffness) { return 1 / integrator.stable_step(stiffness + contact, force.damping); };
+  // What XPBD does not project acts as in semi-implicit Euler.
+  const auto step = integrator.projects ? stable_step : integrator.stable_step;
+  const auto rate = [&](double stiffness) { return 1 / step(stiffness + contact, force.damping); };
   unsigned near = 0;  // bits: lanes
   for (const SolidArguments& solid : solids_.near(b)) near |= solid.near;
   const Extent motion = state_.extent(b, state_.v, state_.v);

@@ -14,7 +14,8 @@ constexpr double longest_step =
 constexpr double accurate_rate = 480;
 /// Share by which volumes may change. Beyond it, breathing feeds other motion, so that it must not be damped away.
 constexpr double quiet_breathing = 0.02;
-constexpr double max_count = 5e8;    // substeps of a frame: an int holds them, and no budget pays for them
+constexpr double max_count = 1e30;   // substeps of a frame: such short ones move nothing, but stay finite
+constexpr double max_needed = 5e8;   // substeps as they are reported: an int holds them, and no budget pays for them
 constexpr double nearly = 1 - 1e-9;  // rounding of what is left of a frame must not add a substep
 
 }  // namespace
@@ -97,9 +98,10 @@ const StepPlan& StepController::plan(const StepBound& b, double left) {
   const Integrator& integrator = *plan_.integrator;
   const bool any_step = integrator.stable_at_any_step();
   const double needed = seconds_ * std::max({1 / longest_step, b.passing, stable_rate(b, integrator)});
-  plan_.needed = int(std::ceil(std::min(needed, max_count) * nearly));
+  plan_.needed = int(std::ceil(std::min(needed, max_needed) * nearly));
   const double own = integrator.substeps_per_step / seconds_;
-  const double rate = std::max(own, any_step ? implicit_rate(b) : explicit_rate(b));
+  const double rate =
+      std::max(own, any_step ? std::max(implicit_rate(b), stable_rate(b, integrator)) : explicit_rate(b));
   double count = left / seconds_;
   if (fixed()) {
     count *= fixed_steps_ * integrator.substeps_per_step;
@@ -107,10 +109,9 @@ const StepPlan& StepController::plan(const StepBound& b, double left) {
     count *= on_ladder(seconds_ * rate, integrator.step_lengths);
     // The rest of a frame may be no whole number of substeps of that length. Then explicit ones become a little
     // shorter; implicit ones, of which each length needs a matrix, are halved until the number is whole.
-    while (integrator.implicit && std::abs(count - std::round(count)) > 1e-6 && count < max_count) count *= 2;
+    while (integrator.implicit && std::abs(count - std::round(count)) > 1e-6) count *= 2;
   }
-  count = std::max(1.0, std::ceil(count * nearly));
-  plan_.substeps = int(count);
+  plan_.substeps = std::max(1.0, std::ceil(count * nearly));
   return plan_;
 }
 

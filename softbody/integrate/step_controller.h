@@ -24,7 +24,7 @@ struct StepBound {
 
 /// Returns the lowest rate (1/s) at which the integrator's steps are stable.
 inline double stable_rate(const StepBound& bound, const Integrator& integrator) {
-  if (integrator.stable_at_any_step()) return 0;
+  if (integrator.implicit) return 0;
   return integrator.implicit_volume ? bound.stable : std::max(bound.stable, bound.breathing);
 }
 
@@ -43,8 +43,8 @@ struct FrameConditions {
 struct StepPlan {
   const Integrator* integrator = nullptr;
   std::string_view why;  // reason for the integrator; empty unless the controller chose it
-  int substeps = 0;      // into which what is left of the frame is to be divided
-  int needed = 0;        // that the bound alone asks of a whole frame
+  double substeps = 0;   // whole, into which what is left of the frame is to be divided; no int may hold it
+  int needed = 0;        // that the bound alone asks of a whole frame, at most 5e8
 };
 
 /// The largest value, at least 0, of the last half second to one second.

@@ -1,6 +1,6 @@
 // The state that every shipped scene comes to by either contact, one of them by every integrator, bit for bit: with any
-// number of threads, any instruction set, over a snapshot, and through the program. Where the simulation is meant to
-// give other bits from now on,
+// number of threads, any instruction set, over a snapshot, and through the program; and in test_hashes_scalar, where
+// Eigen is compiled without vectors. Where the simulation is meant to give other bits from now on,
 //   test_hashes --write
 // writes hashes.txt anew. Its first line is the version of meshoptimizer: coarse meshes depend on it.
 
@@ -13,6 +13,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "softbody/forces/bound.h"
 #include "softbody/world/snapshot.h"
 #include "softbody/world/world.h"
 #include "tests/cli/process.h"
@@ -111,6 +112,16 @@ INSTANTIATE_TEST_SUITE_P(All, Hashes, testing::ValuesIn(read_golden().rows), [](
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 });
+
+/// It decides how many substeps there are.
+TEST(PairBound, IsTheSameBits) {
+  constexpr Index particles = 1000;
+  std::vector<WeightedPair> pairs;
+  for (Index i = 0; i < particles; ++i)
+    for (const Index reach : {1u, 7u, 60u}) pairs.push_back({i, (i + reach) % particles, 1 + 1.0 / (i + reach)});
+  const double found = pair_bound(particles, pairs);
+  EXPECT_EQ(found, 0x1.8ad2588498a01p+3) << std::hexfloat << found;
+}
 
 TEST(HashFile, HasEveryShippedSceneByEitherContact) {
   for (const std::string& key : scene_keys(SBCOLLIDE_SCENES))

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "softbody/world/energy_watch.h"
 #include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
@@ -28,6 +30,53 @@ TEST(WorkBudget, CutsAFrameShort) {
   World fixed(lone_body(gas_ball()), {.integrator = {"semi-implicit-euler", substeps + 1}});
   fixed.step();
   EXPECT_EQ(fixed.last_step().seconds, fixed.frame_time()) << "who fixes substeps gets them";
+}
+
+/// A body of a microgram that others hit, or that the air crushes.
+TEST(WorkBudget, LeavesTheLightestBodiesFiniteByEveryIntegrator) {
+  struct Case {
+    double other_mass, contact, springs, frame_time;  // kg, N/m, N/m, s
+    float tolerance;                                  // m
+    double air;                                       // Pa
+  };
+  constexpr double frame = 1.0 / 60;
+  for (const Integrator& i : integrators())
+    for (const Case& c : {Case{1e6, 1e9, 300, frame, 10, 0}, Case{1, 1e5, 1e9, frame, 10, 0},
+                          Case{1, 1e9, 1e9, 1, 0.1f, 0}, Case{1, 0, 1e6, frame, 1e-9f, 1e5}}) {
+      Material light = spring_ball();
+      light[Material::mass] = 1e-9;
+      light[Material::start_in_equilibrium] = true;
+      light.set(StructuralSprings::keys, {c.springs, 1});
+      light[BendSprings::stiffness] = 0;
+      light.set(GasPressure::keys, {0.01 * c.air, c.air});
+      light[contact::stiffness] = c.contact;
+      light[contact::friction] = 10;
+      Scene scene = lone_body(light, {0, 1000, 0});
+      scene.materials.push_back(light);
+      scene.materials[1][Material::mass] = c.other_mass;
+      scene.bodies[0].mesh.subdivisions = 0;
+      add_body(scene, {0.1, 0.8, 0}, {0, -1000, 0});
+      scene.bodies[1].material = 1;
+      scene.collision.tolerance = c.tolerance;
+      scene.collision.self_collision = true;
+      World world(scene, {.frame_time = c.frame_time, .integrator = {std::string(i.key)}, .budget = {.least = 1e5}});
+      for (int k = 0; k < 12; ++k) {
+        world.step();
+        ASSERT_TRUE(measure(world).finite) << i.key << ", a mass of " << c.other_mass << ", air of " << c.air;
+      }
+    }
+}
+
+/// 1,000 Hz for a single particle: too fast for XPBD's steps of 1/1200 s, in which such forces act explicitly.
+TEST(StepBounds, HoldForTheForcesThatXpbdDoesNotProject) {
+  Material m = spring_ball();
+  m[ShapeMatching::frequency] = 1e3;
+  World world(lone_body(m), {.integrator = {"xpbd"}});
+  place(world, glm::dvec3(1.1, 1, 1));
+  const double start = measure(world).energy;
+  run(world, 10);
+  EXPECT_GE(world.last_step().substeps, 1e3 * std::numbers::pi / 60);
+  EXPECT_LT(measure(world).energy, 1.1 * start);
 }
 
 TEST(WorkBudget, GivesSubstepsInProportion) {

@@ -22,12 +22,12 @@ StepController with(const char* integrator, std::optional<int> substeps = {}) {
 }
 
 /// Returns the substeps of a frame that begins with this bound.
-int substeps(StepController& steps, const StepBound& bound, const FrameConditions& conditions = ball) {
+double substeps(StepController& steps, const StepBound& bound, const FrameConditions& conditions = ball) {
   steps.begin_frame(conditions, bound);
   return steps.plan(bound, conditions.seconds).substeps;
 }
 
-int first_substeps(const char* integrator, const StepBound& bound) {
+double first_substeps(const char* integrator, const StepBound& bound) {
   StepController steps = with(integrator);
   return substeps(steps, bound);
 }

@@ -21,7 +21,7 @@ struct StepMargin {
   enum class Bound {
     stable,         // shorter steps are stable
     by_damping,     // shorter steps are stable if only springs swing: gas and contacts may still gain energy
-    unconditional,  // all steps are stable; the bound only limits fast bodies near solids, and long frames
+    unconditional,  // springs and gas need no bound; fast bodies near solids, long frames and contact in XPBD do
   };
   int taken = 0, needed = 0;
   double substep = 0, bound = 0;  // s; bound: less the reserve

@@ -74,7 +74,7 @@ StatusLight status_light(const session::StepMargin& margin) {
   const bool within = margin.taken >= margin.needed;
   if (margin.kind == Bound::unconditional && !within)
     return {render::status_amber, "Amber", "Step long",
-            "The step is stable, but too long for bodies this fast near solids."};
+            "The step is stable, but too long for bodies this fast near solids, or for contacts this stiff."};
   if (margin.kind == Bound::by_damping && within && margin.taken > 0)
     return {render::status_amber, "Amber", "Step stable by damping",
             "Dampers keep the springs stable. Gas and contacts may still gain energy."};

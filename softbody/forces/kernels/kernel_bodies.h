@@ -330,7 +330,8 @@ HWY_INLINE void drift(const LaneBodies<float>& b, const KickArguments& k, Field<
 
 /// XPBD, one pass without accumulated multipliers (Macklin et al. 2016, eq. 18 and 26 times the stiffness): a law as a
 /// constraint of compliance 1 / k with its damper. Particles are at x0 + d. Their displacements d in this step are
-/// small, so that velocities lose no digits in floats.
+/// small, so that velocities lose no digits in floats. No element moves a particle by more than the body's radius: what
+/// is farther off is no longer near its first order, and a body that is torn out that far would fling itself apart.
 template <class V, int width>
 struct Project {
   const LaneBodies<float>& b;
@@ -348,7 +349,8 @@ struct Project {
     const float damping = law.damping * inverse_h;
     const float yields = 1 / ((law.stiffness + damping) * 2 * inverse_mass + inverse_h2);
     const V impulse = yields * (pull_at(law, length) + damping * dot(moved, n));
-    const Vec<V> shift = ((inverse_mass * load<V>(p.moves)) * impulse) * n;
+    const V most = V(float(b.model.radius)), way = (inverse_mass * load<V>(p.moves)) * impulse;
+    const Vec<V> shift = smaller(larger(way, -most), most) * n;
     store(p.d, i, di + shift);
     store(p.d, j, dj - shift);
   }
@@ -359,18 +361,23 @@ struct Project {
     constexpr std::size_t run = lanes_of<V>;
     const std::size_t size = b.model.mesh.vertices.size() * width;
     float volume[lanes]{}, unit[lanes], shift[lanes]{};
-    double square[lanes]{};
+    double square[lanes]{}, largest[lanes]{};
     std::fill_n(unit, lanes, 1.0f);
     for (std::size_t at = 0; at < size; at += width) store(p.scratch, at, Vec<V>{});
     body::volume<V, width>(b.model.mesh.triangles, b.x, volume);
     push_faces<V, width>(b.model.mesh.triangles, b.x, unit, p.scratch);
     for (const float* gradient : {p.scratch.x, p.scratch.y, p.scratch.z})
       for (std::size_t at = 0; at < size; at += width)
-        for (std::size_t l = 0; l < run; ++l) square[l] += double(gradient[at + l]) * double(gradient[at + l]);
+        for (std::size_t l = 0; l < run; ++l) {
+          const auto g = double(gradient[at + l]);
+          square[l] += g * g;
+          largest[l] = std::max(largest[l], std::abs(g));
+        }
     const double h2_m = double(p.h) * double(p.h) / b.model.particle_mass;
     for (std::size_t l = 0; l < run; ++l) {
       const Jet pull = law.pull(Jet(double(volume[l]), 1));
-      shift[l] = p.moves[l] * float(h2_m * -pull.value / (1 + pull.slope * h2_m * square[l]));
+      const double asked = h2_m * -pull.value / (1 + pull.slope * h2_m * square[l]), most = b.model.radius / largest[l];
+      shift[l] = p.moves[l] * float(std::clamp(asked, -most, most));
     }
     const V shifted = load<V>(shift);
     for (std::size_t at = 0; at < size; at += width)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <numeric>
 
 #include <Eigen/SparseCholesky>
 #include <glm/geometric.hpp>
@@ -14,6 +15,8 @@
 namespace softbody {
 namespace {
 
+// The sparse solver adds one number after another. Dense vectors of Eigen add as many at a time as a register holds, so
+// no sum that has to be the same everywhere is theirs.
 using Sparse = Eigen::SparseMatrix<double>;
 using Entries = std::vector<Eigen::Triplet<double>>;
 
@@ -194,7 +197,9 @@ ImplicitMatrix::ImplicitMatrix(const BodyModel& p, double h, const ImplicitMatri
     // So little mass that rounding hides it: directions need not be that exact.
     if (tension == Tension::pulling) a.diagonal().array() += 1e-12 * a.diagonal().maxCoeff();
     // A body's own springs set the scale, but as a whole it has to feel no more than the solver can bring to rest.
-    contact_stiffness_ = std::min(2 * a.diagonal().mean(), 1000 * p.material[Material::mass] / (h * h));
+    const Eigen::VectorXd diagonal = a.diagonal();
+    const double mean = std::accumulate(diagonal.begin(), diagonal.end(), 0.0) / double(diagonal.size());
+    contact_stiffness_ = std::min(2 * mean, 1000 * p.material[Material::mass] / (h * h));
     factored_->llt.compute(a);
     if (factored_->llt.info() == Eigen::Success) break;
   }
@@ -212,7 +217,7 @@ ImplicitMatrix::ImplicitMatrix(const BodyModel& p, double h, const ImplicitMatri
   const double slope = volume_stiffness(p, volume(x, p.mesh.triangles));
   gas_.assign(g.begin(), g.end());
   gas_response_.assign(response.begin(), response.end());
-  gas_weight_ = slope / (1 + slope * g.dot(response));
+  gas_weight_ = slope / (1 + slope * std::inner_product(g.begin(), g.end(), response.begin(), 0.0));
 }
 
 ImplicitMatrix::~ImplicitMatrix() = default;
