@@ -10,7 +10,7 @@
 
 #include "app/base/timings.h"
 #include "app/compare/cost_model.h"
-#include "app/compare/method_set.h"
+#include "app/compare/method_style.h"
 #include "softbody/world/world.h"
 
 namespace app::compare {

@@ -52,7 +52,7 @@ void SettingControls::set_integrator(const softbody::IntegratorChoice& choice) {
 bool SettingControls::affordable(const collide::Method& method, const collide::Settings& settings) {
   const compare::WorkEstimate work = window_work(simulation_.world(), method, settings);
   if (work.cost() <= max_window_work) return true;
-  simulation_.notice.set(std::string(method.name) + " would take " + work.in_words() +
+  simulation_.notice.set(method.name + " would take " + work.in_words() +
                          " a frame here: too long to drive the bodies with");
   return false;
 }
@@ -65,7 +65,7 @@ void SettingControls::set_method(std::string_view key) {
 }
 
 void SettingControls::next_method(const compare::MethodSet& methods) {
-  const auto all = collide::method_table();
+  const auto all = collide::method_table().first(methods.size());
   const World& world = simulation_.world();
   const auto here = std::ranges::find(all, world.method().key, &collide::Method::key);
   const auto first = static_cast<std::size_t>(here - all.begin());

@@ -22,7 +22,7 @@ void tell(Session& session, std::string text) {
 
 void next_method(Session& session) {
   session.settings.next_method(session.comparison.choice.methods);
-  tell(session, "Method: " + std::string(session.world().method().name));
+  tell(session, "Method: " + session.world().method().name);
 }
 
 void next_contact_surface(Session& session) {

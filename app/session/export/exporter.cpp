@@ -36,7 +36,7 @@ std::vector<Curve> curves_of(const Session& session) {
                             {"strain", motion.strain},
                             {"speed_m_s", motion.speed}};
   for (std::size_t i = 0; i < session.comparison.method_ms().size(); ++i)
-    curves.push_back({std::string(collide::method_table()[i].key) + "_ms", session.comparison.method_ms()[i]});
+    curves.push_back({collide::method_table()[i].key + "_ms", session.comparison.method_ms()[i]});
   return curves;
 }
 

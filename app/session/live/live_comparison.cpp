@@ -35,7 +35,10 @@ compare::CompareReport CompareTask::answer(const compare::FrameSnapshot& snapsho
 
 void LiveComparison::exchange(const softbody::World& world, std::uint64_t revision, std::uint64_t world_number,
                               int rests) {
-  if (auto report = worker_.take(); report && report->id >= first_wanted_) keep(std::move(*report));
+  auto report = worker_.take();
+  compare::add_new_methods(choice.methods);
+  method_ms_.resize(choice.methods.size());
+  if (report && report->id >= first_wanted_) keep(std::move(*report));
   if (!wants_report(revision) || !worker_.ready(rests)) return;
   compare::FrameSnapshot snapshot = copy_frame(world, revision, world_number);
   snapshot.chosen = chosen();

@@ -4,7 +4,7 @@
 #include "app/base/background_worker.h"
 #include "app/base/time_series.h"
 #include "app/compare/compare.h"
-#include "app/compare/method_set.h"
+#include "app/compare/method_style.h"
 #include "collide/methods.h"
 #include "softbody/world/world.h"
 
@@ -38,7 +38,8 @@ class LiveComparison {
 
   CompareChoice choice;
 
-  /// Takes the report that is ready, if any, and offers the present state if more is to be found out about it.
+  /// Takes the report that is ready, if any, and offers the present state if more is to be found out about it. Methods
+  /// that have joined the table since the last call are taken in.
   /// revision: names the state, ascending; world_number: another number, another world; rests: as
   /// BackgroundWorker::ready().
   void exchange(const softbody::World& world, std::uint64_t revision, std::uint64_t world_number, int rests);
@@ -85,7 +86,7 @@ class LiveComparison {
   int offers_ = 0;                      // of the state offered_, with the same methods
   compare::MethodSet offered_methods_;  // empty: none but the driver
   TimeSeries recall_;
-  std::vector<TimeSeries> method_ms_ = std::vector<TimeSeries>(collide::method_table().size());
+  std::vector<TimeSeries> method_ms_ = std::vector<TimeSeries>(choice.methods.size());
   CompareWorker worker_;
 };
 

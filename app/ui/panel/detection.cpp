@@ -25,10 +25,10 @@ void draw_method(Widgets& w, Session& session) {
   draw_method_mark(w, method, ImGui::GetFrameHeight());
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  std::string tooltip(method.description);
+  std::string tooltip = method.description;
   if (uses_surface_contact(session)) tooltip += " With surface contact it does not move the bodies.";
   tooltip += " M: next shown method.";
-  draw_method_choice(w, session, "Method", std::string(method.name).c_str(), tooltip.c_str());
+  draw_method_choice(w, session, "Method", method.name.c_str(), tooltip.c_str());
 }
 
 void draw_contact_surface(Widgets& w, Session& session) {

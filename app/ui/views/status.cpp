@@ -59,14 +59,14 @@ StatusLight status_light(collide::Coverage coverage) {
 std::string shown_method_text(const Session& session) {
   const collide::Method& shown = session.inspector.shown_method();
   const bool drives = shown.key == session.world().method().key;
-  return std::string(shown.name) + (drives ? ", driving" : ", for comparison");
+  return shown.name + (drives ? ", driving" : ", for comparison");
 }
 
 double rounded_down(double share) { return std::floor(share * 1e4) / 1e4; }
 
 std::string reference_sentence(const compare::CompareReport& report) {
   if (!report.reference) return report.reference_note.empty() ? "Measuring" : "Not measured: " + report.reference_note;
-  const std::string name(collide::method_table()[*report.reference].name);
+  const std::string& name = collide::method_table()[*report.reference].name;
   std::string text = "Measured against " + name;
   return report.reference_note.empty() ? text : text + ": " + report.reference_note;
 }
@@ -195,7 +195,7 @@ void draw_legend(Widgets& w, const Session& session, const render::Overlays& sho
     draw_legend_line(w, render::contact_missed_colour,
                      std::string(session.comparison.missed() && session.comparison.missed()->empty() ? "none missed by "
                                                                                                      : "missed by ") +
-                         std::string(collide::method_table()[session.comparison.choice.misses_of].name));
+                         collide::method_table()[session.comparison.choice.misses_of].name);
   if (shown.areas) draw_legend_line(w, render::area_colour, "area that the exact method searches");
   if (shown.springs) {
     ImGui::TextUnformatted("Strain of the springs");
