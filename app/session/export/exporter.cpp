@@ -127,10 +127,10 @@ void Exporter::frame(Session& session, const Picture& picture) {
 }
 
 void Exporter::record(const Session& session, const Picture& picture) {
-  const softbody::World& world = session.world();
+  const softbody::BodiesInMotion& world = session.world();
   if (world.frame() == recorded_frame_ || !recording_->has_room()) return;
-  // A recording that plays begins again: all of its frames are written.
-  if (world.scene().recording && world.frame() < recorded_frame_) return recording_->stop();
+  // What is played begins again: all of its frames are written.
+  if (session.simulation.player() && world.frame() < recorded_frame_) return recording_->stop();
   recorded_frame_ = world.frame();
   RecordedFrame frame;
   frame.number = world.frame();

@@ -56,7 +56,7 @@ std::string not_run_text(const compare::SweepReport& report) {
   return text.empty() ? "All settings fit the budget." : text;
 }
 
-bool in_use(const compare::SweepRow& row, const softbody::World& world) {
+bool in_use(const compare::SweepRow& row, const softbody::BodiesInMotion& world) {
   const collide::Method& method = collide::method_table()[row.configuration.method];
   const collide::Settings &its = row.configuration.settings, &now = world.collision();
   if (method.key != world.method().key || (method.uses_levels && its.levels != now.levels)) return false;
