@@ -37,7 +37,7 @@ int run(const app::cli::Options& options) {
       break;
   }
 #if SBCOLLIDE_GRAPHICS
-  return app::window::run_demo({.scene = app::cli::load_scene(options),
+  return app::window::run_demo({.opened = app::cli::open(options),
                                 .scene_name = options.play.empty() ? options.scene : options.play.front(),
                                 .scene_given = options.scene_given || !options.play.empty(),
                                 .scene_folder = app::files::scene_folder(),

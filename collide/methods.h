@@ -1,8 +1,12 @@
 #pragma once
-// The one table of detectors. Command line, panel, reports, documents and tests loop over it; nothing else lists the
-// methods.
+// The one table of detectors. Command line, panel, reports, documents and tests loop over it. It can grow while the
+// program runs.
 
+#include <array>
+#include <functional>
 #include <memory>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "collide/core/detector.h"
@@ -20,40 +24,32 @@ inline constexpr std::array<MethodGroupName, 4> method_groups{{{MethodGroup::riv
                                                                {MethodGroup::sorted, "Sorted grids and sweeps"},
                                                                {MethodGroup::trees, "Trees"}}};
 
-/// The mark of a method in plots, for eyes that cannot tell its colour from another. The numbers are gnuplot's.
-enum class Marker {
-  plus = 1,
-  cross = 2,
-  square = 4,
-  filled_square = 5,
-  circle = 6,
-  disc = 7,
-  triangle = 8,
-  filled_triangle = 9,
-  filled_inverted_triangle = 11,
-  diamond = 12,
-  filled_diamond = 13,
-  filled_pentagon = 15
-};
+/// Which pairs of vertices a method without a hash tests.
+enum class PairTests { all, of_near_bodies, of_near_vertices };
 
+/// A row owns its texts, so that a program can make one while it runs.
 struct Method {
-  std::string_view key;      // on the command line and in scene files
-  std::string_view name;     // in the panel
-  std::string_view summary;  // one sentence with its paper section
+  std::string key;      // on the command line and in scene files
+  std::string name;     // in the panel
+  std::string summary;  // one sentence with its paper section
   // What it is, when to choose it, its cost for n vertices, whether it rebuilds or refits, and its source: a paragraph
   // of the panel and of collide/README.md.
-  std::string_view description;
+  std::string description;
   MethodGroup group;
-  bool shown;        // in comparisons, unless the user chooses otherwise
-  glm::vec3 colour;  // sRGB 0 .. 1
-  Marker marker;     // no two methods have the same
-  bool exact;        // cannot miss a contact
-  bool uses_levels;  // has use for Settings::levels
-  bool uses_hash;    // has use for buckets, cell_size, primes
-  std::unique_ptr<Detector> (*make)();
+  bool exact;                // cannot miss a contact
+  bool uses_levels = false;  // has use for Settings::levels
+  bool uses_hash = false;    // has use for buckets, cell_size, primes
+  PairTests tests = PairTests::of_near_vertices;
+  std::function<std::unique_ptr<Detector>()> make;
 };
 
+inline constexpr std::size_t max_methods = 64;
+
+/// Returns all rows. A row keeps its place, and its index, to the end of the program.
 std::span<const Method> method_table();
+/// Adds a row, whose key must be new, at the end. Other threads may read the table meanwhile. Throws std::length_error
+/// beyond max_methods.
+void add_method(Method row);
 /// nullptr if there is no such method.
 const Method* find_method(std::string_view key);
 /// "brute-force, grid-hash, ...": for messages.

@@ -356,12 +356,13 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   return options;
 }
 
-softbody::Scene load_scene(const Options& options) {
+files::Opened open(const Options& options) {
   if (options.scene.ends_with(".obj") || options.scene.ends_with(".ply"))
     throw UsageError("--scene " + options.scene + ": a mesh, not a scene; `sbcollide --mesh` opens it in the window");
-  softbody::Scene scene = options.play.empty()
-                              ? softbody::find_scene(options.scene, files::scene_folder())
-                              : files::recorded_scene({options.play.begin(), options.play.end()}, options.bodies_by);
+  files::Opened opened = options.play.empty()
+                             ? softbody::find_scene(options.scene, files::scene_folder())
+                             : files::open_recording({options.play.begin(), options.play.end()}, options.bodies_by);
+  softbody::Scene& scene = opened.scene;
   const bool may_be_saved = options.play.empty();
   scene.method = chosen_method(options.detection, scene.method).key;
   if (const auto tolerance = options.detection.tolerance; tolerance && may_be_saved)
@@ -376,7 +377,7 @@ softbody::Scene load_scene(const Options& options) {
   if (options.self_collision) scene.collision.self_collision = *options.self_collision;
   if (options.view) scene.view = *options.view;
   if (options.contact_surface) scene.contact_surface = softbody::find_contact_surface(*options.contact_surface)->value;
-  return scene;
+  return opened;
 }
 
 }  // namespace app::cli

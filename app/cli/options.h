@@ -9,6 +9,7 @@
 #include "app/base/usage_error.h"
 #include "app/cli/detection_options.h"
 #include "app/files/body_file.h"
+#include "app/files/recording.h"
 #include "app/report/report.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/scene/scene.h"
@@ -66,8 +67,8 @@ int frames_per_picture(double frame_time);
 /// Returns the options; nothing if help or the version was asked for and has been printed. Throws UsageError.
 std::optional<Options> parse_options(int argc, const char* const* argv);
 
-/// Returns the scene that the options name, or one that plays their files, with their settings. Throws UsageError,
+/// Returns the scene that the options name, or the recording in their files, with their settings. Throws UsageError,
 /// SceneError or MeshFileError.
-softbody::Scene load_scene(const Options& options);
+files::Opened open(const Options& options);
 
 }  // namespace app::cli

@@ -314,7 +314,7 @@ void print_overlaps(const softbody::World& world) {
 }  // namespace
 
 void simulate(const Options& options) {
-  softbody::Scene scene = load_scene(options);
+  softbody::Scene scene = open(options).scene;
   files::protect_input(softbody::scene_path(options.scene, files::scene_folder()));
   files::protect_input(softbody::presets_path(files::scene_folder()));
   files::protect_inputs(scene);

@@ -43,18 +43,11 @@ std::optional<std::size_t> choose_reference(const collide::Method& beside,
   return std::nullopt;
 }
 
-Comparison::Comparison(std::uint32_t seed, std::uint64_t budget) : budget_(budget), random_(seed) { make_detectors(); }
-
-/// Replaces the detectors, since those of another world may hold much memory.
-void Comparison::make_detectors() {
-  std::vector<Entry> entries(collide::method_table().size());
-  for (std::size_t i = 0; i < entries.size(); ++i) entries[i].detector = collide::method_table()[i].make();
-  entries_ = std::move(entries);
-}
-
 CompareReport Comparison::run(const FrameSnapshot& snapshot, const std::stop_token& stop) {
-  if (world_ != snapshot.world) make_detectors();
+  if (world_ != snapshot.world) entries_.clear();  // the detectors of another world may hold much memory
   world_ = snapshot.world;
+  for (const collide::Method& method : collide::method_table().subspan(entries_.size()))
+    entries_.push_back({.detector = method.make(), .result = {}, .error = {}});
   CompareReport report;
   report.id = snapshot.id;
   report.frame = snapshot.frame_number;
@@ -110,8 +103,9 @@ std::optional<std::size_t> Comparison::find_reference(const FrameSnapshot& snaps
                                                       std::string& reference_note) const {
   if (const WorkEstimate work = cost_model_.of(method_index(collide::reference_method)); work.cost() > budget_)
     reference_note = "brute force would take " + work.in_words();
-  return choose_reference(collide::method_table()[snapshot.driver],
-                          [&](std::size_t i) { return entries_[i].done || cost_model_.of(i).cost() <= budget_; });
+  return choose_reference(collide::method_table()[snapshot.driver], [&](std::size_t i) {
+    return i < entries_.size() && (entries_[i].done || cost_model_.of(i).cost() <= budget_);
+  });
 }
 
 void Comparison::score(const FrameSnapshot& snapshot, CompareReport& report) const {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/compare/cost_model.h"
-#include "app/compare/method_set.h"
+#include "app/compare/method_style.h"
 #include "app/compare/positions.h"
 
 namespace app::compare {
@@ -70,7 +70,7 @@ class Comparison {
   /// The pair tests that one method may take on one frame: about a second on one core.
   static constexpr std::uint64_t default_budget = 1'000'000'000;
 
-  explicit Comparison(std::uint32_t seed, std::uint64_t budget = default_budget);
+  explicit Comparison(std::uint32_t seed, std::uint64_t budget = default_budget) : budget_(budget), random_(seed) {}
 
   /// Times the chosen methods within the budget, in a new random order with each call. The reference is brute force;
   /// where this exceeds the budget, an exact method of another kind than the driver. `stop` is checked between methods;
@@ -86,7 +86,6 @@ class Comparison {
     std::string error;
   };
 
-  void make_detectors();
   std::vector<std::size_t> choose(const FrameSnapshot& snapshot, CompareReport& report);
   void detect(std::size_t method, const FrameSnapshot& snapshot);
   std::optional<std::size_t> find_reference(const FrameSnapshot& snapshot, std::string& reference_note) const;
@@ -94,7 +93,7 @@ class Comparison {
 
   std::uint64_t budget_;
   std::mt19937 random_;
-  std::vector<Entry> entries_;  // by method
+  std::vector<Entry> entries_;  // by method; those that have joined the table since the last run() are missing
   std::uint64_t world_ = 0;     // of the last frame
   CostModel cost_model_;
   collide::Workers alone_{1};

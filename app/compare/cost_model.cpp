@@ -16,9 +16,7 @@ namespace app::compare {
 namespace {
 
 /// Returns true if the estimate is what the method does on every frame.
-bool is_certain(const collide::Method& method) {
-  return method.group == collide::MethodGroup::rivals && !method.uses_hash;
-}
+bool is_certain(const collide::Method& method) { return method.tests != collide::PairTests::of_near_vertices; }
 
 std::uint64_t whole(double number) { return static_cast<std::uint64_t>(std::min(number, 1e18)); }
 
@@ -114,7 +112,7 @@ double CostModel::pairs_near(const glm::dvec3& cell, const glm::dvec3& reach) co
 }
 
 WorkEstimate CostModel::estimate(const collide::Method& method) const {
-  if (method.key == collide::reference_method) return {all_, 0};
+  if (method.tests == collide::PairTests::all) return {all_, 0};
   if (method.uses_hash) return estimate_hashed(method);
   if (is_certain(method)) return {in_overlapping_boxes_, 0};
   if (method.uses_levels) return {std::min(exact_tests_, in_overlapping_boxes_), 0};

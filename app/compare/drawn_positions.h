@@ -30,11 +30,11 @@ struct DrawnMeshes {
   DrawnPositions shown, simulated;
 
   /// From `before` to the present of the world, both of which must outlive this.
-  DrawnMeshes(const softbody::World& world, const WorldPositions& before, float part)
+  DrawnMeshes(const softbody::BodiesInMotion& world, const WorldPositions& before, float part)
       : shown(between(before.shown(), world.positions(), part)),
         simulated(between(before.simulated(), world.simulated().positions, part)) {}
   /// At the present of the world.
-  explicit DrawnMeshes(const softbody::World& world)
+  explicit DrawnMeshes(const softbody::BodiesInMotion& world)
       : shown{.now = world.positions()}, simulated{.now = world.simulated().positions} {}
 
  private:

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "collide/core/frame.h"
-#include "softbody/world/world.h"
+#include "softbody/world/bodies_in_motion.h"
 
 namespace app::compare {
 
@@ -22,7 +22,7 @@ struct Positions {
 /// The positions of the meshes that a world shows, and of those that it simulates.
 class WorldPositions {
  public:
-  void copy(const softbody::World& world) {
+  void copy(const softbody::BodiesInMotion& world) {
     const collide::Frame shown = world.positions(), simulated = world.simulated().positions;
     shown_.copy(shown);
     same_ = simulated.x.data() == shown.x.data();

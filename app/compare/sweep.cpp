@@ -40,7 +40,7 @@ std::vector<Configuration> sweep_configurations(const collide::Settings& setting
   return all;
 }
 
-std::vector<Configuration> sweep_configurations(const softbody::World& world, const MethodSet& methods) {
+std::vector<Configuration> sweep_configurations(const softbody::BodiesInMotion& world, const MethodSet& methods) {
   return sweep_configurations(
       world.collision(), [&](int levels) { return world.default_cell_size(levels); }, methods);
 }

@@ -10,8 +10,8 @@
 
 #include "app/base/timings.h"
 #include "app/compare/cost_model.h"
-#include "app/compare/method_set.h"
-#include "softbody/world/world.h"
+#include "app/compare/method_style.h"
+#include "softbody/world/bodies_in_motion.h"
 
 namespace app::compare {
 
@@ -32,7 +32,8 @@ struct Configuration {
 std::vector<Configuration> sweep_configurations(const collide::Settings& settings,
                                                 const std::function<glm::vec3(int levels)>& automatic_cell_size,
                                                 const MethodSet& methods = all_methods());
-std::vector<Configuration> sweep_configurations(const softbody::World& world, const MethodSet& methods = all_methods());
+std::vector<Configuration> sweep_configurations(const softbody::BodiesInMotion& world,
+                                                const MethodSet& methods = all_methods());
 
 /// The figures of one configuration on the frame.
 struct SweepRow {

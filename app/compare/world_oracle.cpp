@@ -12,17 +12,17 @@
 
 namespace app::compare {
 
-collide::surface::Surfaces surfaces_of(const softbody::World& world) {
+collide::surface::Surfaces surfaces_of(const softbody::BodiesInMotion& world) {
   collide::surface::Surfaces surfaces;
   for (collide::Index b = 0; b < world.bodies().count(); ++b) surfaces.push_back(world.model(b).surface);
   return surfaces;
 }
 
-collide::oracle::Overlaps WorldOracle::overlaps(const softbody::World& world) {
+collide::oracle::Overlaps WorldOracle::overlaps(const softbody::BodiesInMotion& world) {
   return collide::oracle::find_overlaps(world.simulated().positions, surfaces_of(world), workers_);
 }
 
-double WorldOracle::max_displacement(const softbody::World& world) const {
+double WorldOracle::max_displacement(const softbody::BodiesInMotion& world) const {
   const collide::Frame now = world.simulated().positions;
   assert(now.x.size() >= before_.x.size());
   double max2 = 0;
@@ -33,7 +33,7 @@ double WorldOracle::max_displacement(const softbody::World& world) const {
   return std::sqrt(max2);
 }
 
-std::vector<collide::oracle::Crossing> WorldOracle::crossings(const softbody::World& world) {
+std::vector<collide::oracle::Crossing> WorldOracle::crossings(const softbody::BodiesInMotion& world) {
   const collide::Frame now = world.simulated().positions, before{before_.x, before_.y, before_.z, &bodies_};
   const std::size_t known = bodies_.vertex_count();  // new bodies come after them
   const collide::Frame after{now.x.first(known), now.y.first(known), now.z.first(known), &bodies_};

@@ -48,7 +48,7 @@ std::string faces_of(const softbody::Mesh& mesh, std::size_t first) {
   return text;
 }
 
-std::vector<const softbody::BodyModel*> models_of(const softbody::World& world) {
+std::vector<const softbody::BodyModel*> models_of(const softbody::BodiesInMotion& world) {
   std::vector<const softbody::BodyModel*> list;
   for (softbody::BodyId b = 0; b < world.bodies().count(); ++b) list.push_back(&world.model(b));
   return list;
@@ -56,7 +56,7 @@ std::vector<const softbody::BodyModel*> models_of(const softbody::World& world) 
 
 }  // namespace
 
-ObjWriter::ObjWriter(const softbody::World& world) : models_(models_of(world)), first_{0} {
+ObjWriter::ObjWriter(const softbody::BodiesInMotion& world) : models_(models_of(world)), first_{0} {
   for (const softbody::BodyModel* model : models_) {
     faces_.push_back(faces_of(model->shown().mesh, first_.back()));
     for (const glm::dvec3& v : model->shown_at_rest()) {
@@ -68,7 +68,7 @@ ObjWriter::ObjWriter(const softbody::World& world) : models_(models_of(world)), 
   }
 }
 
-bool ObjWriter::matches(const softbody::World& world) const { return models_ == models_of(world); }
+bool ObjWriter::matches(const softbody::BodiesInMotion& world) const { return models_ == models_of(world); }
 
 bool ObjWriter::can_write(std::span<const float> x, std::span<const float> y, std::span<const float> z) {
   const auto finite = [](float at) { return std::isfinite(at); };

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody/world/world.h"
+#include "softbody/world/bodies_in_motion.h"
 
 namespace app::files {
 
@@ -13,10 +13,10 @@ inline constexpr const char* rest_shape_name = "rest.obj";  // of the file at_re
 /// Keeps the faces and the rest positions of a world's bodies, and combines them with the positions of frames.
 class ObjWriter {
  public:
-  explicit ObjWriter(const softbody::World& world);
+  explicit ObjWriter(const softbody::BodiesInMotion& world);
 
   /// Returns true if these are still the bodies of the world.
-  bool matches(const softbody::World& world) const;
+  bool matches(const softbody::BodiesInMotion& world) const;
 
   /// Returns false if a coordinate is not finite: no file can hold it.
   static bool can_write(std::span<const float> x, std::span<const float> y, std::span<const float> z);

@@ -37,7 +37,7 @@ bool same_topology(const collide::Shape& a, const collide::Shape& b) {
   return a.shared_topology() == b.shared_topology() || a.topology() == b.topology();
 }
 
-std::size_t bytes_of(const softbody::RecordedFrame& frame) { return 3 * sizeof(float) * frame.x.size(); }
+std::size_t bytes_of(const RecordedFrame& frame) { return 3 * sizeof(float) * frame.x.size(); }
 
 /// Returns true if the model is that of all bodies with this shape and these triangles.
 bool suits(const softbody::BodyModel& model, const collide::Shape& shape,
@@ -50,7 +50,7 @@ bool suits(const softbody::BodyModel& model, const collide::Shape& shape,
 
 Playback::Playback(std::vector<std::filesystem::path> files, std::optional<BodiesBy> by, std::size_t kept_bytes)
     : sequence_(std::move(files), {.by = by, .may_grow = true, .any_distance = true}), free_bytes_(kept_bytes) {
-  const std::shared_ptr<const softbody::RecordedFrame> first = frame(0);
+  const std::shared_ptr<const RecordedFrame> first = frame(0);
   if (first->x.empty())
     throw softbody::SceneError(sequence_.file(0).string() + ": has no vertex; nothing can be played");
   bounds_.fill(glm::vec3(first->x[0], first->y[0], first->z[0]));
@@ -68,7 +68,7 @@ Playback::Playback(std::vector<std::filesystem::path> files, std::optional<Bodie
 }
 
 /// Makes bounds() large enough for a frame.
-void Playback::include(const softbody::RecordedFrame& frame) {
+void Playback::include(const RecordedFrame& frame) {
   if (frame.x.empty()) return;
   const auto [left, right] = std::ranges::minmax(frame.x);
   const auto [bottom, top] = std::ranges::minmax(frame.y);
@@ -77,10 +77,10 @@ void Playback::include(const softbody::RecordedFrame& frame) {
   bounds_[1] = glm::max(bounds_[1], glm::vec3(right, top, front));
 }
 
-std::shared_ptr<const softbody::RecordedFrame> Playback::frame(int number) {
+std::shared_ptr<const RecordedFrame> Playback::frame(int number) {
   assert(number >= 0 && number < frame_count());
   const auto known = kept_.find(number);
-  std::shared_ptr<const softbody::RecordedFrame> frame;
+  std::shared_ptr<const RecordedFrame> frame;
   if (known != kept_.end()) {
     frame = known->second;
   } else {
@@ -121,7 +121,7 @@ void Playback::release() {
 }
 
 /// Makes models of bodies that no frame had before. Bodies of one mesh share a model.
-std::shared_ptr<const softbody::RecordedFrame> Playback::record(int number, SequenceFrame frame) {
+std::shared_ptr<const RecordedFrame> Playback::record(int number, SequenceFrame frame) {
   const glm::dvec3& origin = sequence_.origin();
   for (const auto& [axis, zero] : {std::pair(&frame.at.x, origin.x), {&frame.at.y, origin.y}, {&frame.at.z, origin.z}})
     for (const float at : *axis)
@@ -147,12 +147,12 @@ std::shared_ptr<const softbody::RecordedFrame> Playback::record(int number, Sequ
     }
     ++count;
   }
-  return std::make_shared<softbody::RecordedFrame>(
-      softbody::RecordedFrame{count, std::move(frame.at.x), std::move(frame.at.y), std::move(frame.at.z)});
+  return std::make_shared<RecordedFrame>(
+      RecordedFrame{count, std::move(frame.at.x), std::move(frame.at.y), std::move(frame.at.z)});
 }
 
 float Playback::usual_tolerance() {
-  const std::shared_ptr<const softbody::RecordedFrame> first = frame(0);
+  const std::shared_ptr<const RecordedFrame> first = frame(0);
   std::vector<float> lengths;
   std::size_t begin = 0;
   for (std::uint32_t body = 0; body < first->body_count; ++body) {
@@ -168,7 +168,7 @@ float Playback::usual_tolerance() {
   return std::clamp(tolerance, collide::min_tolerance, collide::max_tolerance);
 }
 
-softbody::Scene recorded_scene(const std::vector<std::filesystem::path>& files, std::optional<BodiesBy> by) {
+Opened open_recording(const std::vector<std::filesystem::path>& files, std::optional<BodiesBy> by) {
   const auto playback = std::make_shared<Playback>(files, by);
   softbody::Scene scene;
   scene.key = std::filesystem::absolute(files.front()).string();
@@ -180,8 +180,7 @@ softbody::Scene recorded_scene(const std::vector<std::filesystem::path>& files, 
   const glm::dvec3 low(bounds[0]), high(bounds[1]);
   scene.view.target = 0.5 * (low + high);
   scene.view.distance = std::max(glm::distance(low, high), 1e-4);
-  scene.recording = playback;
-  return scene;
+  return {std::move(scene), playback};
 }
 
 }  // namespace app::files

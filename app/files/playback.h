@@ -1,18 +1,18 @@
 #pragma once
-// Plays a sequence of mesh files: the recording of a scene, which shows frame by frame what the files hold.
+// A recording in a sequence of mesh files.
 
 #include <future>
 #include <map>
 
 #include "app/files/frame_sequence.h"
-#include "softbody/scene/scene.h"
+#include "app/files/recording.h"
 
 namespace app::files {
 
 /// Moves frames far from the origin to it, all by the same way, so that floats hold them as exactly as the files do.
 /// Reads frames when they are shown, and the next one ahead of time, on a thread of its own. The first frames, as many
 /// as fit into the memory that a Playback may take, are read only once. Bodies without vertices are left out.
-class Playback : public softbody::Recording {
+class Playback : public Recording {
  public:
   static constexpr std::size_t max_kept_bytes = std::size_t{512} << 20;  // of positions
   static constexpr double max_coordinate = 1e15;  // in a file, m; squares of distances must fit into a float
@@ -25,7 +25,7 @@ class Playback : public softbody::Recording {
 
   std::array<glm::vec3, 2> bounds() const override { return bounds_; }
   int frame_count() const override { return static_cast<int>(sequence_.count()); }
-  std::shared_ptr<const softbody::RecordedFrame> frame(int number) override;
+  std::shared_ptr<const RecordedFrame> frame(int number) override;
   const std::shared_ptr<const softbody::BodyModel>& model(std::uint32_t body) const override { return models_[body]; }
   void release() override;
   std::vector<std::string> command_words() const override { return command_words_; }
@@ -41,20 +41,20 @@ class Playback : public softbody::Recording {
   };
   SequenceFrame read(int number);
   void read_ahead(int number);
-  void include(const softbody::RecordedFrame& frame);
-  std::shared_ptr<const softbody::RecordedFrame> record(int number, SequenceFrame frame);
+  void include(const RecordedFrame& frame);
+  std::shared_ptr<const RecordedFrame> record(int number, SequenceFrame frame);
 
-  FrameSequence sequence_;  // while there is an ahead_, only its thread may use it
-  std::map<int, std::shared_ptr<const softbody::RecordedFrame>> kept_;  // by number; always the first
-  std::size_t free_bytes_;                                              // for more of them
+  FrameSequence sequence_;                                    // while there is an ahead_, only its thread may use it
+  std::map<int, std::shared_ptr<const RecordedFrame>> kept_;  // by number; always the first
+  std::size_t free_bytes_;                                    // for more of them
   std::vector<std::shared_ptr<const softbody::BodyModel>> models_;
   std::array<glm::vec3, 2> bounds_{};
   std::vector<std::string> command_words_;
   std::optional<Ahead> ahead_;  // last member: its thread ends before the others go
 };
 
-/// Returns a scene that plays these files with usual_tolerance(); the camera sees all of bounds(). Throws as
-/// Playback does.
-softbody::Scene recorded_scene(const std::vector<std::filesystem::path>& files, std::optional<BodiesBy> by = {});
+/// Returns the recording in these files, whose contacts are found with usual_tolerance(); the camera sees all of
+/// bounds(). Throws as Playback does.
+Opened open_recording(const std::vector<std::filesystem::path>& files, std::optional<BodiesBy> by = {});
 
 }  // namespace app::files

@@ -20,10 +20,10 @@ Capture::Capture(int width, int height)
 
 Capture::~Capture() = default;
 
-engine::Image Capture::draw(const softbody::World& world) {
+engine::Image Capture::draw(const softbody::BodiesInMotion& world) {
   const glm::ivec2 size = offscreen_->target.size();
   offscreen_->target.bind();
-  offscreen_->view.draw(world, {}, offscreen_->view.camera(world.scene(), size), {{0, 0}, size}, 1.0f);
+  offscreen_->view.draw(world, {}, offscreen_->view.camera(world, size), {{0, 0}, size}, 1.0f);
   return offscreen_->target.read();
 }
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "engine/image.h"
-#include "softbody/world/world.h"
+#include "softbody/world/bodies_in_motion.h"
 
 namespace app::render {
 
@@ -15,7 +15,7 @@ class Capture {
   ~Capture();
 
   /// Returns a picture of exactly that size, seen by the scene's own camera.
-  engine::Image draw(const softbody::World& world);
+  engine::Image draw(const softbody::BodiesInMotion& world);
 
  private:
   struct Offscreen;

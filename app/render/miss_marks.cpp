@@ -22,7 +22,7 @@ struct Group {
 
 }  // namespace
 
-std::vector<SceneLabel> miss_marks(const softbody::World& world, std::span<const collide::Contact> missed,
+std::vector<SceneLabel> miss_marks(const softbody::BodiesInMotion& world, std::span<const collide::Contact> missed,
                                    const compare::DrawnPositions& positions) {
   constexpr double reach = 4;  // of a group, mean edges
   std::map<std::pair<softbody::BodyId, softbody::BodyId>, std::vector<Group>> groups;

@@ -28,7 +28,7 @@ constexpr float half_hidden = 0.3f;    // for contacts, most of which lie behind
 constexpr float seen_through = 0.45f;  // for the few that must be found: chosen with the mouse, or missed
 
 /// tinted: fill the faces, too; false where other boxes already tint the same place.
-void add_body_boxes(const softbody::World& world, Points positions, bool tinted, engine::FrameData& frame) {
+void add_body_boxes(const softbody::BodiesInMotion& world, Points positions, bool tinted, engine::FrameData& frame) {
   engine::BoxSet set{.boxes = {}, .width = 1.5f, .occluded_alpha = faint};
   if (!tinted) set.face_alpha = 0;
   const collide::Bodies& bodies = world.bodies();
@@ -107,14 +107,15 @@ void add_contact(Points positions, const collide::Contact& contact, const glm::v
   points.points.push_back({b, glm::vec4(colour, 1.0f)});
 }
 
-void add_contacts(const softbody::World& world, const DrawnPoints& at, engine::FrameData& frame) {
+void add_contacts(const softbody::BodiesInMotion& world, std::span<const softbody::SolidContactPoint> with_solids,
+                  const DrawnPoints& at, engine::FrameData& frame) {
   engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = half_hidden};
   engine::PointSet points{.points = {}, .diameter = 5.0f, .occluded_alpha = half_hidden};
   for (const collide::Contact& contact : world.detection().contacts) {
     const bool inside = world.bodies().body_of(contact.a) == world.bodies().body_of(contact.b);
     add_contact(at.shown, contact, inside ? contact_inside_colour : contact_between_colour, lines, points);
   }
-  for (const softbody::SolidContactPoint& contact : softbody::solid_contacts(world)) {
+  for (const softbody::SolidContactPoint& contact : with_solids) {
     points.points.push_back({at.simulated[contact.vertex], glm::vec4(contact_solid_colour, 1.0f)});
   }
   frame.lines.push_back(std::move(lines));
@@ -132,8 +133,9 @@ void add_missed(const std::vector<collide::Contact>& missed, Points positions, e
 }
 
 /// Adds both closest points, and the normal at the second one, half a mean edge long.
-void add_surface_contacts(const softbody::World& world, std::span<const softbody::SurfaceContactPoint> contacts,
-                          Points particles, engine::FrameData& frame) {
+void add_surface_contacts(const softbody::BodiesInMotion& world,
+                          std::span<const softbody::SurfaceContactPoint> contacts, Points particles,
+                          engine::FrameData& frame) {
   engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = half_hidden};
   engine::PointSet points{.points = {}, .diameter = 5.0f, .occluded_alpha = half_hidden};
   for (const softbody::SurfaceContactPoint& contact : contacts) {
@@ -184,7 +186,7 @@ void spread(const softbody::BodyModel& model, std::span<float> particles, std::s
 
 /// Marks the regions of the surfaces that are inside other bodies or pierce them, with a margin that is outside and so
 /// in sight. Adds the deepest vertex of each pair of bodies, joined to the nearest point of the surface.
-void add_marks(const softbody::World& world, std::span<const compare::SurfaceMark> marks, Points particles,
+void add_marks(const softbody::BodiesInMotion& world, std::span<const compare::SurfaceMark> marks, Points particles,
                engine::FrameData& frame) {
   frame.mark_colour = contact_missed_colour;
   frame.marks.assign(frame.positions.size(), 0.0f);
@@ -247,7 +249,8 @@ bool is_near(const softbody::BodyModel& model, Points body, const Viewpoint& vie
   return edge * viewpoint.pixels_at_one_metre > min_edge * glm::distance(body.front(), viewpoint.eye);
 }
 
-void add_springs(const softbody::World& world, const Viewpoint& viewpoint, Points particles, engine::FrameData& frame) {
+void add_springs(const softbody::BodiesInMotion& world, const Viewpoint& viewpoint, Points particles,
+                 engine::FrameData& frame) {
   engine::LineSet structural{.lines = {}, .width = 1.75f, .occluded_alpha = hidden};
   engine::LineSet others{.lines = {}, .width = 1.0f, .occluded_alpha = hidden};
   const collide::Bodies& bodies = *world.simulated().positions.bodies;
@@ -266,7 +269,7 @@ void add_springs(const softbody::World& world, const Viewpoint& viewpoint, Point
 
 /// Adds the borders, and the edges between a face that is turned to the eye and one that is not. They lie a little
 /// outside, because the body is drawn rounder than its mesh.
-void add_outline(const softbody::World& world, softbody::BodyId id, const glm::vec3& eye, Points positions,
+void add_outline(const softbody::BodiesInMotion& world, softbody::BodyId id, const glm::vec3& eye, Points positions,
                  const glm::vec3& colour, engine::LineSet& lines) {
   constexpr float outside = 0.08f;  // of the length of an edge
   const collide::surface::Surface& surface = *world.model(id).shown().surface;
@@ -292,8 +295,8 @@ void add_outline(const softbody::World& world, softbody::BodyId id, const glm::v
 }
 
 /// Adds fine outlines to open bodies, which show little shade, and a bold one to the selected body.
-void add_outlines(const softbody::World& world, const OverlayRequest& request, const glm::vec3& eye, Points positions,
-                  engine::FrameData& frame) {
+void add_outlines(const softbody::BodiesInMotion& world, const OverlayRequest& request, const glm::vec3& eye,
+                  Points positions, engine::FrameData& frame) {
   engine::LineSet fine{.lines = {}, .width = 1.25f, .occluded_alpha = hidden};
   engine::LineSet bold{.lines = {}, .width = 3.0f, .occluded_alpha = seen_through};
   for (softbody::BodyId body = 0; body < world.bodies().count(); ++body) {
@@ -307,7 +310,8 @@ void add_outlines(const softbody::World& world, const OverlayRequest& request, c
 }
 
 /// Adds the spring of the mouse: from the point that it holds to its target.
-void add_grab(const softbody::World& world, const softbody::Grab& grab, Points particles, engine::FrameData& frame) {
+void add_grab(const softbody::BodiesInMotion& world, const softbody::Grab& grab, Points particles,
+              engine::FrameData& frame) {
   glm::vec3 held(0.0f);
   for (int i = 0; i < 3; ++i)
     held += static_cast<float>(grab.weights[i]) *
@@ -326,7 +330,7 @@ engine::Box cell_box(const compare::Cell& cell, const glm::vec3& size, const glm
   return {at * size, (at + 1.0f) * size, colour};
 }
 
-void add_overlays(const softbody::World& world, const OverlayRequest& request, const Viewpoint& viewpoint,
+void add_overlays(const softbody::BodiesInMotion& world, const OverlayRequest& request, const Viewpoint& viewpoint,
                   const DrawnPoints& at, engine::FrameData& frame) {
   const Points positions = at.shown, particles = at.simulated;
   assert(positions.size() == world.bodies().vertex_count());
@@ -337,12 +341,12 @@ void add_overlays(const softbody::World& world, const OverlayRequest& request, c
   if (request.debug && shown.boxes) add_boxes(request, frame);
   if (request.debug && request.bucket) add_bucket(request, world.collision().cell_size, positions, frame);
   if (shown.areas) add_areas(request.areas, frame);
-  if (shown.contacts) add_contacts(world, at, frame);
+  if (shown.contacts) add_contacts(world, request.solid_contacts, at, frame);
   if (shown.missed && request.missed) add_missed(*request.missed, positions, frame);
   if (shown.surface_contacts) add_surface_contacts(world, request.surface_contacts, particles, frame);
   if (shown.true_surfaces) add_marks(world, request.marks, particles, frame);
   add_outlines(world, request, viewpoint.eye, positions, frame);
-  if (const auto& grab = world.grabbed()) add_grab(world, *grab, particles, frame);
+  if (request.grab) add_grab(world, *request.grab, particles, frame);
 }
 
 }  // namespace app::render

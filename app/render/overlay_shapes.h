@@ -20,7 +20,7 @@ struct DrawnPoints {
 };
 
 /// Adds the requested overlays.
-void add_overlays(const softbody::World& world, const OverlayRequest& request, const Viewpoint& viewpoint,
+void add_overlays(const softbody::BodiesInMotion& world, const OverlayRequest& request, const Viewpoint& viewpoint,
                   const DrawnPoints& at, engine::FrameData& frame);
 
 }  // namespace app::render

@@ -53,7 +53,7 @@ void hold_by_particles(Pick& pick, const softbody::BodyModel& model) {
 
 }  // namespace
 
-BoundingSphere bounding_sphere(const softbody::World& world, softbody::BodyId body,
+BoundingSphere bounding_sphere(const softbody::BodiesInMotion& world, softbody::BodyId body,
                                const compare::DrawnPositions& positions) {
   const collide::Index first = world.bodies().first[body], end = world.bodies().first[body + 1];
   glm::vec3 lo = positions[first], hi = lo;
@@ -70,7 +70,7 @@ BoundingSphere bounding_sphere(const softbody::World& world, softbody::BodyId bo
   return {centre, std::sqrt(radius2)};
 }
 
-std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world,
+std::optional<Pick> pick(const engine::Ray& ray, const softbody::BodiesInMotion& world,
                          const compare::DrawnPositions& positions) {
   std::optional<Pick> nearest;
   for (softbody::BodyId body = 0; body < world.bodies().count(); ++body) {
@@ -87,7 +87,7 @@ std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world,
   return nearest;
 }
 
-std::optional<float> distance_to_scene(const engine::Ray& ray, const softbody::World& world,
+std::optional<float> distance_to_scene(const engine::Ray& ray, const softbody::BodiesInMotion& world,
                                        const compare::DrawnPositions& positions) {
   constexpr float horizon = 1e3f;  // m
   if (const auto body = pick(ray, world, positions)) return body->distance;

@@ -6,7 +6,7 @@
 #include "app/compare/drawn_positions.h"
 #include "engine/camera.h"
 #include "softbody/scene/solids.h"
-#include "softbody/world/world.h"
+#include "softbody/world/bodies_in_motion.h"
 
 namespace app::render {
 
@@ -21,11 +21,11 @@ struct Pick {
 
 /// Returns the first triangle that the ray meets, from either side, of the bodies as they are drawn; nothing if it
 /// meets none, or a solid first.
-std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world,
+std::optional<Pick> pick(const engine::Ray& ray, const softbody::BodiesInMotion& world,
                          const compare::DrawnPositions& positions);
 
 /// Returns the distance (m) at which the ray meets the first body or solid; nothing if there is none.
-std::optional<float> distance_to_scene(const engine::Ray& ray, const softbody::World& world,
+std::optional<float> distance_to_scene(const engine::Ray& ray, const softbody::BodiesInMotion& world,
                                        const compare::DrawnPositions& positions);
 
 /// Returns the distance (m) at which the ray enters a solid, at most `max_distance`, by sphere tracing. It looks
@@ -50,7 +50,7 @@ struct BoundingSphere {
   float radius;
 };
 /// Returns a sphere around a body as it is drawn.
-BoundingSphere bounding_sphere(const softbody::World& world, softbody::BodyId body,
+BoundingSphere bounding_sphere(const softbody::BodiesInMotion& world, softbody::BodyId body,
                                const compare::DrawnPositions& positions);
 
 }  // namespace app::render

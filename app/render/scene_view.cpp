@@ -52,7 +52,7 @@ void SceneView::gather_positions(const compare::DrawnPositions& positions) {
   for (std::size_t i = 0; i < positions.size(); ++i) positions_.push_back(positions[i]);
 }
 
-std::vector<engine::MeshDraw> SceneView::gather_bodies(const softbody::World& world, std::uint32_t first) {
+std::vector<engine::MeshDraw> SceneView::gather_bodies(const softbody::BodiesInMotion& world, std::uint32_t first) {
   normals_.resize(positions_.size());
   const collide::Bodies& bodies = world.bodies();
   std::vector<engine::MeshDraw> draws;
@@ -74,7 +74,7 @@ std::vector<engine::MeshDraw> SceneView::gather_bodies(const softbody::World& wo
   return draws;
 }
 
-void SceneView::gather_ghost(const softbody::World& ghost, const compare::DrawnPositions& positions) {
+void SceneView::gather_ghost(const softbody::BodiesInMotion& ghost, const compare::DrawnPositions& positions) {
   assert(positions.size() == positions_.size());
   const auto first = static_cast<std::uint32_t>(positions_.size());
   gather_positions(positions);
@@ -133,8 +133,9 @@ void SceneView::gather_solids(const softbody::Scene& scene) {
   }
 }
 
-void SceneView::draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
-                     const engine::Viewport& viewport, float pixel_scale, const compare::DrawnMeshes& at) {
+void SceneView::draw(const softbody::BodiesInMotion& world, const OverlayRequest& overlays,
+                     const engine::Camera& camera, const engine::Viewport& viewport, float pixel_scale,
+                     const compare::DrawnMeshes& at) {
   frame_ = {};
   frame_.pixel_scale = pixel_scale;
   // The colours of overlays have meanings, so the bodies are dimmed. Missed contacts have marks of their own.
@@ -161,9 +162,8 @@ void SceneView::draw(const softbody::World& world, const OverlayRequest& overlay
   if (overlays.highlight) apply(*overlays.highlight);
   frame_.tessellated = !overlays.shown.springs;  // springs run along the straight edges
 
-  const softbody::Scene& scene = world.scene();
-  gather_solids(scene);
-  const Bounds around = bounds(scene);
+  gather_solids(world.scene());
+  const Bounds around = bounds(world);
   frame_.bounds_centre = around.centre;
   frame_.bounds_radius = enclosing_radius(around.centre, around.radius, positions_);
 
@@ -184,13 +184,14 @@ double SceneView::radius(const softbody::MeshSource& source) {
   return radii_.emplace_back(source, softbody::bounding_radius(source.make())).second;
 }
 
-/// Returns a sphere around the scene as it is set up: the solids, and the places where bodies start.
-SceneView::Bounds SceneView::bounds(const softbody::Scene& scene) {
-  if (scene.recording) {
-    const auto bounds = scene.recording->bounds();
-    const glm::dvec3 low(bounds[0]), high(bounds[1]);
+/// Returns a sphere around all frames if that is known, else around the scene as it is set up: the solids, and the
+/// places where bodies start.
+SceneView::Bounds SceneView::bounds(const softbody::BodiesInMotion& world) {
+  if (const auto known = world.bounds()) {
+    const glm::dvec3 low((*known)[0]), high((*known)[1]);
     return {glm::vec3(0.5 * (low + high)), static_cast<float>(0.5 * glm::distance(low, high))};
   }
+  const softbody::Scene& scene = world.scene();
   glm::dvec3 lo = scene.view.target, hi = scene.view.target;
   const auto include = [&](const glm::dvec3& centre, double reach) {
     lo = glm::min(lo, centre - reach);
@@ -207,8 +208,9 @@ SceneView::Bounds SceneView::bounds(const softbody::Scene& scene) {
   return {glm::vec3(0.5 * (lo + hi)), static_cast<float>(0.5 * glm::distance(lo, hi)) + 0.5f};
 }
 
-engine::Camera SceneView::camera(const softbody::Scene& scene, glm::ivec2 size) {
-  const Bounds around = bounds(scene);
+engine::Camera SceneView::camera(const softbody::BodiesInMotion& world, glm::ivec2 size) {
+  const softbody::Scene& scene = world.scene();
+  const Bounds around = bounds(world);
   engine::Camera camera;
   camera.fit(around.centre, around.radius, size);  // sets the limits of zoom and depth
   if (scene.ground) camera.set_floor(static_cast<float>(scene.ground->height));

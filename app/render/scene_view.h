@@ -12,7 +12,7 @@
 #include "app/render/overlays.h"
 #include "collide/core/workers.h"
 #include "engine/render/renderer.h"
-#include "softbody/world/world.h"
+#include "softbody/world/measures.h"
 
 namespace app::render {
 
@@ -26,9 +26,11 @@ struct OverlayRequest {
   std::vector<collide::DebugGeometry::Box> areas;
   const std::vector<collide::Contact>* missed = nullptr;            // vertices of the present world
   std::span<const softbody::SurfaceContactPoint> surface_contacts;  // of the present world
+  std::vector<softbody::SolidContactPoint> solid_contacts;          // of the present world
+  std::optional<softbody::Grab> grab;                               // what the hand holds
   std::span<const compare::SurfaceMark> marks;                      // of the present world
   const Highlight* highlight = nullptr;                             // everything else is faded
-  const softbody::World* ghost = nullptr;  // another world with the same bodies, drawn translucent
+  const softbody::BodiesInMotion* ghost = nullptr;  // another world with the same bodies, drawn translucent
   compare::DrawnPositions ghost_positions;
 };
 
@@ -40,10 +42,10 @@ class SceneView {
   /// threads: prepare a picture. Requires a current context. Throws engine::ShaderError.
   explicit SceneView(const std::filesystem::path& shaders, int threads = 1) : renderer_(shaders), workers_(threads) {}
 
-  void draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
+  void draw(const softbody::BodiesInMotion& world, const OverlayRequest& overlays, const engine::Camera& camera,
             const engine::Viewport& viewport, float pixel_scale, const compare::DrawnMeshes& at);
   /// Draws each vertex at its present position.
-  void draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
+  void draw(const softbody::BodiesInMotion& world, const OverlayRequest& overlays, const engine::Camera& camera,
             const engine::Viewport& viewport, float pixel_scale) {
     draw(world, overlays, camera, viewport, pixel_scale, compare::DrawnMeshes(world));
   }
@@ -56,7 +58,7 @@ class SceneView {
   }
 
   /// Returns the scene's own camera for a picture of this size, with limits of zoom that suit the scene.
-  engine::Camera camera(const softbody::Scene& scene, glm::ivec2 size);
+  engine::Camera camera(const softbody::BodiesInMotion& world, glm::ivec2 size);
   /// Returns the view that gives a scene this camera: the inverse of camera(), rounded to four decimals.
   static softbody::View view(const engine::Camera& camera, glm::ivec2 size);
   /// Moves the camera so that a picture of another size shows as much.
@@ -74,12 +76,12 @@ class SceneView {
 
   void gather_positions(const compare::DrawnPositions& positions);
   /// Returns the draws of the bodies whose vertices were gathered last and begin at `first`. Colours are not set yet.
-  std::vector<engine::MeshDraw> gather_bodies(const softbody::World& world, std::uint32_t first);
-  void gather_ghost(const softbody::World& ghost, const compare::DrawnPositions& positions);
+  std::vector<engine::MeshDraw> gather_bodies(const softbody::BodiesInMotion& world, std::uint32_t first);
+  void gather_ghost(const softbody::BodiesInMotion& ghost, const compare::DrawnPositions& positions);
   void apply(const Highlight& highlight);
   void gather_solids(const softbody::Scene& scene);
   const UploadedMesh& upload(const softbody::Mesh& mesh);
-  Bounds bounds(const softbody::Scene& scene);
+  Bounds bounds(const softbody::BodiesInMotion& world);
   double radius(const softbody::MeshSource& source);
 
   engine::render::Renderer renderer_;

@@ -45,7 +45,8 @@ std::string script(const Plot& plot) {
 
 std::string colour(const collide::Method& method) {
   const auto byte = [](float part) { return static_cast<int>(std::lround(255 * part)); };
-  return fmt::format("#{:02x}{:02x}{:02x}", byte(method.colour.r), byte(method.colour.g), byte(method.colour.b));
+  const glm::vec3 colour = compare::style(method).colour;
+  return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.r), byte(colour.g), byte(colour.b));
 }
 
 const char* integrator_colour(std::size_t i) {

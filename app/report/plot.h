@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "collide/methods.h"
+#include "app/compare/method_style.h"
 
 namespace app::report {
 
@@ -41,7 +41,7 @@ std::string script(const Plot& plot);
 /// Returns "#rrggbb".
 std::string colour(const collide::Method& method);
 /// Returns the number of gnuplot's `pointtype`.
-inline int point_type(const collide::Method& method) { return static_cast<int>(method.marker); }
+inline int point_type(const collide::Method& method) { return static_cast<int>(compare::style(method).marker); }
 /// Returns the colour of the table's integrator i. People who see few colours can tell them apart, too (Okabe and Ito
 /// 2008).
 const char* integrator_colour(std::size_t i);

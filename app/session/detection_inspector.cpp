@@ -73,8 +73,10 @@ std::vector<collide::DebugGeometry::Box> DetectionInspector::search_areas() cons
 }
 
 const std::vector<softbody::SurfaceContactPoint>& DetectionInspector::surface_contacts() const {
-  if (surface_contacts_.revision != simulation_.revision())
-    surface_contacts_ = {simulation_.revision(), world().surface_contacts()};
+  if (surface_contacts_.revision != simulation_.revision()) {
+    surface_contacts_ = {.revision = simulation_.revision()};
+    if (const softbody::World* world = simulation_.simulated()) surface_contacts_.value = world->surface_contacts();
+  }
   return surface_contacts_.value;
 }
 

@@ -45,7 +45,7 @@ class DetectionInspector {
     Value value{};
   };
 
-  const softbody::World& world() const { return simulation_.world(); }
+  const softbody::BodiesInMotion& world() const { return simulation_.world(); }
 
   const Simulation& simulation_;
   std::unique_ptr<collide::Detector> exact_;  // shows its areas

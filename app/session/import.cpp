@@ -31,7 +31,7 @@ constexpr std::size_t many_particles = 3000;
 constexpr double finest_edge = 0.2;  // in tolerances
 
 /// Returns the lowest height from `at` upwards at which a ball of this radius is clear of bodies and solids.
-double clear_height(const softbody::World& world, glm::dvec3 at, double radius) {
+double clear_height(const softbody::BodiesInMotion& world, glm::dvec3 at, double radius) {
   const double gap = radius + static_cast<double>(world.collision().tolerance);
   const collide::Frame p = world.positions();
   for (std::size_t i = 0; i < p.x.size(); ++i)
@@ -41,7 +41,7 @@ double clear_height(const softbody::World& world, glm::dvec3 at, double radius) 
   return at.y;
 }
 
-std::vector<std::string> lines_about(const FileReader::Mesh& read, const softbody::World& world) {
+std::vector<std::string> lines_about(const FileReader::Mesh& read, const softbody::BodiesInMotion& world) {
   const softbody::MeshSource& mesh = read.mesh;
   const softbody::ImportFindings& f = mesh.imported->findings;
   std::vector<std::string> lines{
@@ -61,9 +61,9 @@ std::vector<std::string> lines_about(const FileReader::Mesh& read, const softbod
   return lines;
 }
 
-FileReader::World world_of(const std::filesystem::path& path, softbody::Scene scene, int threads) {
-  auto world = make_window_world(scene, {}, threads);
-  return {path, std::move(scene), std::move(world)};
+FileReader::World world_of(const std::filesystem::path& path, std::string what, files::Opened opened, int threads) {
+  ShownWorld shown = show_in_window(opened, threads);
+  return {path, std::move(what), std::move(opened), std::move(shown)};
 }
 
 /// Returns the ending of a file's name in small letters.
@@ -90,12 +90,12 @@ FileReader::Answer FileReader::answer(const Question& question, const std::stop_
       return read;
     }
     if (const auto* frames = std::get_if<FramesToRead>(&question.file)) {
-      softbody::Scene scene = files::recorded_scene(frames->files);
-      for (const int number : {1, scene.recording->frame_count() - 1}) scene.recording->frame(number);
-      return world_of(frames->files.front(), std::move(scene), frames->threads);
+      files::Opened opened = files::open_recording(frames->files);
+      for (const int number : {1, opened.recording->frame_count() - 1}) opened.recording->frame(number);
+      return world_of(frames->files.front(), opened.scene.look_at, std::move(opened), frames->threads);
     }
     const auto& [path, threads, presets] = std::get<SceneToRead>(question.file);
-    return world_of(path, softbody::load_scene(path, presets), threads);
+    return world_of(path, "scene " + path.filename().string(), softbody::load_scene(path, presets), threads);
   } catch (const Cancelled&) {
     return Cancelled{};
   } catch (const std::exception& error) {
@@ -103,7 +103,7 @@ FileReader::Answer FileReader::answer(const Question& question, const std::stop_
   }
 }
 
-softbody::BodySource place_above(const softbody::World& world, softbody::MeshSource mesh) {
+softbody::BodySource place_above(const softbody::BodiesInMotion& world, softbody::MeshSource mesh) {
   assert(mesh.imported);
   const softbody::Scene& scene = world.scene();
   softbody::BodySource body;
@@ -205,7 +205,7 @@ std::string Import::question() const {
   return fmt::format(
       "{} files; those read so far, the first two and the last, fit together as frames. Play them as a recording, or "
       "import each as a body?",
-      grouped(static_cast<std::size_t>(frames_->world.scene.recording->frame_count())));
+      grouped(static_cast<std::size_t>(frames_->world.opened.recording->frame_count())));
 }
 
 void Import::play(Session& session) {
@@ -241,8 +241,8 @@ void Import::take(Session& session, FileReader::Answer answer) {
   if (std::vector<std::string> files = std::exchange(together_, {}); !files.empty()) {
     if (auto* world = std::get_if<FileReader::World>(&answer)) {
       frames_.emplace(Frames{std::move(files), std::move(*world)});
-      if (!session.why_no_solver().empty()) play(session);  // no body could join
-    } else {                                                // they are no frames
+      if (!session.simulated()) play(session);  // no body could join
+    } else {                                    // they are no frames
       drop_first(files);
     }
     return;
@@ -254,9 +254,8 @@ void Import::take(Session& session, FileReader::Answer answer) {
 
 void Import::enter(Session& session, FileReader::World answer) {
   try {
-    const std::string what = answer.scene.recording ? answer.scene.look_at : "scene " + answer.path.filename().string();
-    session.scenes.enter(std::move(answer.world), std::move(answer.scene), answer.path.string());
-    add({.lines = {what}});
+    session.scenes.enter(std::move(answer.shown), std::move(answer.opened.scene), answer.path.string());
+    add({.lines = {std::move(answer.what)}});
   } catch (const std::exception& error) {
     refuse(error.what());
   }

@@ -55,8 +55,9 @@ struct FileReader {
   };
   struct World {
     std::filesystem::path path;  // of the scene, or of the first frame
-    softbody::Scene scene;
-    std::unique_ptr<softbody::World> world;
+    std::string what;            // the line of the report
+    files::Opened opened;
+    ShownWorld shown;
   };
   struct Question {
     std::variant<softbody::MeshFile, SceneToRead, FramesToRead> file;
@@ -68,7 +69,7 @@ struct FileReader {
 
 /// Returns a body of this mesh, which must be imported, placed above the middle of the scene, clear of solids and
 /// bodies.
-softbody::BodySource place_above(const softbody::World& world, softbody::MeshSource mesh);
+softbody::BodySource place_above(const softbody::BodiesInMotion& world, softbody::MeshSource mesh);
 
 /// Returns the material of an imported body of this extent (m): springs, and shape matching instead of gas, which
 /// cannot keep a concave or open mesh in shape. It swings and bends like a body of 1 m and 1 kg, but a larger body

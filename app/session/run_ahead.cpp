@@ -8,7 +8,7 @@
 namespace app::session {
 
 void RunAhead::start(Goal reached, double max_seconds) {
-  const softbody::World& world = simulation_.world();
+  const softbody::BodiesInMotion& world = simulation_.world();
   run_ = {std::move(reached), world.last_step().time + max_seconds, world.frame()};
   simulation_.clock.running_ahead = true;
   simulation_.clock.paused = false;
@@ -30,7 +30,7 @@ double RunAhead::stepped() {
 }
 
 bool RunAhead::goes_on() const {
-  const softbody::World& world = simulation_.world();
+  const softbody::BodiesInMotion& world = simulation_.world();
   if (world.all_at_rest() || world.last_step().time >= run_->end) return false;
   try {
     return !run_->reached(world);

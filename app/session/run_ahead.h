@@ -10,7 +10,7 @@ namespace app::session {
 
 class RunAhead {
  public:
-  using Goal = std::function<bool(const softbody::World&)>;
+  using Goal = std::function<bool(const softbody::BodiesInMotion&)>;
 
   /// `simulation` must outlive this.
   explicit RunAhead(Simulation& simulation) : simulation_(simulation) {}

@@ -51,8 +51,7 @@ void SceneControls::choose(const std::string& key_or_path) {
   }
 }
 
-void SceneControls::enter(std::unique_ptr<softbody::World> world, softbody::Scene scene,
-                          const std::string& key_or_path) {
+void SceneControls::enter(ShownWorld world, softbody::Scene scene, const std::string& key_or_path) {
   files::protect_inputs(scene);
   SceneFile file(key_or_path, scene);
   SolidList solids = list_solids(scene);
@@ -61,7 +60,7 @@ void SceneControls::enter(std::unique_ptr<softbody::World> world, softbody::Scen
 
 softbody::Scene SceneControls::with_added_bodies() const {
   softbody::Scene scene = scene_in_use(simulation_);
-  scene.bodies = softbody::body_sources(simulation_.world());
+  if (simulation_.simulated()) scene.bodies = softbody::body_sources(*simulation_.simulated());
   return scene;
 }
 

@@ -69,31 +69,30 @@ std::string shell_word(const std::string& text) {
 
 namespace {
 
-/// Returns the options that make the scene `used`, with a space before each. Without a recording, `name` stands for it.
+/// Returns an option with its value, with a space before each.
+std::string option(const char* name, const std::string& value) {
+  return std::string(" ").append(name).append(1, ' ').append(shell_word(value));
+}
+
+/// Returns the options for the view of `used`, and for how contacts are found.
+std::string detection_options(const softbody::Scene& used) {
+  const collide::Settings& c = used.collision;
+  std::string text = option("--method", used.method) + option("--levels", std::to_string(c.levels)) +
+                     option("--buckets", std::to_string(c.buckets)) +
+                     option("--cell-size", used.default_cell_size ? "auto" : three(c.cell_size));
+  if (c.primes != collide::default_primes) text += option("--primes", three(c.primes));
+  text += option("--tolerance", softbody::toml_value(c.tolerance)) + (c.self_collision ? " --self" : " --no-self");
+  return text + option("--view", view_text(used.view));
+}
+
+/// Returns the options that make the scene `used`, for which `name` stands.
 std::string scene_options(const std::string& name, const softbody::Scene& used,
                           const softbody::IntegratorChoice& integrator) {
-  const collide::Settings& c = used.collision;
-  std::string text;
-  const auto add = [&text](const char* option, const std::string& value) {
-    text.append(1, ' ').append(option).append(1, ' ').append(shell_word(value));
-  };
-  if (const auto& recording = used.recording)
-    for (const std::string& word : recording->command_words()) text.append(1, ' ').append(shell_word(word));
-  else
-    add("--scene", name);
-  add("--method", used.method);
-  add("--levels", std::to_string(c.levels));
-  add("--buckets", std::to_string(c.buckets));
-  add("--cell-size", used.default_cell_size ? "auto" : three(c.cell_size));
-  if (c.primes != collide::default_primes) add("--primes", three(c.primes));
-  add("--tolerance", softbody::toml_value(c.tolerance));
-  text += c.self_collision ? " --self" : " --no-self";
-  add("--view", view_text(used.view));
-  if (used.recording) return text;  // nothing is simulated
+  std::string text = option("--scene", name) + detection_options(used);
   for (const softbody::ContactSurfaceInfo& info : softbody::contact_surfaces)
-    if (info.value == used.contact_surface) add("--contact-surface", std::string(info.key));
-  if (integrator.key != softbody::default_integrator) add("--integrator", integrator.key);
-  if (integrator.substeps) add("--substeps", std::to_string(*integrator.substeps));
+    if (info.value == used.contact_surface) text += option("--contact-surface", std::string(info.key));
+  if (integrator.key != softbody::default_integrator) text += option("--integrator", integrator.key);
+  if (integrator.substeps) text += option("--substeps", std::to_string(*integrator.substeps));
   return text;
 }
 
@@ -108,6 +107,12 @@ std::string this_program() {
 std::string demo_command(const std::string& name, const softbody::Scene& used,
                          const softbody::IntegratorChoice& integrator) {
   return this_program() + scene_options(name, used, integrator);
+}
+
+std::string play_command(const files::Recording& recording, const softbody::Scene& used) {
+  std::string text = this_program();
+  for (const std::string& word : recording.command_words()) text.append(1, ' ').append(shell_word(word));
+  return text + detection_options(used);
 }
 
 std::string simulate_command(const std::string& name, const softbody::Scene& used,

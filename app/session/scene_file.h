@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/files/recording.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/scene/scene.h"
 
@@ -41,11 +42,12 @@ class SceneFile {
 /// Returns `text` as one word of a POSIX shell, quoted only if needed.
 std::string shell_word(const std::string& text);
 
-/// Return commands for a POSIX shell, with this executable and the settings of `used`: one opens the demo with the
-/// scene of that name, or the recording, the other takes a picture of the frame without a window. No picture of a
-/// recording is taken without a window.
+/// Return commands for a POSIX shell, with this executable and the settings of `used`: the first opens the demo with
+/// the scene of that name, the second with the recording; the third takes a picture of the scene's frame without a
+/// window.
 std::string demo_command(const std::string& name, const softbody::Scene& used,
                          const softbody::IntegratorChoice& integrator);
+std::string play_command(const files::Recording& recording, const softbody::Scene& used);
 std::string simulate_command(const std::string& name, const softbody::Scene& used,
                              const softbody::IntegratorChoice& integrator, int frame);
 

@@ -1,11 +1,13 @@
 #include "app/session/session.h"
 
+#include <cassert>
+
 #include "app/base/freed_memory.h"
 
 namespace app::session {
 
-Session::Session(softbody::Scene scene, const std::filesystem::path& scene_folder, int threads, std::string scene_name)
-    : simulation(std::move(scene), threads, std::move(scene_name), this),
+Session::Session(files::Opened opened, const std::filesystem::path& scene_folder, int threads, std::string scene_name)
+    : simulation(std::move(opened), threads, std::move(scene_name), this),
       run_ahead(simulation),
       scenes(simulation, scene_folder),
       bodies(simulation),
@@ -62,11 +64,11 @@ void Session::exchange() {
 }
 
 double Session::stepped() {
-  notify(ghost_.step(world()));
+  if (simulated()) notify(ghost_.step(*simulated()));
   return ghost_.step_ms() + run_ahead.stepped();
 }
 
-void Session::intervened() { notify(ghost_.restart(world())); }
+void Session::intervened() { notify(ghost_.restart(simulated())); }
 
 void Session::detection_changed() {
   inspector.detection_changed();
@@ -80,12 +82,13 @@ void Session::replaced(bool new_scene) {
   inspector.replaced(new_scene);
   comparison.restart(world(), simulation.revision());
   surfaces.restart(simulation.revision());
-  notify(ghost_.restart(world()));
+  notify(ghost_.restart(simulated()));
 }
 
 void Session::choose_ghost(const std::optional<softbody::IntegratorChoice>& choice) {
+  assert(simulated());
   simulation.notice.clear();
-  notify(ghost_.choose(world(), choice, simulation.threads()));
+  notify(ghost_.choose(*simulated(), choice, simulation.threads()));
 }
 
 void Session::notify(const std::string& problem) {

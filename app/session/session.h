@@ -18,7 +18,7 @@ class Session : private SimulationObserver {
  public:
   /// scene_folder: where other scenes are found by their keys. scene_name: what the scene is found by, if not by its
   /// key. Throws SceneError.
-  Session(softbody::Scene scene, const std::filesystem::path& scene_folder, int threads, std::string scene_name = "");
+  Session(files::Opened opened, const std::filesystem::path& scene_folder, int threads, std::string scene_name = "");
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
@@ -32,14 +32,14 @@ class Session : private SimulationObserver {
   LiveComparison comparison;
   SurfaceMonitor surfaces;
 
-  const softbody::World& world() const { return simulation.world(); }
-  /// Returns why nothing is simulated; empty if the bodies are.
-  std::string why_no_solver() const { return world().plan().why_not(softbody::Stage::integrate); }
+  const softbody::BodiesInMotion& world() const { return simulation.world(); }
+  /// Returns the world if it is simulated; nullptr where a recording is played.
+  const softbody::World* simulated() const { return simulation.simulated(); }
 
   /// Takes the steps that are due, now that `elapsed` seconds of real time have passed, and follows with all else.
   /// `waited`: the picture waited on purpose, so `elapsed` is no measure of the machine.
   void advance(double elapsed, bool waited = false);
-  /// The same for recordings: one step if `allowed`, however long it takes.
+  /// The same while frames are exported: one step if `allowed`, however long it takes.
   void advance_one(double elapsed, bool allowed);
 
   /// Returns true if advance() would take no step: the world is paused, or has been at rest for so long that all curves
@@ -51,7 +51,7 @@ class Session : private SimulationObserver {
   bool awaits_answer() const;
 
   /// A second world that goes on from the present state by another integrator. It begins anew whenever hands or
-  /// settings change the one that is shown. Nothing: there is none.
+  /// settings change the one that is shown, which must be simulated. Nothing: there is none.
   void choose_ghost(const std::optional<softbody::IntegratorChoice>& choice);
   const LiveGhost& ghost() const { return ghost_; }
 

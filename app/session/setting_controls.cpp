@@ -44,29 +44,30 @@ void SettingControls::begin_drag(std::size_t solid) {
 }
 
 void SettingControls::set_integrator(const softbody::IntegratorChoice& choice) {
-  if (choice == simulation_.world().integrator_choice()) return;
-  simulation_.change([&](World& world) { world.set_integrator(choice); });
+  const World* world = simulation_.simulated();
+  if (!world || choice == world->integrator_choice()) return;
+  simulation_.change([&](World& changed) { changed.set_integrator(choice); });
 }
 
 /// Returns false, with a notice, if the method would hold the window up: it runs where the bodies are moved and drawn.
 bool SettingControls::affordable(const collide::Method& method, const collide::Settings& settings) {
   const compare::WorkEstimate work = window_work(simulation_.world(), method, settings);
   if (work.cost() <= max_window_work) return true;
-  simulation_.notice.set(std::string(method.name) + " would take " + work.in_words() +
+  simulation_.notice.set(method.name + " would take " + work.in_words() +
                          " a frame here: too long to drive the bodies with");
   return false;
 }
 
 void SettingControls::set_method(std::string_view key) {
   const collide::Method* method = collide::find_method(key);
-  const World& world = simulation_.world();
+  const softbody::BodiesInMotion& world = simulation_.world();
   if (!method || key == world.method().key || !affordable(*method, world.collision())) return;
-  simulation_.change([key](World& changed) { changed.set_method(key); });
+  simulation_.change_detection([key](auto& changed) { changed.set_method(key); });
 }
 
 void SettingControls::next_method(const compare::MethodSet& methods) {
-  const auto all = collide::method_table();
-  const World& world = simulation_.world();
+  const auto all = collide::method_table().first(methods.size());
+  const softbody::BodiesInMotion& world = simulation_.world();
   const auto here = std::ranges::find(all, world.method().key, &collide::Method::key);
   const auto first = static_cast<std::size_t>(here - all.begin());
   for (std::size_t i = 1; i < all.size(); ++i) {
@@ -89,14 +90,14 @@ void SettingControls::next_contact_surface() {
 }
 
 void SettingControls::set_collision(const collide::Settings& settings, bool default_cell_size) {
-  const World& world = simulation_.world();
+  const softbody::BodiesInMotion& world = simulation_.world();
   // The automatic cell size is the world's own business, so a bad one of the caller's does no harm.
   collide::Settings checked = settings;
   if (default_cell_size) checked.cell_size = world.collision().cell_size;
   if (std::string problem = collide::problem(checked); !problem.empty())
     return simulation_.notice.set(std::move(problem));
   if (!affordable(world.method(), checked)) return;
-  simulation_.change([&](World& changed) { changed.set_collision(checked, default_cell_size); });
+  simulation_.change_detection([&](auto& changed) { changed.set_collision(checked, default_cell_size); });
 }
 
 void SettingControls::restore_detection() {

@@ -1,7 +1,7 @@
 #pragma once
 // What the user sets: gravity, materials and solids; the integrator; the detector and its settings.
 
-#include "app/compare/method_set.h"
+#include "app/compare/method_style.h"
 #include "app/session/simulation.h"
 
 namespace app::session {
@@ -24,7 +24,7 @@ class SettingControls {
   void set_integrator(const softbody::IntegratorChoice& choice);
 
   void set_method(std::string_view key);
-  /// The next of these methods in collide::method_table() that the window can afford.
+  /// The next of these methods, which are the first ones of collide::method_table(), that the window can afford.
   void next_method(const compare::MethodSet& methods);
   void set_contact_surface(softbody::ContactSurface surface);
   void next_contact_surface();

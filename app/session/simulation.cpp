@@ -38,20 +38,30 @@ void restore(World& world, const softbody::Snapshot& snapshot, bool with_its_sol
     world.set_collision(settings, default_cell_size);
 }
 
+/// Returns what was kept, as it was. Throws if there is too little memory.
+ShownWorld bring_back(const decltype(KeptWorld::world)& kept, int threads) {
+  if (const auto* player = std::get_if<std::shared_ptr<Player>>(&kept)) {
+    (*player)->detect();
+    return *player;
+  }
+  auto world = make_window_world({}, {}, threads);
+  world->restore(std::get<softbody::Snapshot>(kept));
+  return world;
+}
+
 }  // namespace
 
-Simulation::Simulation(softbody::Scene scene, int threads, std::string scene_name, SimulationObserver* observer)
-    : observer_(observer ? *observer : none_), threads_(threads) {
-  const std::string name = scene_name.empty() ? scene.key : std::move(scene_name);
-  world_ = make_window_world(scene, {}, threads_);
-  loaded = {scene, SceneFile(name, scene), list_solids(scene)};
-  stability_.restart(*world_);
-  before_last_step_.copy(*world_);
+Simulation::Simulation(files::Opened opened, int threads, std::string scene_name, SimulationObserver* observer)
+    : observer_(observer ? *observer : none_), threads_(threads), shown_(show_in_window(opened, threads)) {
+  const softbody::Scene& scene = opened.scene;
+  loaded = {scene, SceneFile(scene_name.empty() ? scene.key : scene_name, scene), list_solids(scene)};
+  if (simulated()) stability_.restart(*simulated());
+  before_last_step_.copy(world());
 }
 
 void Simulation::advance(double elapsed, bool stands_still) {
   let_pass(elapsed);
-  if (!stands_still) clock.advance(elapsed, world_->frame_time(), [this] { return step(); });
+  if (!stands_still) clock.advance(elapsed, world().frame_time(), [this] { return step(); });
 }
 
 void Simulation::advance_one(double elapsed, bool allowed) {
@@ -60,62 +70,70 @@ void Simulation::advance_one(double elapsed, bool allowed) {
 }
 
 SimulationClock::Step Simulation::step() {
-  before_last_step_.copy(*world_);
-  const bool was_at_rest = world_->all_at_rest();
-  const int frame = world_->frame();
-  const std::size_t bodies = world_->bodies().count();
-  if (!clock.paused) stability_.dismiss_blow_up();
-  const bool had_blown_up = stability_.blow_up().has_value();
-  stability_.before_step(*world_);
-  const bool stepped = attempt([&] { world_->step(); });
+  before_last_step_.copy(world());
+  const bool was_at_rest = world().all_at_rest();
+  const bool stepped = std::visit([this](const auto& shown) { return step(*shown); }, shown_);
   if (!stepped) clock.paused = true;
-  if (world_->grabbed()) observer_.intervened();  // another hand would do otherwise
-  stability_.after_step(*world_, pause_on_blow_up);
-  if (stability_.blow_up() && !had_blown_up) clock.paused = true;
-  if (!stepped || !was_at_rest || !world_->all_at_rest()) ++revision_;
-  if (world_->scene().recording) follow_recording(frame, bodies);
+  if (!stepped || !was_at_rest || !world().all_at_rest()) ++revision_;
   rest_steps_ = std::exchange(last_revision_, revision_) == revision_ ? rest_steps_ + 1 : 0;
-  const softbody::StepReport& report = world_->last_step();
+  const softbody::StepReport& report = world().last_step();
   step_ms_ = report.total_ms + observer_.stepped();
-  history.detect_ms.push(world_->frame(), static_cast<float>(report.detect_ms));
-  history.solve_ms.push(world_->frame(), static_cast<float>(report.solve_ms));
-  history.contacts.push(world_->frame(), static_cast<float>(world_->detection().contacts.size()));
+  history.detect_ms.push(world().frame(), static_cast<float>(report.detect_ms));
+  history.solve_ms.push(world().frame(), static_cast<float>(report.solve_ms));
+  history.contacts.push(world().frame(), static_cast<float>(world().detection().contacts.size()));
   return {report.seconds, step_ms_};
 }
 
-/// Takes notice of a step of a recording that was at this frame and had so many bodies.
-void Simulation::follow_recording(int frame, std::size_t bodies) {
-  const bool is_last = world_->frame() + 1 == world_->scene().recording->frame_count();
+/// Takes a step, which may fail, and monitors its stability.
+bool Simulation::step(World& world) {
+  if (!clock.paused) stability_.dismiss_blow_up();
+  const bool had_blown_up = stability_.blow_up().has_value();
+  stability_.before_step(world);
+  const bool stepped = attempt([&] { world.step(); });
+  if (world.grabbed()) observer_.intervened();  // another hand would do otherwise
+  stability_.after_step(world, pause_on_blow_up);
+  if (stability_.blow_up() && !had_blown_up) clock.paused = true;
+  return stepped;
+}
+
+/// Takes a step, which may fail.
+bool Simulation::step(Player& player) {
+  const int frame = player.frame();
+  const std::size_t bodies = player.bodies().count();
+  const bool stepped = attempt([&] { player.step(); });
+  const bool is_last = player.frame() + 1 == player.recording()->frame_count();
   if (is_last && !loop) clock.paused = true;
-  if (world_->frame() < frame) {  // it begins again, and nothing moved from the end to the start
-    before_last_step_.copy(*world_);
+  if (player.frame() < frame) {  // it begins again, and nothing moved from the end to the start
+    before_last_step_.copy(player);
     forget_later_steps();
   }
-  if (world_->bodies().count() >= bodies) return;
+  if (player.bodies().count() >= bodies) return stepped;
+  ++revision_;
   ++world_number_;  // reports name bodies that are gone
   observer_.replaced(false);
+  return stepped;
 }
 
 bool Simulation::has_come_to_rest() const {
   if (last_revision_ != revision_ || rest_steps_ < TimeSeries::capacity) return false;
-  const auto is_past = [this](const softbody::Caption& caption) { return caption.frame <= world_->frame(); };
-  return world_->all_at_rest() && (!as_scripted_ || std::ranges::all_of(world_->scene().captions, is_past));
+  const auto is_past = [this](const softbody::Caption& caption) { return caption.frame <= world().frame(); };
+  return world().all_at_rest() && (!as_scripted_ || std::ranges::all_of(world().scene().captions, is_past));
 }
 
 float Simulation::between() const {
-  return world_->all_at_rest() ? 1.0f : static_cast<float>(clock.fraction(world_->frame_time()));
+  return world().all_at_rest() ? 1.0f : static_cast<float>(clock.fraction(world().frame_time()));
 }
 
 compare::DrawnMeshes Simulation::drawn(bool whole_steps) const {
-  return {*world_, before_last_step_, whole_steps ? 1.0f : between()};
+  return {world(), before_last_step_, whole_steps ? 1.0f : between()};
 }
 
 const std::string& Simulation::caption() const {
   static const std::string none;
   const std::string* text = &none;
   if (!as_scripted_) return none;
-  for (const softbody::Caption& caption : world_->scene().captions)
-    if (caption.frame <= world_->frame()) text = &caption.text;
+  for (const softbody::Caption& caption : world().scene().captions)
+    if (caption.frame <= world().frame()) text = &caption.text;
   return *text;
 }
 
@@ -141,13 +159,20 @@ bool Simulation::attempt(const std::function<void()>& action) {
 }
 
 bool Simulation::change(const std::function<void(World&)>& change) {
+  return carry_out([&] {
+    if (player()) throw softbody::SceneError("no body can join or change: the motion is recorded");
+    change(solver());
+  });
+}
+
+bool Simulation::carry_out(const std::function<void()>& change) {
   notice.clear();
-  const collide::Method& method = world_->method();
-  const collide::Settings settings = world_->collision();
-  const bool done = attempt([&] { change(*world_); });
+  const collide::Method& method = world().method();
+  const collide::Settings settings = world().collision();
+  const bool done = attempt(change);
   ++revision_;
   observer_.intervened();
-  if (&method != &world_->method() || settings != world_->collision()) observer_.detection_changed();
+  if (&method != &world().method() || settings != world().collision()) observer_.detection_changed();
   return done;
 }
 
@@ -155,26 +180,26 @@ bool Simulation::change_bodies(std::string name, const std::function<bool(World&
   leave_script();
   KeptWorld before = present({Change::Of::bodies, std::move(name)});
   bool changed = false;
-  const std::size_t bodies = world_->bodies().count();
+  const std::size_t bodies = world().bodies().count();
   this->change([&](World& world) { changed = change(world); });
   if (changed) {
     kept_.push(std::move(before));
     if (before_drag_) before_drag_ = present(before_drag_->change);  // a drag that goes on is undone up to here
   }
-  if (world_->bodies().count() < bodies) replace(false);  // bodies after a deleted one have other ids
+  if (world().bodies().count() < bodies) replace(false);  // bodies after a deleted one have other ids
   return changed;
 }
 
 void Simulation::pull_to(const glm::dvec3& target) {
-  std::optional<softbody::Grab> grab = world_->grabbed();
+  std::optional<softbody::Grab> grab = grabbed();
   if (!grab) return;
   keep_drag();
   grab->target = target;
-  world_->grab(grab);
+  solver().grab(grab);
 }
 
 void Simulation::release() {
-  world_->grab({});
+  if (grabbed()) solver().grab({});
   end_drag();
 }
 
@@ -184,7 +209,7 @@ void Simulation::keep_drag() {
 
 /// What was found out about the world before is of no use.
 void Simulation::replace(bool new_scene) {
-  before_last_step_.copy(*world_);
+  before_last_step_.copy(world());
   clock.restart();
   end_drag();
   ++revision_;
@@ -194,26 +219,31 @@ void Simulation::replace(bool new_scene) {
 
 /// Without the hand that may hold a body: after an undo nobody would let go.
 KeptWorld Simulation::present(Change change) const {
-  softbody::Snapshot now = world_->snapshot();
+  if (player()) return {std::get<1>(shown_), loaded, std::move(change)};
+  softbody::Snapshot now = simulated()->snapshot();
   now.grab.reset();
   return {std::move(now), loaded, std::move(change)};
 }
 
-void Simulation::leave_for(std::unique_ptr<World> world) {
-  const auto& left = world_->scene().recording;
-  if (left && left != world->scene().recording) left->release();  // undo may keep it for long
-  world_ = std::move(world);
+void Simulation::leave_for(ShownWorld next) {
+  std::swap(shown_, next);
+  if (const auto* left = std::get_if<std::shared_ptr<Player>>(&next)) {  // undo may keep it for long
+    (*left)->forget_detection();
+    if (!player() || player()->recording() != (*left)->recording()) (*left)->recording()->release();
+  }
+  next = {};
   clock.speed = 1;
-  step_ms_ = world_->last_step().total_ms;
+  step_ms_ = world().last_step().total_ms;
   before_last_step_ = {};  // may hold the memory of many bodies
   as_scripted_ = true;
   history = {};
   notice.clear();
-  stability_.restart(*world_);
+  stability_ = {};
+  if (simulated()) stability_.restart(*simulated());
   replace(true);
 }
 
-void Simulation::enter(std::unique_ptr<World> world, LoadedScene scene, std::string name) {
+void Simulation::enter(ShownWorld world, LoadedScene scene, std::string name) {
   kept_.push(present({Change::Of::scene, std::move(name)}));
   loaded = std::move(scene);
   leave_for(std::move(world));
@@ -221,7 +251,10 @@ void Simulation::enter(std::unique_ptr<World> world, LoadedScene scene, std::str
 
 void Simulation::reset() {
   try {
-    enter(make_window_world(scene_in_use(*this), world_->integrator_choice(), threads_), loaded, "reset");
+    const softbody::Scene scene = scene_in_use(*this);
+    ShownWorld anew = player() ? show_in_window({scene, player()->recording()}, threads_)
+                               : make_window_world(scene, simulated()->integrator_choice(), threads_);
+    enter(std::move(anew), loaded, "reset");
   } catch (const std::exception& error) {
     notice.set(error.what());
   }
@@ -237,10 +270,9 @@ void Simulation::go(Way way) {
   };
   if (there.change.of == Change::Of::scene) {
     attempt([&] {
-      auto world = make_window_world({}, {}, threads_);
-      world->restore(there.snapshot);
+      ShownWorld next = bring_back(there.world, threads_);
       arrive();
-      leave_for(std::move(world));
+      leave_for(std::move(next));
     });
   } else {
     // The worlds in between are gone again, so this one is the snapshot's.
@@ -248,23 +280,22 @@ void Simulation::go(Way way) {
     if (!of_solids) there.loaded.solids = std::move(loaded.solids);  // those in use stay
     arrive();
     notice.clear();
-    attempt([&] { restore(*world_, there.snapshot, of_solids); });
+    attempt([&] { restore(solver(), std::get<0>(there.world), of_solids); });
     after_going_back();
   }
   if (!notice.is_error()) notice.tell((way == Way::back ? "Undone: " : "Redone: ") + there.change.name);
 }
 
 void Simulation::rewind_to(int frame) {
-  stability_.keep_present(*world_);
+  if (simulated()) stability_.keep_present(*simulated());
   const auto& past = stability_.past();
-  const bool recorded = world_->scene().recording != nullptr;
-  if (!recorded && past.snapshots().empty()) return;
+  if (simulated() && past.snapshots().empty()) return;
   notice.clear();
   attempt([&] {
-    if (recorded)
-      world_->show_frame(frame);
+    if (player())
+      std::get<1>(shown_)->show(frame);
     else
-      restore(*world_, past.snapshots()[past.at(frame)], false);
+      restore(solver(), past.snapshots()[past.at(frame)], false);
   });
   clock.paused = true;
   after_going_back();
@@ -273,18 +304,18 @@ void Simulation::rewind_to(int frame) {
 /// Forgets what was recorded of this frame and of later ones.
 void Simulation::forget_later_steps() {
   for (TimeSeries* series : {&history.detect_ms, &history.solve_ms, &history.contacts})
-    series->forget_from(world_->frame());
+    series->forget_from(world().frame());
 }
 
 void Simulation::after_going_back() {
-  stability_.went_back(*world_);
+  if (simulated()) stability_.went_back(*simulated());
   forget_later_steps();
   replace(false);
 }
 
 softbody::Scene scene_in_use(const Simulation& simulation) {
   softbody::Scene scene = simulation.loaded.scene;
-  const World& world = simulation.world();
+  const softbody::BodiesInMotion& world = simulation.world();
   const softbody::Scene& now = world.scene();
   scene.gravity = now.gravity;
   std::ranges::copy(now.materials, scene.materials.begin());
@@ -294,6 +325,11 @@ softbody::Scene scene_in_use(const Simulation& simulation) {
   scene.collision = world.collision();
   scene.default_cell_size = now.default_cell_size;
   return scene;
+}
+
+ShownWorld show_in_window(const files::Opened& opened, int threads) {
+  if (opened.recording) return std::make_shared<Player>(opened.recording, opened.scene, threads);
+  return make_window_world(opened.scene, {}, threads);
 }
 
 std::unique_ptr<World> make_window_world(const softbody::Scene& scene, const softbody::IntegratorChoice& integrator,

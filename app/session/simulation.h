@@ -1,18 +1,21 @@
 #pragma once
-// The world of the demo in time: its clock, what the user changes in it, undo and rewind.
+// What the demo shows, in time: its clock, what the user changes in it, undo and rewind.
 
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "app/base/time_series.h"
 #include "app/compare/drawn_positions.h"
 #include "app/session/notice.h"
+#include "app/session/player.h"
 #include "app/session/simulation_clock.h"
 #include "app/session/stability/stability_monitor.h"
 #include "app/session/undo_history.h"
+#include "softbody/world/world.h"
 
 namespace app::session {
 
@@ -36,6 +39,9 @@ struct StepHistory {
   TimeSeries detect_ms, solve_ms, contacts;
 };
 
+/// What a session shows: a world that simulates, or a recording that is played. Who needs a solver takes the World.
+using ShownWorld = std::variant<std::unique_ptr<softbody::World>, std::shared_ptr<Player>>;
+
 class Simulation {
  public:
   /// The notice begins with it if no input explains the error.
@@ -46,14 +52,21 @@ class Simulation {
   LoadedScene loaded;
   StepHistory history;
   bool pause_on_blow_up = true;
-  bool loop = true;  // a recording begins again after its last frame, and else pauses there
+  bool loop = true;  // what is played begins again after its last frame, and else pauses there
 
   /// scene_name: what the scene is found by; empty: its key. `observer`, if any, must outlive this. Throws SceneError.
-  Simulation(softbody::Scene scene, int threads, std::string scene_name = "", SimulationObserver* observer = nullptr);
+  Simulation(files::Opened opened, int threads, std::string scene_name = "", SimulationObserver* observer = nullptr);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  const softbody::World& world() const { return *world_; }
+  /// Returns what is shown: one of these two, of which the other is nullptr.
+  const softbody::BodiesInMotion& world() const {
+    return std::visit([](const auto& shown) -> const softbody::BodiesInMotion& { return *shown; }, shown_);
+  }
+  const softbody::World* simulated() const { return shown_.index() == 0 ? std::get<0>(shown_).get() : nullptr; }
+  const Player* player() const { return shown_.index() == 1 ? std::get<1>(shown_).get() : nullptr; }
+  /// Returns what the hand holds.
+  std::optional<softbody::Grab> grabbed() const { return simulated() ? simulated()->grabbed() : std::nullopt; }
   int threads() const { return threads_; }
 
   // Time. The world moves in whole frames.
@@ -62,7 +75,7 @@ class Simulation {
   void advance(double elapsed, bool stands_still = false);
   /// In place of advance() while no pictures are drawn: the world stands still.
   void let_pass(double elapsed) { notice.age(elapsed); }
-  /// For recordings, in place of advance(): takes one step if `allowed`, however long it takes.
+  /// In place of advance() while frames are exported: takes one step if `allowed`, however long it takes.
   void advance_one(double elapsed, bool allowed);
   /// How long (ms) the last step took, the observer's work with it.
   double step_ms() const { return step_ms_; }
@@ -83,8 +96,14 @@ class Simulation {
   std::uint64_t world_number() const { return world_number_; }
 
   // Changes by the user. They clear notice(); what fails sets it, and errors that no input explains pause.
-  /// Changes settings of the world. Returns false if `change` throws. The world is then as `change` left it.
+  /// Changes the world; nothing if none is simulated, which is an error. Returns false if `change` throws. The world is
+  /// then as `change` left it.
   bool change(const std::function<void(softbody::World&)>& change);
+  /// Calls `change` with what is shown, a World or a Player, to set how contacts are found. Returns as change().
+  template <class Change>
+  bool change_detection(const Change& change) {
+    return carry_out([&] { std::visit([&](auto& shown) { change(*shown); }, shown_); });
+  }
   /// Changes bodies, which can be undone under this name. `change` returns whether it changed anything.
   bool change_bodies(std::string name, const std::function<bool(softbody::World&)>& change);
   /// A drag of the mouse makes many changes, which are undone as one: it begins with begin_drag(), and whatever changes
@@ -98,7 +117,7 @@ class Simulation {
   void pull_to(const glm::dvec3& target);  // m
   void release();
   /// Goes on with `world`, which was made from `scene`. The one before can be had back by undo(), under this name.
-  void enter(std::unique_ptr<softbody::World> world, LoadedScene scene, std::string name);
+  void enter(ShownWorld world, LoadedScene scene, std::string name);
   /// Restarts with scene_in_use(), without added bodies. On an error the present world goes on.
   void reset();
 
@@ -110,25 +129,28 @@ class Simulation {
   void undo() { go(Way::back); }
   void redo() { go(Way::forward); }
   const StabilityMonitor& stability() const { return stability_; }
-  /// Goes to the last snapshot of stability().past() that is not after `frame`, or to this frame of the recording, and
+  /// Goes to the last snapshot of stability().past() that is not after `frame`, or to this frame if it is played, and
   /// pauses. Settings stay.
   void rewind_to(int frame);
 
  private:
   bool attempt(const std::function<void()>& action);
+  bool carry_out(const std::function<void()>& change);
   void replace(bool new_scene);
   KeptWorld present(Change change) const;
-  void leave_for(std::unique_ptr<softbody::World> world);
+  void leave_for(ShownWorld next);
   void go(Way way);
   void after_going_back();
   void forget_later_steps();
-  void follow_recording(int frame, std::size_t bodies);
+  bool step(softbody::World& world);
+  bool step(Player& player);
   SimulationClock::Step step();
+  softbody::World& solver() { return *std::get<0>(shown_); }
 
   SimulationObserver none_;
   SimulationObserver& observer_;
   int threads_;
-  std::unique_ptr<softbody::World> world_;
+  ShownWorld shown_;
   UndoHistory kept_;
   std::optional<KeptWorld> before_drag_;  // until keep_drag()
   bool as_scripted_ = true;
@@ -143,6 +165,8 @@ class Simulation {
 /// Returns the loaded scene with the settings in use.
 softbody::Scene scene_in_use(const Simulation& simulation);
 
+/// Returns what shows a scene, or plays a recording, in a window. Throws SceneError.
+ShownWorld show_in_window(const files::Opened& opened, int threads);
 /// Returns a world with the work limits of a window. Throws SceneError.
 std::unique_ptr<softbody::World> make_window_world(const softbody::Scene& scene,
                                                    const softbody::IntegratorChoice& integrator, int threads);

@@ -33,7 +33,8 @@ void UndoHistory::keep(Way way, KeptWorld world) {
 std::size_t UndoHistory::bytes() const {
   std::size_t sum = 0;
   for (const auto& way : worlds_)
-    for (const KeptWorld& world : way) sum += world.snapshot.bytes();
+    for (const KeptWorld& kept : way)
+      sum += kept.world.index() == 0 ? std::get<0>(kept.world).bytes() : std::get<1>(kept.world)->bytes();
   return sum;
 }
 

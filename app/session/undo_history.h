@@ -4,8 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "app/session/player.h"
 #include "app/session/scene_file.h"
 #include "app/session/solid_list.h"
 #include "softbody/world/snapshot.h"
@@ -28,7 +30,7 @@ struct Change {
 
 /// The world before or after a change, and its scene.
 struct KeptWorld {
-  softbody::Snapshot snapshot;
+  std::variant<softbody::Snapshot, std::shared_ptr<Player>> world;
   LoadedScene loaded;
   Change change;
 };
@@ -51,7 +53,7 @@ class UndoHistory {
   const KeptWorld& next(Way way) const;
   /// Takes next(way) out and keeps `present` to come back to; forgets as push() does.
   void turn(Way way, KeptWorld present);
-  /// Returns the memory of the snapshots in bytes. Recordings are not counted: Simulation frees what they have read.
+  /// Returns the memory of the worlds in bytes, without what a Player can read again.
   std::size_t bytes() const;
 
  private:

@@ -3,14 +3,14 @@
 
 #include "app/compare/compare.h"
 #include "app/compare/cost_model.h"
-#include "softbody/world/world.h"
+#include "softbody/world/bodies_in_motion.h"
 
 namespace app::session {
 
 inline constexpr std::uint64_t max_window_work = 1'000'000'000;  // WorkEstimate::cost() of a frame: about half a second
 
 /// Returns the work of a method that knows nothing from earlier frames, on the current positions.
-inline compare::WorkEstimate window_work(const softbody::World& world, const collide::Method& method,
+inline compare::WorkEstimate window_work(const softbody::BodiesInMotion& world, const collide::Method& method,
                                          const collide::Settings& settings) {
   compare::CostModel cost_model;
   cost_model.begin(world.positions(), settings, 0);

@@ -22,7 +22,7 @@ void tell(Session& session, std::string text) {
 
 void next_method(Session& session) {
   session.settings.next_method(session.comparison.choice.methods);
-  tell(session, "Method: " + std::string(session.world().method().name));
+  tell(session, "Method: " + session.world().method().name);
 }
 
 void next_contact_surface(Session& session) {
@@ -108,9 +108,8 @@ constexpr std::array mouse_table{
 
 /// If there is no solver, but something needs one, says so and returns true.
 bool refuse_without_solver(Session& session, bool needs_solver, std::string_view what) {
-  const std::string why = session.why_no_solver();
-  if (!needs_solver || why.empty()) return false;
-  session.simulation.notice.tell(std::string(what) + ": left out, " + why);
+  if (!needs_solver || session.simulated()) return false;
+  session.simulation.notice.tell(std::string(what) + ": left out, " + no_solver_text);
   return true;
 }
 

@@ -12,20 +12,20 @@ constexpr float padding = 4, button_width = 64, state_width = 190, speed_width =
 bool is_slowed(const session::SimulationClock& clock) { return !clock.paused && clock.pace() < 0.95; }
 
 std::string state_text(const Session& session) {
-  const softbody::World& world = session.world();
+  const softbody::BodiesInMotion& world = session.world();
   const session::SimulationClock& clock = session.simulation.clock;
   if (clock.paused) return "paused";
   if (is_slowed(clock)) return fmt::format("slowed to {:.0f} %", 100 * clock.pace());
   const std::size_t count = world.bodies().count(), more = bodies_to_come(world);
   std::string text = fmt::format("{} {}", grouped(count), count == 1 ? "body" : "bodies");
   if (more > 0) return text + fmt::format(", {} to come", grouped(more));
-  return text + (world.all_at_rest() && !world.scene().recording ? ", all at rest" : "");
+  return text + (session.simulated() && world.all_at_rest() ? ", all at rest" : "");
 }
 
-/// Draws the slider through all frames of the recording, whether they were shown or not.
-void draw_recording(Widgets& w, Session& session, const softbody::Recording& recording) {
-  int frame = session.world().frame();
-  const int last = recording.frame_count() - 1;
+/// Draws the slider through all frames that can be played, whether they were shown or not.
+void draw_frames(Widgets& w, Session& session, const session::Player& player) {
+  int frame = player.frame();
+  const int last = player.recording()->frame_count() - 1;
   ImGui::BeginDisabled(last == 0);
   if (w.slider("Time line", frame, 0, last, fmt::format("frame %d of {}", grouped(std::uint64_t(last))).c_str(),
                "Drag it to any frame of the recording; frames count from 0. It pauses there."))
@@ -33,7 +33,7 @@ void draw_recording(Widgets& w, Session& session, const softbody::Recording& rec
   ImGui::EndDisabled();
 }
 
-/// Draws how fast the frames of the recording follow each other, and whether they begin again.
+/// Draws how fast the frames that are played follow each other, and whether they begin again.
 void draw_speed(Widgets& w, Session& session) {
   const double frame_time = session.world().frame_time();
   auto rate = static_cast<float>(session.simulation.clock.speed / frame_time);
@@ -76,7 +76,7 @@ void draw_state_text(Widgets& w, const Session& session) {
 
 }  // namespace
 
-std::size_t bodies_to_come(const softbody::World& world) {
+std::size_t bodies_to_come(const softbody::BodiesInMotion& world) {
   // A step brings the bodies of the frame before it; the first ones are there at once.
   const auto comes = [&](const softbody::BodySource& body) { return body.appear >= std::max(world.frame(), 1); };
   return static_cast<std::size_t>(std::ranges::count_if(world.scene().bodies, comes));
@@ -94,18 +94,18 @@ void draw_time_line(Widgets& w, Session& session, const ScreenRect& area) {
                w.px(button_width)))
     clock.paused = !clock.paused;
   ImGui::SameLine();
-  const auto& recording = session.world().scene().recording;
+  const session::Player* player = session.simulation.player();
   if (w.button("Step",
-               recording ? "Shows the next frame, then pauses (N)." : "Simulates one frame of 1/60 s, then pauses (N).",
+               player ? "Shows the next frame, then pauses (N)." : "Simulates one frame of 1/60 s, then pauses (N).",
                w.px(button_width)))
     clock.single_step();
   ImGui::SameLine();
-  if (recording) draw_speed(w, session);
+  if (player) draw_speed(w, session);
   const float room = ImGui::GetContentRegionAvail().x;
   const bool has_state = room >= w.px(2 * state_width);
   ImGui::SetNextItemWidth(has_state ? room - w.px(state_width) : room);
-  if (recording)
-    draw_recording(w, session, *recording);
+  if (player)
+    draw_frames(w, session, *player);
   else
     draw_past(w, session);
   if (has_state) draw_state_text(w, session);

@@ -10,7 +10,7 @@ namespace app::ui {
 float time_line_height(float scale);
 
 /// Returns the number of the scene's bodies that have not appeared yet.
-std::size_t bodies_to_come(const softbody::World& world);
+std::size_t bodies_to_come(const softbody::BodiesInMotion& world);
 
 void draw_time_line(Widgets& widgets, Session& session, const ScreenRect& area);
 

@@ -280,7 +280,7 @@ class Demo {
     if (ui_.reset_camera || shown_scene_ != session_.world().scene().key) {
       if (!shown_scene_.empty() && !ui_.reset_camera) ui_.story = false;  // another scene was asked for
       shown_scene_ = session_.world().scene().key;
-      camera_ = graphics_->view.camera(session_.world().scene(), viewport.size);
+      camera_ = graphics_->view.camera(session_.world(), viewport.size);
       fitted_ = viewport.size;
       ui_.reset_camera = false;
       orbit_before_tour_.reset();
@@ -361,7 +361,7 @@ class Demo {
             .bucket = session_.inspector.selected_bucket(),
             .cell = session_.inspector.selected_cell(),
             .selected = session_.bodies.selected(),
-            .grab = session_.world().grabbed(),
+            .grab = session_.simulation.grabbed(),
             .view = camera_.view(),
             .scale = pixel_scale(),
             .between = shows_present_state(session_, ui_.overlays) ? 1.0f : session_.simulation.between()};

@@ -3,13 +3,14 @@
 
 #include <filesystem>
 
+#include "app/files/recording.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/scene/scene.h"
 
 namespace app::window {
 
 struct DemoOptions {
-  softbody::Scene scene;
+  files::Opened opened;
   std::string scene_name;              // its key or file
   bool scene_given = false;            // else it is the default scene, which opens with the story
   std::filesystem::path scene_folder;  // of the other scenes that the panel offers

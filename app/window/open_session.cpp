@@ -13,7 +13,7 @@ namespace app::window {
 
 std::unique_ptr<Session> open_session(const DemoOptions& options, Graphics& graphics) {
   std::future<std::unique_ptr<Session>> opening = std::async(std::launch::async, [&] {
-    return std::make_unique<Session>(options.scene, options.scene_folder, options.threads, options.scene_name);
+    return std::make_unique<Session>(options.opened, options.scene_folder, options.threads, options.scene_name);
   });
   std::future_status status = opening.wait_for(std::chrono::milliseconds(300));
   for (const double began = now(); status != std::future_status::ready;) {

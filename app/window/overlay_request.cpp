@@ -28,6 +28,9 @@ render::OverlayRequest overlay_request(const Session& session, const ui::UiState
   if (needs_debug) request.debug = &session.inspector.shown_geometry();
   if (request.shown.areas) request.areas = session.inspector.search_areas();
   if (request.shown.surface_contacts) request.surface_contacts = session.inspector.surface_contacts();
+  if (const softbody::World* world = session.simulated(); world && request.shown.contacts)
+    request.solid_contacts = softbody::solid_contacts(*world);
+  request.grab = session.simulation.grabbed();
   request.marks = session.surfaces.report().marks;
   request.highlight = ui.tour.highlight();
   const session::Ghost* ghost = ui.tour.open() ? nullptr : session.ghost().get();

@@ -41,7 +41,7 @@ Preferences read(softbody::Table root) {
   }
   softbody::Table methods = root.child("methods");
   for (std::size_t m = 0; m < p.methods.size(); ++m)
-    p.methods[m] = methods.boolean(std::string(collide::method_table()[m].key), p.methods[m]);
+    p.methods[m] = methods.boolean(collide::method_table()[m].key, p.methods[m]);
   for (softbody::Table& section : root.children("section"))
     p.sections[section.text("name", "")] = section.boolean("open", true);
   return p;

@@ -109,7 +109,7 @@ void SceneMouse::press(const MouseInput& in, Session& session, engine::Camera& c
   session.bodies.select(under->body);
   if (in.double_click) {
     focus_on(under->body, session, camera, size);
-  } else if (!session.simulation.clock.paused && session.why_no_solver().empty()) {
+  } else if (!session.simulation.clock.paused && session.simulated()) {
     session.bodies.grab({.body = under->body,
                          .corners = under->corners,
                          .weights = glm::dvec3(under->weights),
@@ -124,7 +124,7 @@ void SceneMouse::drag(const MouseInput& in, Session& session, engine::Camera& ca
   drag_length_ += glm::length(in.moved);
   if (drag_length_ >= max_click_length) {  // a click moves nothing
     const engine::Ray ray = camera.pick_ray(in.at, size);
-    const auto& held = session.world().grabbed();
+    const auto held = session.simulation.grabbed();
     if (drag_ == Drag::body && held) session.bodies.pull_to(on_facing_plane(ray, camera, held->target));
     if (drag_ == Drag::solid) drag_solid(ray, session, camera);
   }
@@ -143,7 +143,7 @@ void SceneMouse::drag_solid(const engine::Ray& ray, Session& session, const engi
 }
 
 void SceneMouse::release(Session& session) {
-  if (session.world().grabbed()) session.bodies.release();
+  if (session.simulation.grabbed()) session.bodies.release();
   if (drag_ != Drag::none) session.simulation.end_drag();
   const bool on_scenery = drag_ == Drag::solid || (drag_ == Drag::orbit && !pressed_on_body_);
   if (on_scenery && drag_length_ < max_click_length) session.bodies.select(std::nullopt);

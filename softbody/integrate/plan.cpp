@@ -16,8 +16,8 @@ struct Facts {
   const Scene& scene;
   const std::vector<std::shared_ptr<const BodyModel>>& models;
   const AddedBodies& added_bodies;
-  std::size_t bodies() const {  // a dropper and a recording can always add another
-    return scene.dropper || scene.recording ? 2 : scene.bodies.size() + added_bodies.bodies;
+  std::size_t bodies() const {  // a dropper can always add another
+    return scene.dropper ? 2 : scene.bodies.size() + added_bodies.bodies;
   }
   template <class Test>
   bool any(Test test) const {
@@ -136,12 +136,6 @@ constexpr auto all_stages = [] {
   return rows;
 }();
 
-/// Returns why a stage is left out; nullptr if it is needed.
-const char* why_not(const Row& row, const Facts& facts) {
-  if (facts.scene.recording && row.stage != Stage::detect) return "the motion is recorded";
-  return row.why_not(facts);
-}
-
 const Row& row_of(Stage stage) { return *std::ranges::find(all_stages, stage, &Row::stage); }
 
 }  // namespace
@@ -151,11 +145,6 @@ std::string_view stage_key(Stage stage) { return row_of(stage).key; }
 bool Plan::has(Stage stage) const { return std::find(stages.begin(), stages.end(), stage) != stages.end(); }
 
 bool Plan::has(std::string_view key) const { return std::ranges::find(stages, key, stage_key) != stages.end(); }
-
-std::string Plan::why_not(Stage stage) const {
-  const auto found = std::ranges::find(left_out, stage, &LeftOut::stage);
-  return found == left_out.end() ? std::string() : found->why;
-}
 
 std::vector<Stage> Plan::unprojected(const Integrator& integrator) const {
   std::vector<Stage> list;
@@ -169,7 +158,7 @@ Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const BodyM
   Plan plan;
   const Facts facts{scene, models, added_bodies};
   for (const Row& row : all_stages) {
-    if (const char* why = why_not(row, facts))
+    if (const char* why = row.why_not(facts))
       plan.left_out.push_back({row.stage, why});
     else
       plan.stages.push_back(row.stage);

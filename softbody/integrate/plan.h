@@ -48,8 +48,6 @@ struct Plan {
   std::vector<LeftOut> left_out;  // in order
   bool has(Stage stage) const;
   bool has(std::string_view key) const;
-  /// Returns why a stage is left out; empty if it is not.
-  std::string why_not(Stage stage) const;
   /// Returns the stages that act as forces although the integrator moves particles to where others have them.
   std::vector<Stage> unprojected(const Integrator& integrator) const;
 };

@@ -16,7 +16,6 @@
 #include "softbody/mesh/mesh_source.h"
 #include "softbody/model/material.h"
 #include "softbody/model/scene_error.h"
-#include "softbody/scene/recording.h"
 
 namespace softbody {
 
@@ -87,8 +86,6 @@ struct Scene {
   bool default_cell_size = true;
   std::vector<Material> materials;
   std::vector<BodySource> bodies;
-  /// If there is one, these are all bodies, and nothing is simulated. A scene file has none.
-  std::shared_ptr<Recording> recording;
   std::vector<SolidSphere> spheres;
   std::vector<SolidPlane> planes;
   std::vector<SolidBox> boxes;

@@ -138,15 +138,6 @@ void State::set_particles(BodyId id, std::span<const Particle> particles) {
   }
 }
 
-void State::place(BodyId id, Field<const float> at) {
-  bodies_[id].origin = glm::dvec3(0.0);
-  const BodyField positions = field_of(id, x), velocities = field_of(id, v);
-  for (Index i = 0; i < batch_of(id).particles(); ++i) {
-    positions.set(i, glm::dvec3(read(at, i)));
-    velocities.set(i, glm::dvec3(0.0));
-  }
-}
-
 /// The origin moves when the first particle, which starts no further than the radius from it, is further than one and a
 /// half radii away. It moves by a multiple of 1/64 m, which floats of that size hold without loss: rounding further out
 /// would keep stiff bodies trembling.

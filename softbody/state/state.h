@@ -81,8 +81,6 @@ class State {
   void set_asleep(BodyId body, bool asleep);
   /// Sets all particles of a body, one for each vertex, finite. The body's origin goes to their middle.
   void set_particles(BodyId body, std::span<const Particle> particles);
-  /// Puts a body where its vertices are `at`, to the bit, and at rest. Its origin goes to that of the world.
-  void place(BodyId body, Field<const float> at);
   /// Moves the origins of a batch's bodies that move after their particles, where these have gone far.
   void recentre(const Batch& batch);
   BodyMemory& memory(BodyId body) { return bodies_[body].memory; }

@@ -54,13 +54,9 @@ World::Parts::Parts(Scene s, const Options& o)
   check_sizes(models);
   set_integrator();
   if (scene.default_cell_size) settings.cell_size = default_cell_size(settings.levels);
-  if (scene.recording) {
-    show(0);
-  } else {
-    arrive();
-    update_positions();
-    detect();
-  }
+  arrive();
+  update_positions();
+  detect();
 }
 
 /// Hands the integrator on to the solver, without a check.
@@ -105,39 +101,7 @@ void World::Parts::arrive() {
   }
 }
 
-/// Shows a frame of the scene's recording. Changes nothing if the frame cannot be read.
-void World::Parts::show(int number) {
-  const std::shared_ptr<const RecordedFrame> recorded = scene.recording->frame(number);
-  State& state = solver.state();
-  const BodyId before = state.body_count();
-  for (BodyId b = before; b-- > recorded->body_count;) solver.remove(b);
-  for (BodyId b = before; b < recorded->body_count; ++b)
-    state.add(scene.recording->model(b), glm::dvec3(0.0), glm::dvec3(0.0));
-  if (recorded->body_count != before) count_vertices();
-  if (recorded->body_count < before) particles.detector->forget();
-  for (BodyId b = 0; b < recorded->body_count; ++b) {
-    const Index first = particles.bodies.first[b];
-    state.place(b, {&recorded->x[first], &recorded->y[first], &recorded->z[first]});
-  }
-  frame = number;
-  unreadable.reset();
-  update_positions();
-  detect();
-}
-
-/// Shows the next frame, and after the last one the first one. If that cannot be read, the next call goes on behind it.
-void World::Parts::play() {
-  const auto start = Clock::now();
-  unreadable = (unreadable.value_or(frame) + 1) % scene.recording->frame_count();
-  show(*unreadable);
-  report.time += frame_time;
-  report.seconds = frame_time;
-  report.total_ms = ms_since(start);
-  report.solve_ms = report.total_ms - report.detect_ms;
-}
-
 glm::vec3 World::Parts::default_cell_size(int levels) const {
-  if (scene.recording) return softbody::default_cell_size(*scene.recording, levels, settings.tolerance);
   return rest_cell_size(models, levels, settings.tolerance);
 }
 
@@ -211,7 +175,6 @@ void World::DeleteParts::operator()(Parts* parts) const { delete parts; }
 
 void World::step(const std::function<void()>& after_substep) {
   Parts& s = *parts_;
-  if (s.scene.recording) return s.play();
   const auto start = Clock::now();
   if (s.plan.has(Stage::arrive)) s.arrive();
   DetectedMeshes& touching = s.particles;
@@ -258,11 +221,8 @@ void World::step(const std::function<void()>& after_substep) {
   s.report.total_ms = ms_since(start) - looking_ms;
 }
 
-void World::show_frame(int number) { parts_->show(number); }
-
 void World::set_particles(BodyId body, std::span<const Particle> particles) {
   Parts& s = *parts_;
-  s.require_solver();
   assert(particles.size() == s.particles.bodies.size(body));
   s.book_change([&] { s.solver.state().set_particles(body, particles); });
   s.solver.state().memory(body).may_lie_in_solid = true;
@@ -348,7 +308,6 @@ std::vector<SurfaceContactPoint> World::surface_contacts() const {
 
 bool World::all_at_rest() const {
   const Parts& s = *parts_;
-  if (s.scene.recording) return s.scene.recording->frame_count() == 1;
   if (std::find(s.arrived.begin(), s.arrived.end(), char(false)) != s.arrived.end()) return false;
   for (BodyId b = 0; b < s.particles.bodies.count(); ++b)
     if (!s.solver.state().body(b).asleep) return false;

@@ -2,9 +2,6 @@
 // A world simulates a scene. One step() is one frame: bodies arrive, respond to the contacts found last, and move; then
 // contacts are detected at the new positions, and bodies at rest fall asleep. Everything that can be read afterwards
 // (positions, contacts, boxes) belongs to the same instant.
-//
-// If the scene has a recording, a step shows its next frame and detects, and nothing else: the plan leaves out all
-// other stages. Who needs a solver asks the plan for Stage::integrate.
 
 #include <functional>
 #include <memory>
@@ -19,28 +16,12 @@
 #include "softbody/integrate/integrators.h"
 #include "softbody/integrate/plan.h"
 #include "softbody/integrate/work.h"
-#include "softbody/scene/scene.h"
-#include "softbody/state/body.h"
+#include "softbody/world/bodies_in_motion.h"
 
 namespace softbody {
 
-struct BodyModel;
 struct Snapshot;
 class State;
-
-/// Report of the last step. Before the first step all numbers but detect_ms are 0.
-struct StepReport {
-  double detect_ms = 0, solve_ms = 0, total_ms = 0;  // for display only: nothing in the simulation depends on a clock
-  double time = 0;                                   // s, simulated since the start, this step included
-  /// Time simulated in this step in s: less than frame_time() if a whole frame would exceed the budget of work.
-  double seconds = 0;
-  int substeps = 0;
-  int needed = 0;           // substeps that the stability bound asks for in a whole frame
-  double last_substep = 0;  // s, its length
-  /// The integrator that moved the bodies; the chosen one if no step was done since the choice.
-  const Integrator* integrator = nullptr;
-  std::string_view why;  // reason for this integrator; empty unless it was chosen automatically
-};
 
 /// A body that is not from the scene.
 struct AddedBody {
@@ -48,14 +29,7 @@ struct AddedBody {
   BodySource source;  // with which a scene would add it in the same frame at the same place
 };
 
-/// The meshes that are simulated: a coarse one where a fine one rides on it. Their contacts move the bodies, and the
-/// oracle judges their surfaces. Valid until the next change of the world.
-struct SimulatedMeshes {
-  collide::Frame positions;
-  std::span<const collide::Contact> contacts;  // that the detector found between their vertices
-};
-
-class World {
+class World : public BodiesInMotion {
  public:
   struct Options {
     int threads = 1;
@@ -72,18 +46,13 @@ class World {
   /// Simulates one frame. Calls `after_substep` after each substep; it may read positions(), which are up to date, but
   /// nothing else, and must not change the world.
   void step(const std::function<void()>& after_substep = {});
-  /// Shows a frame of the scene's recording, which it must have, and detects. step() does the same with the next frame,
-  /// and goes on behind one that it could not read. Throws as Recording::frame() does, and then shows what it did
-  /// before. If it is the detector that throws, the frame is shown, but detection() is not of it.
-  void show_frame(int number);
   /// Returns everything that determines how the world continues.
   Snapshot snapshot() const;
   /// Puts the world into the state of the snapshot, settings included, and detects. It then continues, to the bit, as
   /// the world of the snapshot did, which may be another world. Its threads and frame time do not change.
   void restore(const Snapshot& snapshot);
 
-  // Changes between frames. Each of them detects again if contacts may have changed. With a recording, bodies cannot be
-  // changed: each throws SceneError, except that a hand may let go.
+  // Changes between frames. Each of them detects again if contacts may have changed.
   /// Places the body's particles, wakes all bodies and detects. `particles`: finite, one for each vertex of the mesh
   /// that is simulated.
   void set_particles(BodyId body, std::span<const Particle> particles);
@@ -119,32 +88,27 @@ class World {
   /// problem(settings) must be empty.
   void set_collision(const collide::Settings& settings, bool default_cell_size);
 
-  const Scene& scene() const;                  // with all changes
-  const collide::Settings& collision() const;  // the scene's, with the cell size in use
-  /// Returns the default cell size (§2.2) with these levels. It depends on the rest shapes of the bodies, or on those
-  /// of the first frame of a recording, not on the present ones.
-  glm::vec3 default_cell_size(int levels) const;
-  const collide::Method& method() const;
+  const Scene& scene() const override;
+  const collide::Settings& collision() const override;
+  glm::vec3 default_cell_size(int levels) const override;
+  const collide::Method& method() const override;
   const IntegratorChoice& integrator_choice() const;
   const Plan& plan() const;
-  int frame() const;  // steps done; of a recording: its frame, from 0
-  double frame_time() const;
+  int frame() const override;  // steps done
+  double frame_time() const override;
+  const StepReport& last_step() const override;
+  bool all_at_rest() const override;
 
-  // The current state, of the meshes that are shown (BodyModel::shown()).
-  const collide::Bodies& bodies() const;
-  collide::Frame positions() const;  // in the world, valid until the next change
-  SimulatedMeshes simulated() const;
+  const collide::Bodies& bodies() const override;
+  collide::Frame positions() const override;
+  SimulatedMeshes simulated() const override;
+  BodyState body(BodyId body) const override;
+  const BodyModel& model(BodyId body) const override;
+  const collide::Result& detection() const override;
+  const collide::Detector& detector() const override;
   Particle particle(BodyId body, Index vertex) const;
-  BodyState body(BodyId body) const;
-  const BodyModel& model(BodyId body) const;
-  const collide::Result& detection() const;   // at positions()
-  const collide::Detector& detector() const;  // for its debug()
-  bool all_at_rest() const;                   // no step moves a body: all are asleep, and none is still to come
-  const State& state() const;                 // of all particles
-  std::uint64_t state_hash() const;           // over the bits of positions and velocities, in the order of bodies
-
-  // The last step.
-  const StepReport& last_step() const;
+  const State& state() const;        // of all particles
+  std::uint64_t state_hash() const;  // over the bits of positions and velocities, in the order of bodies
   std::vector<SurfaceContactPoint> surface_contacts() const;  // if all bodies sleep: of the last substep before
 
  private:

@@ -20,11 +20,6 @@ void World::Parts::update_plan() {
   solver.set_plan(plan);
 }
 
-/// Throws SceneError if bodies cannot be changed because the motion is recorded.
-void World::Parts::require_solver() const {
-  if (scene.recording) throw SceneError("no body can join or change: the motion is recorded");
-}
-
 /// Throws SceneError if `number` more bodies would exceed max_particles.
 void World::Parts::check_capacity(const BodyModel& p, std::size_t number) const {
   const std::uint64_t vertices = shown().bodies.vertex_count() + std::uint64_t{number} * p.shown().mesh.vertices.size();
@@ -92,7 +87,6 @@ bool World::Parts::is_clear(const BodyModel& p, const glm::dvec3& position) cons
 
 std::optional<BodyId> World::throw_body(const glm::dvec3& from, const glm::dvec3& velocity) {
   Parts& s = *parts_;
-  s.require_solver();
   BodySource source = s.dropper().body;
   const BodyModel& p = *s.models.of(source);
   const double pace = std::min(p.radius, 0.5);  // m
@@ -127,7 +121,6 @@ std::vector<BodySource> body_sources(const World& world) {
 
 BodyId World::drop(int count) {
   Parts& s = *parts_;
-  s.require_solver();
   Dropper dropper = s.dropper();
   s.check_capacity(*s.models.of(dropper.body), std::size_t(count));
   // Many would pile up to a tower: they fall side by side.
@@ -139,7 +132,6 @@ BodyId World::drop(int count) {
 
 BodyId World::add(const BodySource& source) {
   Parts& s = *parts_;
-  s.require_solver();
   BodyModelSet more = s.models;
   s.check_capacity(*more.add(source, s.scene.materials), 1);
   s.check_sizes(more);
@@ -174,7 +166,6 @@ void World::Parts::wake_near(BodyId body) {
 
 void World::remove(BodyId body) {
   Parts& s = *parts_;
-  s.require_solver();
   s.wake_near(body);
   s.book_change([&] { s.solver.remove(body); });
   std::erase_if(s.added, [&](const AddedBody& one) { return one.body == body; });
@@ -189,7 +180,6 @@ void World::remove(BodyId body) {
 
 void World::grab(const std::optional<Grab>& grab) {
   Parts& s = *parts_;
-  if (grab) s.require_solver();
   assert(!grab || grab->body < s.particles.bodies.count());
   if (grab) s.solver.state().set_pinned(grab->body, false);
   s.solver.hand().take(grab);

@@ -46,7 +46,6 @@ struct WorldValues {
   int drops = 0;
   std::array<double, 2> drop_direction{1, 0};  // x and z
   int frame = 0;
-  std::optional<int> unreadable{};  // the frame of the recording that the last step could not show
   IntegratorChoice choice;
   const collide::Method* method;
   collide::Settings settings;
@@ -68,8 +67,6 @@ struct World::Parts : WorldValues {
   double energy() const;  // J, of all bodies
   BodyId add(const BodySource& source, const glm::dvec3& position);
   void arrive();
-  void show(int number);
-  void play();
   void add_meshes(const BodyModel& model);
   void count_vertices();
   void update_positions();
@@ -85,7 +82,6 @@ struct World::Parts : WorldValues {
   void set_integrator();
   void wake_near(BodyId body);
   void update_plan();
-  void require_solver() const;
   void check_capacity(const BodyModel& p, std::size_t number) const;
   void check_sizes(const BodyModelSet& all) const;
   void bodies_added(std::size_t number);  // by hand

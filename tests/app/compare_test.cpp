@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 constexpr std::uint32_t seed = 7;
 
-compare::FrameSnapshot snapshot_of(const softbody::World& world) {
+compare::FrameSnapshot snapshot_of(const softbody::BodiesInMotion& world) {
   compare::FrameSnapshot snapshot;
   snapshot.id = snapshot.world = 1;
   snapshot.at.copy(world.positions());
@@ -30,7 +30,7 @@ compare::FrameSnapshot snapshot_of(const softbody::World& world) {
 }
 
 /// Returns the true contacts, by an independent double loop.
-std::vector<collide::Contact> true_contacts(const softbody::World& world) {
+std::vector<collide::Contact> true_contacts(const softbody::BodiesInMotion& world) {
   const collide::Frame f = world.positions();
   const float tolerance2 = world.collision().tolerance * world.collision().tolerance;
   const auto body = [&](collide::Index vertex) { return world.bodies().body_of(vertex); };

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "app/session/export/exporter.h"
 #include "app/ui/shortcuts.h"
 #include "tests/app/panel_rig.h"
+#include "tests/own_process.h"
 
 #include <GLFW/glfw3.h>
 
@@ -60,6 +62,31 @@ TEST(CompareView, MakesTheClickedMethodTheDriver) {
     rig.click("Drive " + std::string(method.name));
     EXPECT_EQ(rig.session.world().method().key, method.key);
   }
+}
+
+void expect_that_a_new_method_is_compared() {
+  PanelRig rig;
+  rig.ui.lower = ui::LowerView::comparison;
+  ASSERT_TRUE(wait_until(rig, usual_timed));
+  collide::Method row = *collide::find_method("sorted-grid");
+  row.key = "thirteenth";
+  row.name = "Thirteenth";
+  collide::add_method(row);
+  const auto is_timed = [](const auto& rows) { return rows.size() == 13 && rows[12].ms && rows[12].recall == 1; };
+  ASSERT_TRUE(wait_until(rig, is_timed));
+  expect_rows(rig, compare::usual_methods());
+  EXPECT_TRUE(session::curves_csv(rig.session).find(",thirteenth_ms\n") != std::string::npos);
+  const compare::MethodSet shown = rig.session.comparison.shown_methods();
+  EXPECT_EQ(compare::sweep_configurations(rig.session.world(), shown).back().method, 12u);
+  rig.session.comparison.choice.methods.assign(13, false);
+  ui::handle_key(GLFW_KEY_M, false, rig.session, rig.ui);  // no method to go to
+  rig.session.comparison.choice.methods[12] = true;
+  ui::handle_key(GLFW_KEY_M, false, rig.session, rig.ui);
+  EXPECT_EQ(rig.session.world().method().key, "thirteenth");
+}
+
+TEST(CompareView, TakesInAMethodThatJoinsTheTable) {
+  tests::in_a_process_of_its_own(expect_that_a_new_method_is_compared);
 }
 
 TEST(CompareView, ShowsAndMeasuresFewMethodsAtFirst) {

@@ -97,14 +97,14 @@ TEST(BodyControls, PullOnlyWhatIsGrabbed) {
   session::Simulation simulation(touching_pair(), 1);
   session::BodyControls bodies(simulation);
   bodies.pull_to({0, 9, 0});
-  EXPECT_FALSE(simulation.world().grabbed());
+  EXPECT_FALSE(simulation.simulated()->grabbed());
   bodies.grab({.body = 1, .target = {0, 4, 0}});
   bodies.pull_to({0, 9, 0});
-  ASSERT_TRUE(simulation.world().grabbed());
-  EXPECT_EQ(simulation.world().grabbed()->body, 1u);
-  EXPECT_EQ(simulation.world().grabbed()->target, glm::dvec3(0, 9, 0));
+  ASSERT_TRUE(simulation.simulated()->grabbed());
+  EXPECT_EQ(simulation.simulated()->grabbed()->body, 1u);
+  EXPECT_EQ(simulation.simulated()->grabbed()->target, glm::dvec3(0, 9, 0));
   bodies.release();
-  EXPECT_FALSE(simulation.world().grabbed());
+  EXPECT_FALSE(simulation.simulated()->grabbed());
 }
 
 TEST(SettingControls, SayWhatTheWorldRefusesAndChangeNothing) {
@@ -115,7 +115,7 @@ TEST(SettingControls, SayWhatTheWorldRefusesAndChangeNothing) {
   controls.set_integrator({"implicit"});
   EXPECT_NE(simulation.notice.text().find("too large a matrix"), std::string::npos);
   EXPECT_FALSE(simulation.clock.paused);
-  EXPECT_EQ(simulation.world().integrator_choice(), softbody::IntegratorChoice());
+  EXPECT_EQ(simulation.simulated()->integrator_choice(), softbody::IntegratorChoice());
 }
 
 TEST(SettingControls, KeepGravityMaterialAndSolidsOverAResetUntilTheScenesAreRestored) {
@@ -227,7 +227,7 @@ TEST(SceneControls, SayThatThePresetsAreDamaged) {
   EXPECT_TRUE(damaged.presets().empty());
   EXPECT_TRUE(simulation.notice.is_error());
   EXPECT_NE(simulation.notice.text().find("materials.toml"), std::string::npos) << simulation.notice.text();
-  session::SettingControls(simulation).set_integrator(simulation.world().integrator_choice());
+  session::SettingControls(simulation).set_integrator(simulation.simulated()->integrator_choice());
   EXPECT_TRUE(simulation.notice.is_error()) << "a choice that changes nothing leaves the notice";
 }
 

@@ -9,7 +9,7 @@
 namespace app {
 namespace {
 
-std::uint64_t tests_of(const softbody::World& world, std::string_view method) {
+std::uint64_t tests_of(const softbody::BodiesInMotion& world, std::string_view method) {
   collide::Workers alone(1);
   collide::Result result;
   collide::find_method(method)->make()->detect(world.positions(), world.collision(), alone, result);

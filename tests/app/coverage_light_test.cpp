@@ -44,7 +44,7 @@ TEST(CoverageLight, FitsOneLineWithEveryMethodInANarrowWindow) {
 TEST(SurfaceRemark, WarnsOfAToleranceThatLetsVerticesThroughFaces) {
   PanelRig rig;
   EXPECT_EQ(ui::surface_remark(rig.session).text, "");
-  const double safe = softbody::safe_vertex_tolerance(rig.session.world());
+  const double safe = softbody::safe_vertex_tolerance(*rig.session.simulated());
   EXPECT_GT(safe, 0.16 * 0.5);  // of the sphere of 162 vertices and radius 0.5 m
   EXPECT_LT(safe, 0.19 * 0.5);
   collide::Settings settings = rig.session.world().collision();

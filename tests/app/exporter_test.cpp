@@ -12,8 +12,8 @@
 #include "app/files/body_file.h"
 #include "app/session/export/exporter.h"
 #include "softbody/model/body_model.h"
+#include "tests/app/recorded_bodies.h"
 #include "tests/app/scenes.h"
-#include "tests/softbody/recorded_bodies.h"
 #include "tests/temporary_folder.h"
 
 namespace app {
@@ -205,8 +205,8 @@ TEST_F(ExporterTest, ReportsAFolderThatCannotBeMade) {
 }
 
 TEST_F(ExporterTest, EndsWhenTheRecordingThatPlaysBeginsAgain) {
-  const softbody::Scene balls = softbody::test::scene_of(std::make_shared<softbody::test::RecordedBalls>(4));
-  session.scenes.enter(session::make_window_world(balls, {}, 1), balls, "balls");
+  const files::Opened balls = opened(std::make_shared<RecordedBalls>(4));
+  session.scenes.enter(session::show_in_window(balls, 1), balls.scene, "balls");
   exporter.kind = index_of("motion");
   exporter.toggle_recording();
   for (int i = 0; i < 10'000 && exporter.recording(); ++i) frame();

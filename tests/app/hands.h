@@ -18,7 +18,7 @@ inline softbody::Scene without_solids() {
   return scene;
 }
 
-inline glm::dvec3 centre(const softbody::World& world, softbody::BodyId id) {
+inline glm::dvec3 centre(const softbody::BodiesInMotion& world, softbody::BodyId id) {
   glm::dvec3 sum(0.0);
   const collide::Index first = world.bodies().first[id], count = world.bodies().size(id);
   for (collide::Index i = 0; i < count; ++i) {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <thread>
 
+#include "softbody/world/world.h"
 #include "tests/app/scenes.h"
 
 namespace app {

@@ -69,7 +69,7 @@ TEST(WorldPanel, DragsEverySliderToItsEndsWhileTheWorldRuns) {
   PanelRig rig;
   rig.click("Detection");  // folds it to make room
   rig.click("World");
-  const softbody::World& world = rig.session.world();
+  const softbody::World& world = *rig.session.simulated();
   std::vector<std::string> labels{"Gravity", "Solid position", "Solid radius", "Solid friction", "Solid restitution"};
   for (const softbody::Key* key : softbody::material_keys())
     if (key->slider.text) labels.emplace_back(key->name);

@@ -16,9 +16,9 @@ namespace app {
 class PanelRig {
  public:
   /// scene_folder: where the panel finds other scenes and the presets.
-  explicit PanelRig(float scale = 1, const softbody::Scene& scene = touching_pair(),
+  explicit PanelRig(float scale = 1, const files::Opened& opened = touching_pair(),
                     const std::filesystem::path& scene_folder = {})
-      : gui_(scale), scale_(scale), session(scene, scene_folder, 1) {
+      : gui_(scale), scale_(scale), session(opened, scene_folder, 1) {
     input_.display_size = {static_cast<int>(1280 * scale), static_cast<int>(1150 * scale)};
     ImGui::GetIO().MouseDoubleClickTime = 0;  // two fast clicks of a test are no double-click
     frames(3);                                // ImGui sizes its windows in the first frames

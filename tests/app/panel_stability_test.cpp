@@ -15,16 +15,16 @@ TEST(StabilityPanel, ChoosesEveryIntegratorAndItsSubsteps) {
     if (i.automatic) continue;
     rig.click("Integrator");
     rig.click(i.name);
-    EXPECT_EQ(rig.session.world().integrator_choice().integrator().key, i.key);
-    EXPECT_FALSE(rig.session.world().integrator_choice().substeps);
+    EXPECT_EQ(rig.session.simulated()->integrator_choice().integrator().key, i.key);
+    EXPECT_FALSE(rig.session.simulated()->integrator_choice().substeps);
     EXPECT_EQ(rig.widget("Active integrator").min.y, used_integrator_y) << "nothing moves";
   }
   rig.click("Fixed substeps");
-  EXPECT_TRUE(rig.session.world().integrator_choice().substeps);
+  EXPECT_TRUE(rig.session.simulated()->integrator_choice().substeps);
   rig.drag("Substeps", -400);
-  EXPECT_EQ(rig.session.world().integrator_choice().substeps, 1);
+  EXPECT_EQ(rig.session.simulated()->integrator_choice().substeps, 1);
   rig.click("Fixed substeps");
-  EXPECT_FALSE(rig.session.world().integrator_choice().substeps);
+  EXPECT_FALSE(rig.session.simulated()->integrator_choice().substeps);
 }
 
 TEST(StabilityPanel, DismissesTheAlarmWhenTheWorldResumes) {
@@ -62,7 +62,7 @@ TEST(StabilityPanel, ShowsAnAlarmAndRewinds) {
   EXPECT_TRUE(rig.session.simulation.clock.paused);
   rig.click("Rewind to the last good frame");
   EXPECT_FALSE(rig.recorder.find("Blow-up"));
-  EXPECT_TRUE(softbody::measure(rig.session.world()).finite);
+  EXPECT_TRUE(softbody::measure(*rig.session.simulated()).finite);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "app/render/capture.h"
 #include "engine/image.h"
 #include "engine/resources.h"
+#include "softbody/world/world.h"
 
 namespace app {
 namespace {

@@ -1,4 +1,4 @@
-// Files as the recording of a scene: what is read when, and what the scene is like.
+// Files as a recording: what is read when, and what the scene is like.
 
 #include "app/files/playback.h"
 
@@ -15,7 +15,7 @@
 #include <sstream>
 #include <thread>
 
-#include "softbody/world/world.h"
+#include "app/session/player.h"
 #include "tests/temporary_folder.h"
 
 namespace app {
@@ -114,7 +114,7 @@ TEST_F(PlaybackTest, ForgetsAllFramesButTheFirstWhenReleased) {
 }
 
 TEST_F(PlaybackTest, RefusesCoordinatesWhoseSquaresWouldOverflow) {
-  const softbody::Scene large = files::recorded_scene({write("large.obj", 1, 9e14f)});
+  const softbody::Scene large = files::open_recording({write("large.obj", 1, 9e14f)}).scene;
   EXPECT_TRUE(std::isfinite(large.view.distance) && std::isfinite(large.view.target.x));
   const auto far = write("far.obj", 1, 2e19f);
   const auto expect_refusal = [&](const std::function<void()>& play) {
@@ -125,7 +125,7 @@ TEST_F(PlaybackTest, RefusesCoordinatesWhoseSquaresWouldOverflow) {
       EXPECT_NE(std::string(error.what()).find("far.obj: a coordinate of 2e+19"), std::string::npos) << error.what();
     }
   };
-  expect_refusal([&] { files::recorded_scene({far}); });
+  expect_refusal([&] { files::open_recording({far}); });
   files::Playback playback({write("0.obj", 1, 0), far});
   expect_refusal([&] { playback.frame(1); });
   EXPECT_TRUE(std::isfinite(playback.bounds()[1].x));
@@ -190,16 +190,16 @@ TEST_F(PlaybackTest, RefusesAnotherBodyInThePlaceOfALaterOne) {
 }
 
 TEST_F(PlaybackTest, MakesASceneWhoseToleranceSuitsTheData) {
-  const softbody::Scene scene = files::recorded_scene(three());
+  const auto [scene, recording] = files::open_recording(three());
   EXPECT_NEAR(scene.collision.tolerance, std::sqrt(2.0f) / 2, 1e-6) << "half the median edge";
   EXPECT_EQ(scene.view.target, glm::dvec3(4, 0.5, 0.5));
-  softbody::World world(scene, {});
-  world.show_frame(2);
-  EXPECT_EQ(world.bodies().count(), 3u);
+  session::Player player(recording, scene, 1);
+  player.show(2);
+  EXPECT_EQ(player.bodies().count(), 3u);
   const auto points = folder.write("points.ply",
                                    "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
                                    "property float z\nend_header\n0 0 0\n3 0 4\n");
-  EXPECT_NEAR(files::recorded_scene({points}).collision.tolerance, 0.05, 1e-6) << "a hundredth of the diagonal";
+  EXPECT_NEAR(files::open_recording({points}).scene.collision.tolerance, 0.05, 1e-6) << "a hundredth of the diagonal";
 }
 
 TEST_F(PlaybackTest, RefusesFilesWithoutVertices) {

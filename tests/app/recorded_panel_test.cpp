@@ -4,7 +4,7 @@
 #include "app/ui/shortcuts.h"
 #include "app/window/overlay_request.h"
 #include "tests/app/panel_rig.h"
-#include "tests/softbody/recorded_bodies.h"
+#include "tests/app/recorded_bodies.h"
 
 #include <GLFW/glfw3.h>
 
@@ -19,7 +19,7 @@ class RecordedPanel : public testing::Test {
   }
   bool shows(std::string_view label) const { return rig.recorder.find(label) != nullptr; }
 
-  PanelRig rig{1, softbody::test::scene_of(std::make_shared<softbody::test::RecordedBalls>(60))};
+  PanelRig rig{1, opened(std::make_shared<RecordedBalls>(60))};
 };
 
 TEST_F(RecordedPanel, LeavesOutWhatNeedsASolverAndSaysSo) {

@@ -8,15 +8,13 @@
 
 #include "app/session/live/sweep_worker.h"
 #include "app/session/session.h"
+#include "tests/app/recorded_bodies.h"
 #include "tests/app/scenes.h"
-#include "tests/softbody/recorded_bodies.h"
 
 namespace app {
 namespace {
 
 using namespace std::chrono_literals;
-using softbody::test::RecordedBalls;
-
 class RecordedSession : public testing::Test {
  protected:
   static constexpr int frames = 8;
@@ -44,7 +42,7 @@ class RecordedSession : public testing::Test {
   }
 
   std::shared_ptr<RecordedBalls> balls = std::make_shared<RecordedBalls>(frames);
-  Session session{softbody::test::scene_of(balls), {}, 1};
+  Session session{opened(balls), {}, 1};
   session::Simulation& simulation = session.simulation;
 };
 
@@ -177,7 +175,7 @@ TEST_F(RecordedSession, IsSwept) {
 }
 
 TEST_F(RecordedSession, RunsAheadToAFrame) {
-  session.run_ahead.start([](const softbody::World& world) { return world.frame() == 5; }, 20);
+  session.run_ahead.start([](const softbody::BodiesInMotion& world) { return world.frame() == 5; }, 20);
   advance(20);
   EXPECT_EQ(frame(), 5);
   EXPECT_TRUE(simulation.clock.paused);
@@ -194,20 +192,19 @@ TEST_F(RecordedSession, IsResetAndComesBackByUndo) {
   EXPECT_EQ(session.world().detection().contacts, true_contacts());
   const softbody::Scene pair = touching_pair();
   session.scenes.enter(session::make_window_world(pair, {}, 1), pair, "pair");
-  EXPECT_EQ(session.why_no_solver(), "");
+  EXPECT_TRUE(session.simulated());
   EXPECT_EQ(balls->releases, 1) << "undo keeps the recording, but not what it has read";
   EXPECT_EQ(simulation.clock.speed, 1);
   simulation.undo();
   EXPECT_EQ(frame(), 6);
-  EXPECT_EQ(session.why_no_solver(), "the motion is recorded");
+  EXPECT_FALSE(session.simulated());
 }
 
 TEST_F(RecordedSession, EndsTheGhostOfTheSceneBefore) {
   Session other(touching_pair(), {}, 1);
   other.choose_ghost(softbody::IntegratorChoice{});
   ASSERT_TRUE(other.ghost().get());
-  const softbody::Scene scene = softbody::test::scene_of(balls);
-  other.scenes.enter(session::make_window_world(scene, {}, 1), scene, "balls");
+  other.scenes.enter(session::show_in_window(opened(balls), 1), opened(balls).scene, "balls");
   EXPECT_FALSE(other.ghost().get());
   other.advance(tick);
   EXPECT_EQ(other.world().frame(), 1);

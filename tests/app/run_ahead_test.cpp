@@ -14,7 +14,7 @@ void advance(Session& session, int frames) {
 
 TEST(RunAhead, StopsAtTheFrameThatItLooksFor) {
   const auto to_frame = [](int frame) {
-    return [frame](const softbody::World& world) { return world.frame() >= frame; };
+    return [frame](const softbody::BodiesInMotion& world) { return world.frame() >= frame; };
   };
   Session session(touching_pair(), {}, 1);
   session.simulation.clock.slow_motion = true;
@@ -28,12 +28,12 @@ TEST(RunAhead, StopsAtTheFrameThatItLooksFor) {
   EXPECT_EQ(session.simulation.world().frame(), 40);
   softbody::World world(touching_pair(), {});
   for (int frame = 0; frame < 40; ++frame) world.step();
-  EXPECT_EQ(session.simulation.world().state_hash(), world.state_hash());
+  EXPECT_EQ(session.simulation.simulated()->state_hash(), world.state_hash());
   EXPECT_FALSE(session.simulation.stability().past().snapshots().empty());
 }
 
 TEST(RunAhead, EndsWhereItFindsNothing) {
-  const auto never = [](const softbody::World&) { return false; };
+  const auto never = [](const softbody::BodiesInMotion&) { return false; };
   Session session(touching_pair(), {}, 1);
   session.run_ahead.start(never, 0.5);
   advance(session, 100);

@@ -59,7 +59,7 @@ TEST(SceneCommands, ReproduceTheRunningScene) {
     for (const softbody::Scene& used : {scene, changed(scene)}) {
       const cli::Options demo = parse(session::demo_command(key, used, {}));
       EXPECT_EQ(demo.command, cli::Command::demo);
-      softbody::Scene made = cli::load_scene(demo);
+      softbody::Scene made = cli::open(demo).scene;
       if (used.default_cell_size) made.collision.cell_size = used.collision.cell_size;  // not in use
       ASSERT_EQ(made.bodies.size(), used.bodies.size());
       made.bodies = used.bodies;  // meshes from files are read anew
@@ -70,7 +70,7 @@ TEST(SceneCommands, ReproduceTheRunningScene) {
       EXPECT_EQ(simulate.frames, 17);
       EXPECT_EQ(simulate.integrator, (softbody::IntegratorChoice{"xpbd", 7}));
       EXPECT_EQ(simulate.captures, std::vector{17});
-      EXPECT_TRUE(cli::load_scene(simulate).collision == made.collision);
+      EXPECT_TRUE(cli::open(simulate).scene.collision == made.collision);
     }
   }
 }
@@ -94,7 +94,7 @@ TEST(SceneCommands, ReproduceASavedScene) {
   softbody::Scene used = session::scene_in_use(session.simulation);
   used.view = view;
   EXPECT_TRUE(session.simulation.loaded.file.reproduces(used));
-  softbody::Scene made = cli::load_scene(parse(session::demo_command(session.simulation.loaded.file.name(), used, {})));
+  softbody::Scene made = cli::open(parse(session::demo_command(session.simulation.loaded.file.name(), used, {}))).scene;
   made.key = used.key;
   made.collision.cell_size = used.collision.cell_size;
   EXPECT_TRUE(made == used);
@@ -143,15 +143,15 @@ TEST(SaveScene, WritesAddedBodiesWithTheirFrames) {
   session.bodies.throw_body({6, 2, 0}, {0, 2, 0});
   session.bodies.drop();
   go_on(session, 30);
-  ASSERT_EQ(session.world().added().size(), 4u);
+  ASSERT_EQ(session.simulated()->added().size(), 4u);
   ASSERT_EQ(session.scenes.save(file, {}), "");
   EXPECT_TRUE(session.simulation.loaded.file.reproduces(session.scenes.with_added_bodies()));
   Session again(softbody::load_scene(file), {}, 1);
   EXPECT_EQ(again.world().scene().bodies.size(), begin + 4);
   go_on(again, 70);
-  EXPECT_EQ(again.world().state_hash(), session.world().state_hash());
-  EXPECT_TRUE(again.world().added().empty());  // they are the scene's now
-  session.bodies.select(session.world().added()[1].body);
+  EXPECT_EQ(again.simulated()->state_hash(), session.simulated()->state_hash());
+  EXPECT_TRUE(again.simulated()->added().empty());  // they are the scene's now
+  session.bodies.select(session.simulated()->added()[1].body);
   session.bodies.remove_selected();
   EXPECT_EQ(session.scenes.with_added_bodies().bodies.size(), begin + 3);
   session.simulation.undo();
@@ -164,7 +164,7 @@ TEST(Session, KeepsTheIntegratorAtAReset) {
   Session session(touching_pair(), {}, 1);
   session.settings.set_integrator({"xpbd", 7});
   session.simulation.reset();
-  EXPECT_EQ(session.world().integrator_choice(), (softbody::IntegratorChoice{"xpbd", 7}));
+  EXPECT_EQ(session.simulated()->integrator_choice(), (softbody::IntegratorChoice{"xpbd", 7}));
 }
 
 TEST(SaveScene, ReportsErrorsAndWritesNothing) {

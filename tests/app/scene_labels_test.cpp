@@ -7,6 +7,7 @@
 
 #include "app/render/miss_marks.h"
 #include "app/session/session.h"
+#include "softbody/world/world.h"
 #include "tests/app/scenes.h"
 
 namespace app {

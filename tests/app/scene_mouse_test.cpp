@@ -36,7 +36,7 @@ struct Nearest {
   softbody::Triangle corners{};
 };
 /// Tests all triangles, by Cramer's rule in double.
-Nearest brute_force(const engine::Ray& ray, const softbody::World& world) {
+Nearest brute_force(const engine::Ray& ray, const softbody::BodiesInMotion& world) {
   Nearest nearest;
   const collide::Frame f = world.positions();
   for (softbody::BodyId body = 0; body < world.bodies().count(); ++body)
@@ -162,30 +162,30 @@ TEST_F(SceneMouseTest, GrabsPullsAndThrows) {
   EXPECT_TRUE(mouse.can_drag());
   EXPECT_FALSE(session.bodies.selected());
   button(0, true);
-  const std::uint64_t before = session.world().state_hash();
-  ASSERT_TRUE(session.world().grabbed());
-  EXPECT_EQ(session.world().grabbed()->body, 1u);
+  const std::uint64_t before = session.simulated()->state_hash();
+  ASSERT_TRUE(session.simulated()->grabbed());
+  EXPECT_EQ(session.simulated()->grabbed()->body, 1u);
   EXPECT_EQ(session.bodies.selected(), 1u);
   const engine::Orbit orbit = camera.orbit();
   const glm::vec2 target = input.at + glm::vec2(150, -60);
   for (int i = 1; i <= 30; ++i) move(input.at + (target - input.at) * 0.2f);
   frame(90);
-  const glm::vec3 point(softbody::grabbed_point(session.world()));
+  const glm::vec3 point(softbody::grabbed_point(*session.simulated()));
   EXPECT_LT(glm::distance(pixel_of(camera, point), target), 5);
   EXPECT_LT(glm::distance(body_pixel(1), target), 80);  // the body hangs from the mouse
   EXPECT_EQ(camera.orbit().azimuth, orbit.azimuth);
-  const glm::dvec3 held(softbody::grabbed_point(session.world()));
+  const glm::dvec3 held(softbody::grabbed_point(*session.simulated()));
   EXPECT_NEAR(glm::distance(glm::dvec3(camera.eye()), held),
               glm::distance(glm::dvec3(camera.eye()), centre(session.world(), 0)), 1);
   for (int i = 0; i < 10; ++i) move(input.at - glm::vec2(25, 0));
   button(0, false);
-  EXPECT_FALSE(session.world().grabbed());
+  EXPECT_FALSE(session.simulated()->grabbed());
   const glm::vec2 at_release = body_pixel(1);
   frame(10);
   EXPECT_LT(body_pixel(1).x, at_release.x - 10);  // the body flies on
   EXPECT_EQ(session.bodies.selected(), 1u);
   session.simulation.undo();
-  EXPECT_EQ(session.world().state_hash(), before);
+  EXPECT_EQ(session.simulated()->state_hash(), before);
   EXPECT_FALSE(session.simulation.can_undo()) << "it was one change";
 }
 
@@ -368,7 +368,7 @@ TEST_F(SceneMouseTest, SelectsAndOrbitsWhilePaused) {
   const float azimuth = camera.orbit().azimuth;
   button(0, true);
   EXPECT_EQ(session.bodies.selected(), 0u);
-  EXPECT_FALSE(session.world().grabbed());
+  EXPECT_FALSE(session.simulated()->grabbed());
   move(input.at + glm::vec2(100, 0));
   button(0, false);
   camera.finish_glide();
@@ -385,7 +385,7 @@ TEST_F(SceneMouseTest, FocusesOnADoubleClickedBody) {
   camera.finish_glide();
   EXPECT_LT(glm::distance(glm::dvec3(camera.orbit().target), centre(session.world(), 1)), 0.05);
   EXPECT_LT(camera.orbit().distance, 5);
-  EXPECT_FALSE(session.world().grabbed());
+  EXPECT_FALSE(session.simulated()->grabbed());
 }
 
 TEST_F(SceneMouseTest, PansByTheOtherButtonsAndIgnoresThePanelsMouse) {

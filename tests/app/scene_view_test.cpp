@@ -33,7 +33,7 @@ class SceneViewTest : public testing::Test {
     compare::DrawnMeshes at(session_.world());
     at.shown = at.simulated = positions;
     target_.bind();
-    const engine::Camera camera = view_.camera(session_.world().scene(), size);
+    const engine::Camera camera = view_.camera(session_.world(), size);
     view_.draw(session_.world(), request, camera, {{0, 0}, size}, 1.0f, at);
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     return target_.read().rgba;
@@ -102,7 +102,7 @@ TEST_F(SceneViewTest, DrawsAGhostThatHardlyDiffersBehind) {
 
 /// Else the two would show through each other in patches.
 TEST_F(SceneViewTest, DrawsAGhostThatOverlapsItsBodyBehindItAndOneThatLeftItInPlace) {
-  const engine::Camera camera = view_.camera(session_.world().scene(), size);
+  const engine::Camera camera = view_.camera(session_.world(), size);
   const glm::vec3 body(-0.51f, 3, 0.03f), to_eye = glm::normalize(camera.eye() - body);
   const auto pixel = camera.project(body, size);
   const auto at_body = [&](const std::vector<std::uint8_t>& rgba) {
@@ -128,7 +128,7 @@ TEST_F(SceneViewTest, DrawsAGhostThatOverlapsItsBodyBehindItAndOneThatLeftItInPl
 
 TEST_F(SceneViewTest, LetsNamedBodiesHideOrVeilTheFacesOfBoxes) {
   const glm::vec3 body(-0.51f, 3, 0.03f);
-  const engine::Camera camera = view_.camera(session_.world().scene(), size);
+  const engine::Camera camera = view_.camera(session_.world(), size);
   const glm::vec3 behind = body + 1.2f * glm::normalize(body - camera.eye());
   const glm::ivec2 pixel(*camera.project(body, size));
   for (const bool hide : {false, true}) {
@@ -149,7 +149,7 @@ TEST_F(SceneViewTest, LetsNamedBodiesHideOrVeilTheFacesOfBoxes) {
 
 TEST_F(SceneViewTest, OutlinesOpenBodies) {
   const softbody::World world(softbody::find_scene("cloth", engine::find_folder("assets") / "scenes"), {});
-  const engine::Camera camera = view_.camera(world.scene(), size);
+  const engine::Camera camera = view_.camera(world, size);
   target_.bind();
   view_.draw(world, {}, camera, {{0, 0}, size}, 1.0f);
   const engine::Image image = target_.read();

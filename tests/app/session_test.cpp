@@ -17,17 +17,17 @@ TEST(Session, GoesOnAfterAnUndoneResetAsIfNothingHadBeen) {
     s->bodies.drop();
     for (int i = 0; i < 20; ++i) s->advance(tick);
   }
-  const std::uint64_t before = session.world().state_hash();
+  const std::uint64_t before = session.simulated()->state_hash();
   session.simulation.reset();
   for (int i = 0; i < 5; ++i) session.advance(tick);
-  ASSERT_NE(session.world().state_hash(), before);
+  ASSERT_NE(session.simulated()->state_hash(), before);
   ASSERT_TRUE(session.simulation.can_undo());
   session.simulation.undo();
-  EXPECT_EQ(session.world().state_hash(), before);
+  EXPECT_EQ(session.simulated()->state_hash(), before);
   for (Session* s : {&session, &undisturbed})
     for (int i = 0; i < 20; ++i) s->advance(tick);
   EXPECT_EQ(session.world().frame(), undisturbed.world().frame());
-  EXPECT_EQ(session.world().state_hash(), undisturbed.world().state_hash());
+  EXPECT_EQ(session.simulated()->state_hash(), undisturbed.simulated()->state_hash());
 }
 
 /// A body that lies on the ground from the start.

@@ -19,7 +19,7 @@ TEST(Simulation, TakesTheStepsOfItsWorldToTheBit) {
   for (int frame = 0; frame < 120; ++frame) {
     world.step();
     simulation.advance(tick);
-    ASSERT_EQ(simulation.world().state_hash(), world.state_hash()) << frame;
+    ASSERT_EQ(simulation.simulated()->state_hash(), world.state_hash()) << frame;
   }
 }
 
@@ -92,7 +92,7 @@ TEST(Simulation, KeepsTheContactSurfaceOverAReset) {
 TEST(Simulation, GoesBackAndContinuesToTheBit) {
   session::Simulation simulation(touching_pair(), 1);
   run(simulation, 63);
-  const std::uint64_t there = simulation.world().state_hash();
+  const std::uint64_t there = simulation.simulated()->state_hash();
   const std::uint64_t revision = simulation.revision();
   simulation.rewind_to(31);
   EXPECT_TRUE(simulation.clock.paused);
@@ -101,19 +101,19 @@ TEST(Simulation, GoesBackAndContinuesToTheBit) {
   EXPECT_EQ(simulation.before_last_step().shown().y[0], simulation.world().positions().y[0]);
   simulation.rewind_to(63);
   EXPECT_EQ(simulation.world().frame(), 63) << "the present was kept";
-  EXPECT_EQ(simulation.world().state_hash(), there);
+  EXPECT_EQ(simulation.simulated()->state_hash(), there);
   simulation.rewind_to(30);
   simulation.clock.paused = false;
   run(simulation, 33);
   EXPECT_EQ(simulation.world().frame(), 63);
-  EXPECT_EQ(simulation.world().state_hash(), there);
+  EXPECT_EQ(simulation.simulated()->state_hash(), there);
 }
 
 TEST(Simulation, ShowsTheFiguresOfTheFrameItWentBackTo) {
   session::Simulation simulation(touching_pair(), 1);
   run(simulation, 63);
   simulation.rewind_to(30);
-  const softbody::Measures now = softbody::measure(simulation.world());
+  const softbody::Measures now = softbody::measure(*simulation.simulated());
   const session::StabilityHistory& shown = simulation.stability().history();
   EXPECT_FLOAT_EQ(shown.kinetic.latest(), float(now.energies.kinetic));
   EXPECT_FLOAT_EQ(shown.gravity.latest(), float(now.energies.gravity));
@@ -157,7 +157,7 @@ TEST(Simulation, PausesAtABlowUpAndOffersTheLastGoodFrame) {
   EXPECT_LT(simulation.stability().last_good_frame(), bad);
   simulation.rewind_to(simulation.stability().last_good_frame());
   EXPECT_FALSE(simulation.stability().blow_up());
-  EXPECT_TRUE(softbody::measure(simulation.world()).finite);
+  EXPECT_TRUE(softbody::measure(*simulation.simulated()).finite);
 }
 
 TEST(Simulation, ContinuesThroughABlowUpOnRequest) {
@@ -182,10 +182,10 @@ TEST(SimulationUndo, RevertsADropAndAThrowToTheBit) {
   session::Simulation simulation(touching_pair(), 1);
   session::BodyControls bodies(simulation);
   for (int i = 0; i < 10; ++i) simulation.advance(tick);
-  const std::uint64_t before = simulation.world().state_hash();
+  const std::uint64_t before = simulation.simulated()->state_hash();
   bodies.grab({.body = 0, .target = {0, 4, 0}});
   bodies.drop(20);
-  EXPECT_TRUE(simulation.world().grabbed()) << "a drop does not make the hand let go";
+  EXPECT_TRUE(simulation.simulated()->grabbed()) << "a drop does not make the hand let go";
   bodies.throw_body({0, 3, 9}, {0, 3, 0});
   ASSERT_EQ(simulation.world().bodies().count(), 23u);
   simulation.advance(tick);
@@ -193,8 +193,8 @@ TEST(SimulationUndo, RevertsADropAndAThrowToTheBit) {
   EXPECT_EQ(simulation.world().bodies().count(), 22u);
   simulation.undo();
   EXPECT_EQ(simulation.world().bodies().count(), 2u);
-  EXPECT_EQ(simulation.world().state_hash(), before);
-  EXPECT_FALSE(simulation.world().grabbed());
+  EXPECT_EQ(simulation.simulated()->state_hash(), before);
+  EXPECT_FALSE(simulation.simulated()->grabbed());
   EXPECT_FALSE(simulation.can_undo());
 }
 
@@ -225,7 +225,7 @@ TEST(SimulationUndo, RestoresADeletedBodyToTheBit) {
   session::Simulation simulation(touching_pair(), 1);
   session::BodyControls bodies(simulation);
   for (int i = 0; i < 10; ++i) simulation.advance(tick);
-  const std::uint64_t before = simulation.world().state_hash();
+  const std::uint64_t before = simulation.simulated()->state_hash();
   const int frame = simulation.world().frame();
   bodies.select(0);
   bodies.remove_selected();
@@ -238,7 +238,7 @@ TEST(SimulationUndo, RestoresADeletedBodyToTheBit) {
   simulation.undo();
   EXPECT_EQ(simulation.world().bodies().count(), 2u);
   EXPECT_EQ(simulation.world().frame(), frame);
-  EXPECT_EQ(simulation.world().state_hash(), before);
+  EXPECT_EQ(simulation.simulated()->state_hash(), before);
   EXPECT_FALSE(simulation.can_undo());
   simulation.advance(tick);
   EXPECT_FALSE(simulation.notice.is_error());
@@ -253,17 +253,17 @@ TEST(SimulationUndo, RevertsSeveralResetsAndKeepsTheirSolids) {
     solids[0].on = i % 2;
     controls.set_solids(solids);
     for (int k = 0; k < 5 + i; ++k) simulation.advance(tick);
-    hashes.push_back(simulation.world().state_hash());
+    hashes.push_back(simulation.simulated()->state_hash());
     simulation.reset();
   }
   for (int i = 2; i >= 0; --i) {
     simulation.undo();
-    EXPECT_EQ(simulation.world().state_hash(), hashes[static_cast<std::size_t>(i)]);
+    EXPECT_EQ(simulation.simulated()->state_hash(), hashes[static_cast<std::size_t>(i)]);
     EXPECT_EQ(controls.solids()[0].on, i % 2);
   }
   simulation.undo();
   EXPECT_EQ(simulation.notice.text(), "Nothing to undo");
-  EXPECT_EQ(simulation.world().state_hash(), hashes[0]);
+  EXPECT_EQ(simulation.simulated()->state_hash(), hashes[0]);
 }
 
 TEST(SimulationUndo, BringsBackTheSettingsOfAWorldThatWasLeftForAnotherScene) {
@@ -284,9 +284,9 @@ TEST(SimulationUndo, BringsBackTheSettingsOfAWorldThatWasLeftForAnotherScene) {
   simulation.undo();
   EXPECT_EQ(simulation.loaded.scene.bodies.size(), 2u);
   EXPECT_EQ(simulation.world().method().key, "grid-hash");
-  EXPECT_EQ(simulation.world().integrator_choice(), undisturbed.world().integrator_choice());
+  EXPECT_EQ(simulation.simulated()->integrator_choice(), undisturbed.simulated()->integrator_choice());
   for (session::Simulation* s : {&simulation, &undisturbed}) run(*s, 20);
-  EXPECT_EQ(simulation.world().state_hash(), undisturbed.world().state_hash());
+  EXPECT_EQ(simulation.simulated()->state_hash(), undisturbed.simulated()->state_hash());
 }
 
 /// Notes what it is told.
@@ -327,35 +327,35 @@ TEST(SimulationRedo, BringsBackWhatWasUndoneToTheBit) {
   std::vector<std::uint64_t> hashes;  // before each change, and at the end
   for (const int what : {0, 1, 2, 3}) {
     run(simulation, 5);
-    hashes.push_back(simulation.world().state_hash());
+    hashes.push_back(simulation.simulated()->state_hash());
     if (what == 0) bodies.drop(3);
     if (what == 1) bodies.throw_body({0, 3, 9}, {0, 0, -1});
     if (what == 2) simulation.reset();
     if (what == 3) bodies.select(1), bodies.remove_selected();
   }
   run(simulation, 5);
-  hashes.push_back(simulation.world().state_hash());
+  hashes.push_back(simulation.simulated()->state_hash());
   EXPECT_FALSE(simulation.can_redo());
   for (int round = 0; round < 2; ++round) {
     for (std::size_t i = hashes.size() - 1; i-- > 0;) {
       simulation.undo();
-      EXPECT_EQ(simulation.world().state_hash(), hashes[i]) << i;
+      EXPECT_EQ(simulation.simulated()->state_hash(), hashes[i]) << i;
     }
     EXPECT_EQ(simulation.notice.text(), "Undone: drop of 3 bodies");
     EXPECT_FALSE(simulation.can_undo());
     for (std::size_t i = 1; i < hashes.size(); ++i) {
       ASSERT_TRUE(simulation.can_redo());
       simulation.redo();
-      EXPECT_EQ(simulation.world().state_hash(), hashes[i]) << i;
+      EXPECT_EQ(simulation.simulated()->state_hash(), hashes[i]) << i;
     }
     EXPECT_EQ(simulation.notice.text(), "Redone: deletion of a body");
     EXPECT_FALSE(simulation.can_redo());
   }
   run(simulation, 20);
-  const std::uint64_t later = simulation.world().state_hash();
+  const std::uint64_t later = simulation.simulated()->state_hash();
   simulation.undo();
   simulation.redo();
-  EXPECT_EQ(simulation.world().state_hash(), later) << "the world as it was left";
+  EXPECT_EQ(simulation.simulated()->state_hash(), later) << "the world as it was left";
 }
 
 TEST(SimulationRedo, GoesOnAsIfNothingHadBeenUndone) {
@@ -369,7 +369,7 @@ TEST(SimulationRedo, GoesOnAsIfNothingHadBeenUndone) {
   run(simulation, 7);
   simulation.redo();
   for (session::Simulation* s : {&simulation, &undisturbed}) run(*s, 30);
-  EXPECT_EQ(simulation.world().state_hash(), undisturbed.world().state_hash());
+  EXPECT_EQ(simulation.simulated()->state_hash(), undisturbed.simulated()->state_hash());
 }
 
 TEST(SimulationRedo, EndsWithANewChange) {
@@ -404,7 +404,7 @@ TEST(SimulationUndo, TakesAPullAsOneChange) {
   session::Simulation simulation(touching_pair(), 1);
   session::BodyControls bodies(simulation);
   run(simulation, 5);
-  const std::uint64_t before = simulation.world().state_hash();
+  const std::uint64_t before = simulation.simulated()->state_hash();
   bodies.grab({.body = 1, .target = {0.5, 3, 0}});
   run(simulation, 2);
   EXPECT_FALSE(simulation.can_undo()) << "a click pulls nothing";
@@ -414,13 +414,13 @@ TEST(SimulationUndo, TakesAPullAsOneChange) {
   }
   bodies.release();
   run(simulation, 10);
-  const std::uint64_t thrown = simulation.world().state_hash();
+  const std::uint64_t thrown = simulation.simulated()->state_hash();
   simulation.undo();
   EXPECT_EQ(simulation.notice.text(), "Undone: pull of a body");
-  EXPECT_EQ(simulation.world().state_hash(), before);
+  EXPECT_EQ(simulation.simulated()->state_hash(), before);
   EXPECT_FALSE(simulation.can_undo());
   simulation.redo();
-  EXPECT_EQ(simulation.world().state_hash(), thrown);
+  EXPECT_EQ(simulation.simulated()->state_hash(), thrown);
 }
 
 TEST(SimulationUndo, TakesADragOfASolidAsOneChangeAndRestoresIt) {
@@ -428,7 +428,7 @@ TEST(SimulationUndo, TakesADragOfASolidAsOneChangeAndRestoresIt) {
   session::SettingControls controls(simulation);
   session::BodyControls bodies(simulation);
   run(simulation, 5);
-  const std::uint64_t before = simulation.world().state_hash();
+  const std::uint64_t before = simulation.simulated()->state_hash();
   const session::SolidList at_first = controls.solids();
   session::SolidList solids = at_first;
   controls.begin_drag(0);
@@ -444,7 +444,7 @@ TEST(SimulationUndo, TakesADragOfASolidAsOneChangeAndRestoresIt) {
   simulation.undo();
   EXPECT_EQ(simulation.notice.text(), "Undone: move of Sphere");
   EXPECT_FALSE(simulation.can_undo());
-  EXPECT_EQ(simulation.world().state_hash(), before);
+  EXPECT_EQ(simulation.simulated()->state_hash(), before);
   EXPECT_TRUE(controls.solids() == at_first);
   EXPECT_EQ(simulation.world().scene().spheres[0].centre, glm::dvec3(0.0));
   EXPECT_DOUBLE_EQ(glm::length(simulation.world().scene().gravity), 3) << "settings in use stay";

@@ -11,6 +11,7 @@
 
 #include "app/session/session.h"
 #include "softbody/model/body_model.h"
+#include "softbody/world/world.h"
 #include "tests/app/scenes.h"
 
 namespace app {

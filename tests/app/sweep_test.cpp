@@ -4,6 +4,7 @@
 
 #include "app/compare/compare.h"
 #include "app/compare/heap.h"
+#include "softbody/world/world.h"
 #include "tests/app/scenes.h"
 
 namespace app {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <thread>
 
+#include "softbody/world/world.h"
 #include "tests/app/scenes.h"
 
 namespace app {

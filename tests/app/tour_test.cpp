@@ -46,7 +46,7 @@ void finish_run(Session& session, ui::Tour& tour) {
 }
 
 /// What the paper's method misses in the world, by the detectors themselves.
-std::vector<collide::Contact> misses_of(const softbody::World& world) {
+std::vector<collide::Contact> misses_of(const softbody::BodiesInMotion& world) {
   std::array<collide::Result, 2> results;
   collide::Workers workers(1);
   for (const bool paper : {false, true})
@@ -57,7 +57,8 @@ std::vector<collide::Contact> misses_of(const softbody::World& world) {
 }
 
 /// What the tour says that the method misses, with the structure of the method.
-std::vector<collide::Contact> missed_by(const collide::DebugGeometry& structure, const softbody::World& world) {
+std::vector<collide::Contact> missed_by(const collide::DebugGeometry& structure,
+                                        const softbody::BodiesInMotion& world) {
   collide::Result exact;
   collide::Workers workers(1);
   collide::find_method(collide::reference_method)->make()->detect(world.positions(), world.collision(), workers, exact);

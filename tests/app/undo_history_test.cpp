@@ -19,7 +19,11 @@ session::KeptWorld kept(int frame) {
           {session::Change::Of::bodies, "change"}};
 }
 
-int next_frame(const session::UndoHistory& history, Way way) { return history.next(way).snapshot.frame; }
+const softbody::Snapshot& snapshot_of(const session::KeptWorld& kept) {
+  return std::get<softbody::Snapshot>(kept.world);
+}
+
+int next_frame(const session::UndoHistory& history, Way way) { return snapshot_of(history.next(way)).frame; }
 
 TEST(UndoHistory, KeepsTheLatestFew) {
   session::UndoHistory history;
@@ -51,7 +55,7 @@ TEST(UndoHistory, ForgetsWhatCouldBeRedoneAtANewChange) {
 }
 
 TEST(UndoHistory, KeepsWithinABoundOfMemoryButNeverForgetsTheLast) {
-  const std::size_t one = kept(0).snapshot.bytes();
+  const std::size_t one = snapshot_of(kept(0)).bytes();
   session::UndoHistory three(7 * one / 2), none(one / 2);
   for (int frame = 0; frame < 6; ++frame) {
     for (session::UndoHistory* history : {&three, &none}) {
@@ -76,10 +80,10 @@ TEST(UndoHistory, KeepsWithinTheBoundWhenItTurns) {
   session::KeptWorld large = kept(0);
   softbody::World world(touching_pair(), {});
   world.drop(20);
-  large.snapshot = world.snapshot();
-  const std::size_t small = kept(0).snapshot.bytes();
-  ASSERT_GT(large.snapshot.bytes(), 3 * small);
-  session::UndoHistory history(large.snapshot.bytes() + small / 2);
+  large.world = world.snapshot();
+  const std::size_t small = snapshot_of(kept(0)).bytes();
+  ASSERT_GT(snapshot_of(large).bytes(), 3 * small);
+  session::UndoHistory history(snapshot_of(large).bytes() + small / 2);
   history.push(kept(0));
   history.push(kept(1));
   history.turn(Way::back, large);

@@ -2,6 +2,8 @@
 // Who takes part in the comparison. Libraries are wrapped as detectors, so that all get the same frame and owe the same
 // result: the finished list of contacts, ascending.
 
+#include <functional>
+#include <memory>
 #include <span>
 
 #include "collide/core/detector.h"
@@ -12,7 +14,7 @@ struct Candidate {
   std::string_view key;
   std::string_view name;  // with the way it is used
   bool forgets;           // forget() before each frame: nothing is kept but memory
-  std::unique_ptr<collide::Detector> (*make)();
+  std::function<std::unique_ptr<collide::Detector>()> make;
 };
 
 /// The first one is what the others are divided by.

@@ -8,7 +8,7 @@
 namespace bench {
 
 std::span<const Candidate> candidates() {
-  static constexpr std::array table{
+  static const std::array table{
       Candidate{"exact", "multi-level-sb-exact, from scratch", true, collide::exact::make_multi_level_sb_exact},
       Candidate{"exact-reuse", "multi-level-sb-exact, frame after frame", false,
                 collide::exact::make_multi_level_sb_exact},

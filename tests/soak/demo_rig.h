@@ -23,7 +23,7 @@ class DemoRig {
   void resize(glm::ivec2 size);
   /// Returns the ray from the eye through the middle of the picture.
   engine::Ray centre_ray() const { return mouse_.ray(camera_, input.display_size); }
-  void restart_camera() { camera_ = view_.camera(session.world().scene(), input.display_size); }
+  void restart_camera() { camera_ = view_.camera(session.world(), input.display_size); }
 
  private:
   engine::HeadlessContext context_;  // first: the others need it

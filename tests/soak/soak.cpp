@@ -76,7 +76,7 @@ class Soak {
 
  private:
   const softbody::StepController& steps() const {
-    return softbody::WorldTestAccess::solver(demo_.session.world()).steps();
+    return softbody::WorldTestAccess::solver(*demo_.session.simulated()).steps();
   }
 
   void print_progress(const std::string& scene, int seconds) const {
@@ -90,7 +90,7 @@ class Soak {
 
   /// Prints what is needed to look into a slow frame.
   void print_slow_frame(double seconds) const {
-    const softbody::World& world = demo_.session.world();
+    const softbody::World& world = *demo_.session.simulated();
     const softbody::StepReport& p = world.last_step();
     const softbody::SurfaceContact& surface = softbody::WorldTestAccess::solver(world).surface_contact();
     std::printf(
@@ -135,7 +135,7 @@ class Soak {
     demo_.frame(draw);
     const double took = double(std::clock() - before) / CLOCKS_PER_SEC;
     ++frames_;
-    const softbody::World& world = session.world();
+    const softbody::World& world = *session.simulated();
     if (took > std::max(slowest_, slow_seconds)) print_slow_frame(took);
     slowest_ = std::max(slowest_, took);
     const double budget = softbody::window_budget.of(world.bodies().vertex_count());
@@ -155,7 +155,7 @@ class Soak {
   /// chose.
   void recover() {
     app::Session& session = demo_.session;
-    const softbody::World& world = session.world();
+    const softbody::World& world = *session.simulated();
     ++explosions_;
     const bool by_itself = world.integrator_choice().integrator().automatic && !world.integrator_choice().substeps;
     if (by_itself) {

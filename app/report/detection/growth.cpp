@@ -114,8 +114,7 @@ Plot cost_against_bodies(const SceneResult& growth) {
     const compare::Configuration& c = growth.states.front().sweep.rows[i].configuration;
     const collide::Method& method = method_of(c);
     const bool dashed = method.uses_hash && c.settings.buckets == compare::sweep_buckets.back();
-    Series series{std::string(method.name) + (method.uses_hash ? fmt::format(", {} buckets", buckets_of(c)) : ""),
-                  colour(method),
+    Series series{method.name + (method.uses_hash ? fmt::format(", {} buckets", buckets_of(c)) : ""), colour(method),
                   fmt::format("linespoints pointtype {} pointsize 1.1 linewidth 1.5 dashtype {}", point_type(method),
                               dashed ? 2 : 1)};
     for (const StateResult& state : growth.states)

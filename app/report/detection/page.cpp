@@ -106,7 +106,7 @@ class ZeroBand {
 Series series(const std::vector<Mean>& means, const ZeroBand& band, std::size_t method, std::optional<int> level) {
   const collide::Method& row = collide::method_table()[method];
   const double size = level ? 0.6 + 0.1 * *level : 1.2;
-  Series series{std::string(row.name), colour(row),
+  Series series{row.name, colour(row),
                 fmt::format("points pointtype {} pointsize {:g} linewidth 1.5", point_type(row), size)};
   for (const Mean& m : means)
     if (m.not_run.empty() && m.configuration.method == method && (!level || m.configuration.settings.levels == *level))
@@ -147,7 +147,7 @@ Plot error_against_time(const SceneResult& scene) {
 // ---- the page ----
 
 std::string in_words(const compare::Configuration& c) {
-  std::string text(method_of(c).name);
+  std::string text = method_of(c).name;
   if (method_of(c).uses_levels) text += fmt::format(", level {}", levels_of(c));
   if (method_of(c).uses_hash) text += fmt::format(", {} buckets, cell {}", buckets_of(c), cell_of(c));
   return text;

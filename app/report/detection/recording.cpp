@@ -9,6 +9,7 @@
 #include "app/base/usage_error.h"
 #include "app/files/frame_sequence.h"
 #include "app/report/files.h"
+#include "softbody/world/world.h"
 
 namespace app::report {
 namespace {

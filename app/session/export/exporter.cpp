@@ -36,7 +36,7 @@ std::vector<Curve> curves_of(const Session& session) {
                             {"strain", motion.strain},
                             {"speed_m_s", motion.speed}};
   for (std::size_t i = 0; i < session.comparison.method_ms().size(); ++i)
-    curves.push_back({std::string(collide::method_table()[i].key) + "_ms", session.comparison.method_ms()[i]});
+    curves.push_back({collide::method_table()[i].key + "_ms", session.comparison.method_ms()[i]});
   return curves;
 }
 
@@ -127,10 +127,10 @@ void Exporter::frame(Session& session, const Picture& picture) {
 }
 
 void Exporter::record(const Session& session, const Picture& picture) {
-  const softbody::World& world = session.world();
+  const softbody::BodiesInMotion& world = session.world();
   if (world.frame() == recorded_frame_ || !recording_->has_room()) return;
-  // A recording that plays begins again: all of its frames are written.
-  if (world.scene().recording && world.frame() < recorded_frame_) return recording_->stop();
+  // What is played begins again: all of its frames are written.
+  if (session.simulation.player() && world.frame() < recorded_frame_) return recording_->stop();
   recorded_frame_ = world.frame();
   RecordedFrame frame;
   frame.number = world.frame();

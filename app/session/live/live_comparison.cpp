@@ -5,7 +5,8 @@
 namespace app::session {
 namespace {
 
-compare::FrameSnapshot copy_frame(const softbody::World& world, std::uint64_t revision, std::uint64_t world_number) {
+compare::FrameSnapshot copy_frame(const softbody::BodiesInMotion& world, std::uint64_t revision,
+                                  std::uint64_t world_number) {
   compare::FrameSnapshot copy;
   copy.id = revision;
   copy.frame_number = world.frame();
@@ -33,9 +34,12 @@ compare::CompareReport CompareTask::answer(const compare::FrameSnapshot& snapsho
   }
 }
 
-void LiveComparison::exchange(const softbody::World& world, std::uint64_t revision, std::uint64_t world_number,
+void LiveComparison::exchange(const softbody::BodiesInMotion& world, std::uint64_t revision, std::uint64_t world_number,
                               int rests) {
-  if (auto report = worker_.take(); report && report->id >= first_wanted_) keep(std::move(*report));
+  auto report = worker_.take();
+  compare::add_new_methods(choice.methods);
+  method_ms_.resize(choice.methods.size());
+  if (report && report->id >= first_wanted_) keep(std::move(*report));
   if (!wants_report(revision) || !worker_.ready(rests)) return;
   compare::FrameSnapshot snapshot = copy_frame(world, revision, world_number);
   snapshot.chosen = chosen();
@@ -84,7 +88,7 @@ void LiveComparison::keep(compare::CompareReport report) {
   }
 }
 
-void LiveComparison::restart(const softbody::World& world, std::uint64_t revision) {
+void LiveComparison::restart(const softbody::BodiesInMotion& world, std::uint64_t revision) {
   report_ = {};
   settings_ = world.collision();
   driver_ = compare::method_index(world.method().key);
@@ -92,7 +96,7 @@ void LiveComparison::restart(const softbody::World& world, std::uint64_t revisio
   forget_times();
 }
 
-void LiveComparison::detection_changed(const softbody::World& world, std::uint64_t revision) {
+void LiveComparison::detection_changed(const softbody::BodiesInMotion& world, std::uint64_t revision) {
   driver_ = compare::method_index(world.method().key);
   recall_.clear();
   if (settings_ == world.collision()) return;

@@ -4,9 +4,9 @@
 #include "app/base/background_worker.h"
 #include "app/base/time_series.h"
 #include "app/compare/compare.h"
-#include "app/compare/method_set.h"
+#include "app/compare/method_style.h"
 #include "collide/methods.h"
-#include "softbody/world/world.h"
+#include "softbody/world/bodies_in_motion.h"
 
 namespace app::session {
 
@@ -38,16 +38,17 @@ class LiveComparison {
 
   CompareChoice choice;
 
-  /// Takes the report that is ready, if any, and offers the present state if more is to be found out about it.
+  /// Takes the report that is ready, if any, and offers the present state if more is to be found out about it. Methods
+  /// that have joined the table since the last call are taken in.
   /// revision: names the state, ascending; world_number: another number, another world; rests: as
   /// BackgroundWorker::ready().
-  void exchange(const softbody::World& world, std::uint64_t revision, std::uint64_t world_number, int rests);
+  void exchange(const softbody::BodiesInMotion& world, std::uint64_t revision, std::uint64_t world_number, int rests);
   /// Returns true if exchange() must be called again, though the state of this revision stays.
   bool awaits_report(std::uint64_t revision) const { return wants_report(revision) || worker_.has_work(); }
   /// Another world: reports of states before this revision are dropped.
-  void restart(const softbody::World& world, std::uint64_t revision);
+  void restart(const softbody::BodiesInMotion& world, std::uint64_t revision);
   /// Drops the curves of other settings; their report stays until a new one arrives.
-  void detection_changed(const softbody::World& world, std::uint64_t revision);
+  void detection_changed(const softbody::BodiesInMotion& world, std::uint64_t revision);
 
   /// Of a state a few frames old, whose vertices still exist.
   const compare::CompareReport& report() const { return report_; }
@@ -85,7 +86,7 @@ class LiveComparison {
   int offers_ = 0;                      // of the state offered_, with the same methods
   compare::MethodSet offered_methods_;  // empty: none but the driver
   TimeSeries recall_;
-  std::vector<TimeSeries> method_ms_ = std::vector<TimeSeries>(collide::method_table().size());
+  std::vector<TimeSeries> method_ms_ = std::vector<TimeSeries>(choice.methods.size());
   CompareWorker worker_;
 };
 

@@ -13,11 +13,11 @@ std::string LiveGhost::choose(const softbody::World& world, const std::optional<
   return error.what();
 }
 
-std::string LiveGhost::restart(const softbody::World& world) try {
+std::string LiveGhost::restart(const softbody::World* world) try {
   ++revision_;
   distances_.clear();
-  if (!world.plan().has(softbody::Stage::integrate)) ghost_.reset();
-  if (ghost_) ghost_->restart(world);
+  if (!world) ghost_.reset();
+  if (ghost_) ghost_->restart(*world);
   return {};
 } catch (const std::exception& error) {
   ghost_.reset();
@@ -30,7 +30,7 @@ std::string LiveGhost::step(const softbody::World& world) try {
   ghost_->step();
   if (!ghost_->world().all_at_rest()) ++revision_;
   if (ghost_->blown_up()) return {};
-  if (ghost_->world().last_step().seconds != world.last_step().seconds) return restart(world);  // one was cut short
+  if (ghost_->world().last_step().seconds != world.last_step().seconds) return restart(&world);  // one was cut short
   distances_.push(world.frame(), static_cast<float>(ghost_->distance(world)));
   return {};
 } catch (const std::exception& error) {

@@ -15,8 +15,8 @@ class LiveGhost {
   /// Begins a ghost of the present state, or ends it. On an error the ghost before stays.
   [[nodiscard]] std::string choose(const softbody::World& world,
                                    const std::optional<softbody::IntegratorChoice>& choice, int threads);
-  /// The world was changed: the ghost begins anew from its present state, or ends if nothing is simulated there.
-  [[nodiscard]] std::string restart(const softbody::World& world);
+  /// The world was changed: the ghost begins anew from its present state, or ends if there is none (nullptr).
+  [[nodiscard]] std::string restart(const softbody::World* world);
   /// Follows a step of the world.
   [[nodiscard]] std::string step(const softbody::World& world);
 

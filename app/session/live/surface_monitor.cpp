@@ -5,7 +5,7 @@
 namespace app::session {
 namespace {
 
-compare::StepSnapshot copy_step(const softbody::World& world, const compare::Positions& before,
+compare::StepSnapshot copy_step(const softbody::BodiesInMotion& world, const compare::Positions& before,
                                 std::uint64_t revision) {
   compare::StepSnapshot copy;
   copy.id = revision;
@@ -21,8 +21,8 @@ compare::StepSnapshot copy_step(const softbody::World& world, const compare::Pos
 
 }  // namespace
 
-void SurfaceMonitor::exchange(const softbody::World& world, const compare::Positions& before, std::uint64_t revision,
-                              int rests) {
+void SurfaceMonitor::exchange(const softbody::BodiesInMotion& world, const compare::Positions& before,
+                              std::uint64_t revision, int rests) {
   if (!on) return restart(revision);
   if (auto report = worker_.take(); report && report->id >= first_wanted_) keep(std::move(*report));
   if (offered_ == revision || !worker_.ready(rests)) return;

@@ -2,7 +2,7 @@
 // Checks the surfaces of the world on the screen, step by step, on a thread of its own.
 
 #include "app/compare/surface_check.h"
-#include "softbody/world/world.h"
+#include "softbody/world/bodies_in_motion.h"
 
 namespace app::session {
 
@@ -18,7 +18,8 @@ class SurfaceMonitor {
 
   /// Takes the report that is ready, if any, and offers the present state unless it was offered before. before:
   /// positions before the last step; revision: ascending number of the state; rests: see BackgroundWorker::ready().
-  void exchange(const softbody::World& world, const compare::Positions& before, std::uint64_t revision, int rests);
+  void exchange(const softbody::BodiesInMotion& world, const compare::Positions& before, std::uint64_t revision,
+                int rests);
   /// Returns true if exchange() must be called again, though the world stands still.
   bool awaits_report(std::uint64_t revision) const { return on && (offered_ != revision || worker_.has_work()); }
   /// Starts anew. Reports of states before this revision will be dropped.

@@ -18,7 +18,7 @@ void rest(Clock::duration duration, const std::stop_token& stop) {
 
 }  // namespace
 
-void SweepWorker::start(const softbody::World& world, const compare::MethodSet& methods) {
+void SweepWorker::start(const softbody::BodiesInMotion& world, const compare::MethodSet& methods) {
   if (running_) return;
   SweepState state;
   try {

@@ -30,7 +30,7 @@ class SweepWorker {
   /// Copies the world's present frame and sweeps the methods over it; the world may change or end meanwhile. Does
   /// nothing while a sweep is running. The state reports errors. After each step the thread rests as long as the step
   /// took, so that it takes at most half a core from the simulation and the drawing.
-  void start(const softbody::World& world, const compare::MethodSet& methods);
+  void start(const softbody::BodiesInMotion& world, const compare::MethodSet& methods);
   /// Ends the sweep after the current step. The results so far stay.
   void cancel() { thread_.request_stop(); }
   /// Returns true if the sweep is cancelled and its current step still runs.

@@ -33,12 +33,8 @@ StepMargin margin_of(const softbody::World& world) {
           .share = last.seconds / world.frame_time()};
 }
 
-/// Returns false if the motion is recorded: it has no energies, and its past can be read again.
-bool is_simulated(const softbody::World& world) { return world.plan().has(softbody::Stage::integrate); }
-
 /// Returns true if the world is to be measured and kept in its present frame.
 bool is_looked_at(const softbody::World& world) {
-  if (!is_simulated(world)) return false;
   constexpr std::size_t most = StabilityMonitor::most_frames, vertices = StabilityMonitor::vertices_a_frame;
   return std::size_t(world.frame()) % std::min(most, 1 + world.bodies().vertex_count() / vertices) == 0;
 }
@@ -71,7 +67,6 @@ void StabilityMonitor::update_blow_up(const softbody::World& world, const std::v
 }
 
 void StabilityMonitor::record(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
-  if (!is_simulated(world)) return;
   constexpr double max_shown = 1e30;  // a world that has blown up is no longer drawn
   const int frame = world.frame();
   const softbody::Measures all = softbody::total(bodies);
@@ -110,7 +105,7 @@ void StabilityMonitor::went_back(const softbody::World& world) {
 
 void StabilityMonitor::keep_present(const softbody::World& world) {
   const bool past = !rewind_.snapshots().empty() && world.frame() <= rewind_.snapshots().back().frame;
-  if (is_simulated(world) && recovery_checks_ == 0 && !past) rewind_.keep(world);
+  if (recovery_checks_ == 0 && !past) rewind_.keep(world);
 }
 
 }  // namespace app::session

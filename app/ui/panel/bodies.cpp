@@ -5,6 +5,7 @@
 
 #include "app/render/palette.h"
 #include "app/ui/panel/panel.h"
+#include "collide/core/vertex_run.h"
 #include "softbody/model/body_model.h"
 #include "softbody/world/measures.h"
 
@@ -12,7 +13,7 @@ namespace app::ui {
 namespace {
 
 void draw_drop_and_throw(Widgets& w, Session& session, UiState& ui) {
-  if (!session.why_no_solver().empty()) return;
+  if (!session.simulated()) return;
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
   ImGui::BeginDisabled(!session.bodies.can_drop());
@@ -34,28 +35,39 @@ void draw_drop_and_throw(Widgets& w, Session& session, UiState& ui) {
 }
 
 const char* state_text(const softbody::World& world, softbody::BodyId id) {
-  if (world.scene().recording) return "recorded";
   if (const auto& grab = world.grabbed(); grab && grab->body == id) return "in your hand";
   if (world.body(id).pinned) return "held in place";
   return world.body(id).asleep ? "asleep" : "awake";
 }
 
-void draw_selected(Widgets& w, const softbody::World& world, softbody::BodyId id) {
-  const softbody::BodyMeasures m = softbody::measure(world, id);
+/// Returns the volume of a body over that of its mesh, in words.
+std::string volume_text(const softbody::BodiesInMotion& world, softbody::BodyId id) {
+  const softbody::BodyModel& model = world.model(id);
+  if (!model.mesh.closed) return "open";
+  const collide::VertexRun at = collide::vertices_of(world.simulated().positions, id);
+  std::vector<glm::dvec3> vertices;
+  for (collide::Index v = 0; v < at.size; ++v) vertices.emplace_back(at[v]);
+  return fmt::format("{:.1f} %", 100 * softbody::volume(vertices, model.mesh.triangles) / model.start_volume);
+}
+
+void draw_selected(Widgets& w, const Session& session, softbody::BodyId id) {
+  const softbody::BodiesInMotion& world = session.world();
+  const softbody::World* simulated = session.simulated();
   w.swatch(render::body_colour(world.body(id).number), ImGui::GetTextLineHeight());
   ImGui::SameLine();
   ImGui::Text("Body %u: %s vertices", id, grouped(world.bodies().size(id)).c_str());
   ImGui::SameLine();
-  w.right_text(state_text(world, id));
+  w.right_text(simulated ? state_text(*simulated, id) : "recorded");
   const std::size_t particles = world.model(id).mesh.vertices.size();
   w.register_item("Selected body",
                   fmt::format("The body that was clicked last, simulated by {} particles. Bodies and vertices count "
                               "from 0.",
                               grouped(particles))
                       .c_str());
-  const std::string volume = m.closed ? fmt::format("{:.1f} %", 100 * m.volume_ratio) : "open";
-  if (world.scene().recording) return w.figure("Volume", volume, "Of the volume in the first frame with this body.");
-  const double speed = glm::length(m.momentum) / world.model(id).material[softbody::Material::mass];
+  const std::string volume = volume_text(world, id);
+  if (!simulated) return w.figure("Volume", volume, "Of the volume in the first frame with this body.");
+  const double speed =
+      glm::length(softbody::measure(*simulated, id).momentum) / world.model(id).material[softbody::Material::mass];
   w.figure("Speed, volume", fmt::format("{:.2f} m/s   {}", speed, volume),
            "Of its centre of mass; of the volume that it started with.");
 }
@@ -71,10 +83,10 @@ void draw_no_selection(Widgets& w, bool can_pull) {
 
 void draw_bodies(Widgets& w, Session& session, UiState& ui) {
   draw_drop_and_throw(w, session, ui);
-  const bool has_solver = session.why_no_solver().empty();
+  const bool has_solver = session.simulated();
   const auto& body = session.bodies.selected();
   if (body)
-    draw_selected(w, session.world(), *body);
+    draw_selected(w, session, *body);
   else
     draw_no_selection(w, has_solver);
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);

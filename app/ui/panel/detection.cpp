@@ -25,10 +25,10 @@ void draw_method(Widgets& w, Session& session) {
   draw_method_mark(w, method, ImGui::GetFrameHeight());
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  std::string tooltip(method.description);
+  std::string tooltip = method.description;
   if (uses_surface_contact(session)) tooltip += " With surface contact it does not move the bodies.";
   tooltip += " M: next shown method.";
-  draw_method_choice(w, session, "Method", std::string(method.name).c_str(), tooltip.c_str());
+  draw_method_choice(w, session, "Method", method.name.c_str(), tooltip.c_str());
 }
 
 void draw_contact_surface(Widgets& w, Session& session) {
@@ -165,12 +165,12 @@ void draw_detection(Widgets& w, Session& session, UiState& ui) {
   changed |= draw_buckets(w, settings, hash);
   changed |= draw_primes(w, settings, hash);
   changed |= draw_cell_size(w, settings, automatic, hash, usual);
-  if (session.why_no_solver().empty()) draw_contact_surface(w, session);
+  if (session.simulated()) draw_contact_surface(w, session);
   w.row_label("Tolerance", w.px(label_column));
   changed |= w.slider(
       "Tolerance", settings.tolerance, std::min(min_tolerance, usual / 20), std::max(max_tolerance, usual * 5),
       length_format(usual),
-      !session.why_no_solver().empty() ? "Vertices closer than this are in contact (§2.3)."
+      !session.simulated() ? "Vertices closer than this are in contact (§2.3)."
       : uses_surface_contact(session)
           ? "Vertices closer than this are in contact (§2.3). With surface contact they do not push each other."
           : "Vertices closer than this are in contact and push each other apart (§2.3).",

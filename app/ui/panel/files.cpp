@@ -120,7 +120,7 @@ void draw_save(Widgets& w, Session& session, UiState& ui, bool saved) {
 /// Draws a button that copies a command to the clipboard. `purpose`: what the command does.
 void draw_copy_button(Widgets& w, Session& session, const char* name, const std::string& command, const char* purpose,
                       float width) {
-  constexpr std::size_t max_shown = 600;  // a recording has a name for each frame
+  constexpr std::size_t max_shown = 600;  // each frame that is played has a name
   const std::string shown = command.size() > max_shown ? command.substr(0, max_shown) + " ..." : command;
   if (!w.button(name, shown.c_str(), width)) return;
   ImGui::SetClipboardText(command.c_str());
@@ -128,22 +128,26 @@ void draw_copy_button(Widgets& w, Session& session, const char* name, const std:
 }
 
 void draw_command(Widgets& w, Session& session, const softbody::Scene& used, bool saved) {
-  const session::SceneFile& file = session.simulation.loaded.file;
-  const int frame = session.world().frame();
-  // A body added since the last step shows here at once; `simulate` shows it only after the next step.
-  const bool just_added = std::ranges::any_of(session.world().added(),
-                                              [&](const auto& one) { return frame > 0 && one.source.appear == frame; });
   w.row_label("Command", w.px(narrow_column));
   ImGui::BeginDisabled(!saved);
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-  std::string demo = session::demo_command(file.name(), used, session.world().integrator_choice());
-  std::string simulate =
-      session::simulate_command(file.name(), used, session.world().integrator_choice(), frame + (just_added ? 1 : 0));
-  if (!saved) demo = simulate = "The scene was changed: save it, so that a command can name it.";
-  draw_copy_button(w, session, "Copy", demo, "opens this scene", width);
-  if (!used.recording) {
+  const auto draw_copy = [&](const char* name, const std::string& command, const char* purpose) {
+    constexpr const char* unsaved = "The scene was changed: save it, so that a command can name it.";
+    draw_copy_button(w, session, name, saved ? command : unsaved, purpose, width);
+  };
+  if (const session::Player* player = session.simulation.player()) {
+    draw_copy("Copy", session::play_command(*player->recording(), used), "opens this scene");
+  } else {
+    const softbody::World& world = *session.simulated();
+    const std::string& name = session.simulation.loaded.file.name();
+    // A body added since the last step shows here at once; `simulate` shows it only after the next step.
+    const bool just_added = std::ranges::any_of(
+        world.added(), [&](const auto& one) { return world.frame() > 0 && one.source.appear == world.frame(); });
+    draw_copy("Copy", session::demo_command(name, used, world.integrator_choice()), "opens this scene");
     ImGui::SameLine();
-    draw_copy_button(w, session, "Copy simulate", simulate, "makes this picture", width);
+    draw_copy("Copy simulate",
+              session::simulate_command(name, used, world.integrator_choice(), world.frame() + (just_added ? 1 : 0)),
+              "makes this picture");
   }
   ImGui::EndDisabled();
 }
@@ -210,7 +214,7 @@ void draw_message(Widgets& w, const session::Exporter& exporter) {
 }  // namespace
 
 void draw_files(Widgets& w, Session& session, UiState& ui) {
-  const bool has_solver = session.why_no_solver().empty();
+  const bool has_solver = session.simulated();
   draw_open(w, session, ui.import);
   if (has_solver) draw_mesh_settings(w, ui.import);
   softbody::Scene used = session.scenes.with_added_bodies();

@@ -49,7 +49,7 @@ void draw_curves(Widgets& w, const Session& session, const UiState& ui) {
           {"Time to find the contacts of the latest frame: measured once, as the program runs, with kept contacts and "
            "cold caches. The comparison repeats searches from scratch on one core, which takes less or more.",
            "ms"});
-  if (session.why_no_solver().empty())
+  if (session.simulated())
     w.curve("Solve", fmt::format("{:.2f} ms", report.solve_ms), history.solve_ms, {0, ms}, solve_colour,
             {"Time to move the bodies by a frame.", "ms"});
   draw_picture_rate(w, session, ui);
@@ -72,8 +72,8 @@ void draw_contacts(Widgets& w, const Session& session) {
   w.figure("  between bodies", grouped(found.contacts.size() - found.self_contacts),
            "Contacts between vertices of two bodies (§2.3).");
   w.figure("  inside one body", grouped(found.self_contacts), "Contacts between vertices of one body (§2.4).");
-  if (session.why_no_solver().empty())
-    w.figure("Contacts with solids", grouped(softbody::solid_contacts(session.world()).size()),
+  if (const softbody::World* world = session.simulated())
+    w.figure("Contacts with solids", grouped(softbody::solid_contacts(*world).size()),
              "Vertices that touch a solid or the ground. The method does not search for these.");
 }
 

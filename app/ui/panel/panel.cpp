@@ -72,7 +72,7 @@ void draw_time_controls(Widgets& w, Session& session) {
 }
 
 void draw_overlays(Widgets& w, Session& session, UiState& ui) {
-  const bool has_solver = session.why_no_solver().empty();
+  const bool has_solver = session.simulated();
   const auto next_cell = [&](std::size_t i) {
     if (i % 2) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.54f);
   };
@@ -103,7 +103,7 @@ void draw_overlays(Widgets& w, Session& session, UiState& ui) {
 }
 
 void draw_plan(Widgets& w, Session& session, UiState&) {
-  const softbody::World& world = session.world();
+  const softbody::World& world = *session.simulated();
   const std::vector<softbody::Stage> as_forces = world.plan().unprojected(world.integrator_choice().integrator());
   for (const softbody::Stage stage : world.plan().stages) {
     const std::string key(softbody::stage_key(stage));
@@ -131,22 +131,21 @@ constexpr std::array<Section, 8> sections{{
     {"Stability", false, true, draw_stability},
     {"Files", false, false, draw_files},
     {"Export", false, false, draw_take_away},
-    {"Stages of a step", false, false, draw_plan},
+    {"Stages of a step", false, true, draw_plan},
 }};
 
 /// Draws the sections of the panel. Without a solver it leaves out those that need one, and says so.
 void draw_sections(Widgets& w, Session& session, UiState& ui) {
-  const std::string why = session.why_no_solver();
   std::string left_out;
   for (const Section& section : sections) {
-    if (section.needs_solver && !why.empty())
+    if (section.needs_solver && !session.simulated())
       left_out.append(left_out.empty() ? "" : ", ").append(section.label);
     else if (w.section(section.label, section.open_at_first))
       section.draw(w, session, ui);
   }
   if (left_out.empty()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextWrapped("without %s: %s", left_out.c_str(), why.c_str());
+  ImGui::TextWrapped("without %s: %s", left_out.c_str(), no_solver_text);
   ImGui::PopStyleColor();
   w.register_item("Left out", "What needs a solver is left out, and so are the keys for it. Open a scene to have it.");
 }

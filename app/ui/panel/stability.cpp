@@ -14,7 +14,7 @@
 namespace app::ui {
 namespace {
 
-std::string step_text(const session::StepMargin& margin, const softbody::World& world) {
+std::string step_text(const session::StepMargin& margin, const softbody::BodiesInMotion& world) {
   if (margin.taken == 0) return world.all_at_rest() ? "nothing moves" : "not measured yet";
   if (margin.share < 1) return fmt::format("{:.2g} % of each frame in {} substeps", 100 * margin.share, margin.taken);
   if (margin.kind == session::StepMargin::Bound::unconditional)
@@ -24,7 +24,7 @@ std::string step_text(const session::StepMargin& margin, const softbody::World& 
 
 /// Draws the choice of integrator and substeps, and the integrator in use if it is chosen automatically.
 void draw_integrator(Widgets& w, Session& session) {
-  const softbody::World& world = session.world();
+  const softbody::World& world = *session.simulated();
   const softbody::StepReport& last = world.last_step();
   softbody::IntegratorChoice choice = world.integrator_choice();
   const int needed = std::max(session.simulation.stability().margin().needed, last.substeps);

@@ -12,6 +12,8 @@
 
 namespace app::ui {
 
+inline constexpr const char* no_solver_text = "the motion is recorded";
+
 /// What stands below the scene.
 enum class LowerView { none, comparison, sweep };
 
@@ -44,7 +46,7 @@ struct UiState {
   render::Overlays drawn_overlays(const Session& session) const {
     render::Overlays drawn = overlays;
     for (const render::OverlayRow& row : render::overlay_table)
-      if (row.needs_solver && !session.why_no_solver().empty()) drawn.*row.shown = false;
+      if (row.needs_solver && !session.simulated()) drawn.*row.shown = false;
     return drawn;
   }
   /// True if the scene marks what the paper's method misses.

@@ -4,7 +4,7 @@
 
 namespace app::ui {
 
-BodySubset::BodySubset(const softbody::World& world, softbody::BodyId a, softbody::BodyId b) {
+BodySubset::BodySubset(const softbody::BodiesInMotion& world, softbody::BodyId a, softbody::BodyId b) {
   assert(a <= b);
   const collide::Frame all = world.positions();
   const auto copy = [&](std::span<const float> from, std::vector<float>& to, softbody::BodyId body) {

@@ -2,14 +2,14 @@
 // One or two bodies of a world as a frame of their own, for detectors.
 
 #include "app/compare/positions.h"
-#include "softbody/world/world.h"
+#include "softbody/world/bodies_in_motion.h"
 
 namespace app::ui {
 
 class BodySubset {
  public:
   /// Copies the bodies `a` and `b`, a <= b; if they are equal, the one body.
-  BodySubset(const softbody::World& world, softbody::BodyId a, softbody::BodyId b);
+  BodySubset(const softbody::BodiesInMotion& world, softbody::BodyId a, softbody::BodyId b);
 
   collide::Frame frame() const { return {at_.x, at_.y, at_.z, &bodies_}; }
   /// Returns the contact with the world's indices of its vertices.

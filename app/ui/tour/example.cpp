@@ -26,7 +26,7 @@ using softbody::BodyId;
 
 constexpr std::uint64_t max_pair_tests = 300'000'000;  // of the paper's method: more would keep the window waiting
 
-float distance_of(const softbody::World& world, const Contact& contact) {
+float distance_of(const softbody::BodiesInMotion& world, const Contact& contact) {
   const collide::Frame frame = world.positions();
   return glm::distance(position(frame, contact.a), position(frame, contact.b));
 }
@@ -36,13 +36,13 @@ struct Pair {
   auto operator<=>(const Pair&) const = default;
 };
 
-Pair pair_of(const softbody::World& world, const Contact& contact) {
+Pair pair_of(const softbody::BodiesInMotion& world, const Contact& contact) {
   const auto [a, b] = std::minmax({world.bodies().body_of(contact.a), world.bodies().body_of(contact.b)});
   return {a, b};
 }
 
 /// True if a solid stands between the eye and the middle of a pair's boxes.
-bool is_occluded(const softbody::World& world, const collide::BodyBoxes& boxes, const Pair& pair,
+bool is_occluded(const softbody::BodiesInMotion& world, const collide::BodyBoxes& boxes, const Pair& pair,
                  const glm::dvec3& eye) {
   constexpr int samples = 64;
   const collide::Aabb &a = boxes.box[pair.a], &b = boxes.box[pair.b];
@@ -54,7 +54,7 @@ bool is_occluded(const softbody::World& world, const collide::BodyBoxes& boxes, 
 
 /// Returns the best example of a pair in contact. In this order it prefers a pair with the preferred body, in sight, of
 /// two bodies, with both found and missed contacts, with missed contacts, with more contacts.
-std::optional<Pair> best_pair(const softbody::World& world, const collide::BodyBoxes& boxes,
+std::optional<Pair> best_pair(const softbody::BodiesInMotion& world, const collide::BodyBoxes& boxes,
                               const std::vector<Contact>& contacts, const std::vector<Contact>& missed,
                               std::optional<BodyId> preferred, std::optional<glm::dvec3> eye) {
   std::map<Pair, std::pair<std::size_t, std::size_t>> counts;  // missed, all
@@ -102,22 +102,23 @@ collide::Result detect(collide::Detector& detector, const collide::Frame& frame,
   return result;
 }
 
-std::vector<Contact> of_pair(const softbody::World& world, const std::vector<Contact>& contacts, const Pair& pair) {
+std::vector<Contact> of_pair(const softbody::BodiesInMotion& world, const std::vector<Contact>& contacts,
+                             const Pair& pair) {
   std::vector<Contact> of_pair;
   std::ranges::copy_if(contacts, std::back_inserter(of_pair),
                        [&](const Contact& contact) { return pair_of(world, contact) == pair; });
   return of_pair;
 }
 
-std::optional<Contact> closest_of(const softbody::World& world, const std::vector<Contact>& contacts) {
+std::optional<Contact> closest_of(const softbody::BodiesInMotion& world, const std::vector<Contact>& contacts) {
   const auto closest =
       std::ranges::min_element(contacts, {}, [&](const Contact& contact) { return distance_of(world, contact); });
   return closest == contacts.end() ? std::nullopt : std::optional(*closest);
 }
 
 /// Returns the closest vertices of two different bodies, by doubling the tolerance until there are contacts.
-std::optional<Contact> closest_between(const softbody::World& world, const Pair& pair, collide::Detector& exact,
-                                       collide::Workers& workers) {
+std::optional<Contact> closest_between(const softbody::BodiesInMotion& world, const Pair& pair,
+                                       collide::Detector& exact, collide::Workers& workers) {
   const BodySubset subset(world, pair.a, pair.b);
   collide::Settings settings = world.collision();
   settings.self_collision = false;
@@ -188,7 +189,7 @@ std::optional<HashedCorner> find_aliased_corner(const TourExample& example, cons
 }
 
 /// Fills in the body's boxes and the corners of the box that is nearest to the other body.
-void add_boxes(const softbody::World& world, TourExample& example) {
+void add_boxes(const softbody::BodiesInMotion& world, TourExample& example) {
   const collide::Settings& settings = world.collision();
   const collide::methods::CellHash hash(settings);
   example.boxes = boxes_of(example.structure, example.body);
@@ -200,7 +201,7 @@ void add_boxes(const softbody::World& world, TourExample& example) {
     example.aliased_corner = find_aliased_corner(example, settings);
 }
 
-std::uint64_t estimate_pair_tests(const softbody::World& world) {
+std::uint64_t estimate_pair_tests(const softbody::BodiesInMotion& world) {
   compare::CostModel cost_model;
   cost_model.begin(world.positions(), world.collision(), 0);
   return cost_model.of(compare::method_index(collide::paper_method)).pair_tests;
@@ -212,20 +213,20 @@ ExampleFinder::ExampleFinder()
     : exact_(collide::find_method(collide::default_method)->make()),
       paper_(collide::find_method(collide::paper_method)->make()) {}
 
-std::vector<Contact> ExampleFinder::true_contacts(const softbody::World& world) {
+std::vector<Contact> ExampleFinder::true_contacts(const softbody::BodiesInMotion& world) {
   return detect(*exact_, world.positions(), world.collision(), one_worker_).contacts;
 }
 
-bool ExampleFinder::has_contact(const softbody::World& world) { return !true_contacts(world).empty(); }
+bool ExampleFinder::has_contact(const softbody::BodiesInMotion& world) { return !true_contacts(world).empty(); }
 
-bool ExampleFinder::has_miss(const softbody::World& world) {
+bool ExampleFinder::has_miss(const softbody::BodiesInMotion& world) {
   const std::vector<Contact> contacts = true_contacts(world);
   const collide::Frame frame = world.positions();
   return !contacts.empty() &&
          !missed_contacts(paper_structure_(frame, world.collision(), one_worker_), frame, contacts).empty();
 }
 
-std::optional<TourExample> ExampleFinder::find(const softbody::World& world, std::optional<BodyId> preferred,
+std::optional<TourExample> ExampleFinder::find(const softbody::BodiesInMotion& world, std::optional<BodyId> preferred,
                                                std::optional<glm::dvec3> eye) {
   const collide::Frame frame = world.positions();
   const collide::Settings& settings = world.collision();
@@ -263,7 +264,7 @@ std::optional<TourExample> ExampleFinder::find(const softbody::World& world, std
   return example;
 }
 
-FrameWork ExampleFinder::count_work(const softbody::World& world, std::size_t boxes) {
+FrameWork ExampleFinder::count_work(const softbody::BodiesInMotion& world, std::size_t boxes) {
   const std::uint64_t estimate = estimate_pair_tests(world);
   FrameWork work{.bodies = world.bodies().count(),
                  .vertices = world.bodies().vertex_count(),

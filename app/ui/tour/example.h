@@ -8,7 +8,7 @@
 #include "app/ui/tour/miss.h"
 #include "app/ui/tour/paper_boxes.h"
 #include "collide/core/aabb.h"
-#include "softbody/world/world.h"
+#include "softbody/world/bodies_in_motion.h"
 
 namespace app::ui {
 
@@ -53,14 +53,14 @@ class ExampleFinder {
   ExampleFinder();
   /// Returns nothing if no body of the world is finite. Prefers a pair with the body `preferred`, and one that is
   /// visible from `eye`.
-  std::optional<TourExample> find(const softbody::World& world, std::optional<softbody::BodyId> preferred,
+  std::optional<TourExample> find(const softbody::BodiesInMotion& world, std::optional<softbody::BodyId> preferred,
                                   std::optional<glm::dvec3> eye = std::nullopt);
-  bool has_contact(const softbody::World& world);
-  bool has_miss(const softbody::World& world);
+  bool has_contact(const softbody::BodiesInMotion& world);
+  bool has_miss(const softbody::BodiesInMotion& world);
 
  private:
-  std::vector<collide::Contact> true_contacts(const softbody::World& world);
-  FrameWork count_work(const softbody::World& world, std::size_t boxes);
+  std::vector<collide::Contact> true_contacts(const softbody::BodiesInMotion& world);
+  FrameWork count_work(const softbody::BodiesInMotion& world, std::size_t boxes);
 
   std::unique_ptr<collide::Detector> exact_, paper_;
   collide::methods::PaperStructure paper_structure_ = collide::methods::make_paper_structure();

@@ -22,7 +22,7 @@ std::string with_sign(std::int64_t n) {
   return fmt::format("{}{}", n < 0 ? "-" : "", grouped(static_cast<std::uint64_t>(std::abs(n))));
 }
 
-TourFigure body_figure(const char* label, const softbody::World& world, softbody::BodyId body) {
+TourFigure body_figure(const char* label, const softbody::BodiesInMotion& world, softbody::BodyId body) {
   return {label, std::to_string(body), "Bodies count from 0. A selected body is taken if it touches another.",
           render::body_colour(world.body(body).number)};
 }

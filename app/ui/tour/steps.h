@@ -10,7 +10,7 @@ namespace app::ui {
 
 /// What the texts, figures and highlights of a step are made from.
 struct TourContext {
-  const softbody::World& world;
+  const softbody::BodiesInMotion& world;
   const TourExample& f;
   std::optional<std::size_t> chosen;  // by the user, of f.corners
 
@@ -39,7 +39,7 @@ struct TourGoal {
   std::string_view lacking;  // a sentence: the frame does not have it
   std::string_view running;  // the beginning of a sentence that ends with the number of the frame
   std::string_view button;
-  bool (ExampleFinder::*frame_has)(const softbody::World& world);
+  bool (ExampleFinder::*frame_has)(const softbody::BodiesInMotion& world);
   bool (*example_has)(const TourExample& example);
 };
 

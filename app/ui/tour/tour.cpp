@@ -69,7 +69,7 @@ void Tour::run_ahead(Session& session) {
   example_revision_ = 0;
   framing_requested_ = overview_requested_ = true;
   session.run_ahead.start([finder = finder_, frame_has = goal_->frame_has](
-                              const softbody::World& world) { return (finder.get()->*frame_has)(world); },
+                              const softbody::BodiesInMotion& world) { return (finder.get()->*frame_has)(world); },
                           max_seconds_ahead);
 }
 

@@ -113,7 +113,7 @@ struct Row {
   bool begins_group;                    // of the methods
   bool drives, is_reference;
 
-  std::string label(const char* what) const { return std::string("###") + what + " " + std::string(method.name); }
+  std::string label(const char* what) const { return std::string("###") + what + " " + method.name; }
   bool scored() const { return measured && measured->scored; }
 };
 
@@ -132,8 +132,8 @@ bool draw_name(Widgets& w, const Grid& grid, const Row& row) {
   draw_method_mark(w, row.method, grid.height());
   const float left = ImGui::GetItemRectMax().x + w.px(6);
   ImGui::SetCursorScreenPos({left, grid.text_top()});
-  const std::string text = std::string(row.method.name) + row.label("Drive"),
-                    tooltip = std::string(row.method.summary) + " Click to let it drive the bodies.";
+  const std::string text = row.method.name + row.label("Drive"),
+                    tooltip = row.method.summary + " Click to let it drive the bodies.";
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(row.scored() ? ImGuiCol_Text : ImGuiCol_TextDisabled));
   const bool clicked = ImGui::Selectable(text.c_str(), false, 0, {grid.right(name) - left, 0});
   ImGui::PopStyleColor();
@@ -156,7 +156,7 @@ void draw_time(const Widgets& w, const Session& session, const Grid& grid, const
   const float inset = w.px(2);
   ImGui::GetWindowDrawList()->AddRectFilled({grid.left(time), grid.top() + inset},
                                             {grid.left(time) + length, grid.top() + grid.height() - inset},
-                                            to_imgui(row.method.colour, 0.45f), w.px(2));
+                                            to_imgui(compare::style(row.method).colour, 0.45f), w.px(2));
   grid.text(time, fmt::format("{:.2f} ms", median));
 }
 
@@ -211,7 +211,7 @@ void draw_row(Widgets& w, Session& session, bool& show_misses, Grid& grid, const
   const TimeSeries& times = session.comparison.method_ms()[row.index];
   if (times.size() > 0) {
     ImGui::SetCursorScreenPos({grid.left(plot), grid.text_top()});
-    w.sparkline(row.label("Times of").c_str(), times, {0, scale.axis_end}, row.method.colour,
+    w.sparkline(row.label("Times of").c_str(), times, {0, scale.axis_end}, compare::style(row.method).colour,
                 {"Time of the method on a frame.", "ms"}, grid.right(plot) - grid.left(plot));
   }
   draw_misses_switch(w, session, show_misses, grid, row);
@@ -277,8 +277,8 @@ void draw_compare(Widgets& w, Session& session, bool& show_misses, bool& open, c
     if (!shown[i]) continue;
     const collide::Method& method = collide::method_table()[i];
     draw_row(w, session, show_misses, grid,
-             {i, method, report.rows.empty() ? nullptr : &report.rows[i], group && group != method.group, i == driver,
-              report.reference == i},
+             {i, method, i < report.rows.size() ? &report.rows[i] : nullptr, group && group != method.group,
+              i == driver, report.reference == i},
              scale);
     group = method.group;
   }

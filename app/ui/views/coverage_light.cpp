@@ -14,7 +14,7 @@ namespace {
 std::string metres(const glm::vec3& size) { return fmt::format("{:.3f} x {:.3f} x {:.3f} m", size.x, size.y, size.z); }
 
 /// Returns what the method finds on this frame, in one short line.
-std::string promise(const softbody::World& world) {
+std::string promise(const softbody::BodiesInMotion& world) {
   switch (world.detection().coverage) {
     case collide::Coverage::exact:
       return fmt::format("Exact: finds all vertex pairs closer than {:.3g} m", world.collision().tolerance);
@@ -46,7 +46,7 @@ SurfaceRemark surface_remark(const Session& session) {
     if (inside == 1) return {"But 1 vertex is inside another body", true};
     return {fmt::format("But {} vertices are inside other bodies", grouped(inside)), true};
   }
-  const double safe = softbody::safe_vertex_tolerance(session.world());
+  const double safe = session.simulated() ? softbody::safe_vertex_tolerance(*session.simulated()) : 0;
   if (double{session.world().collision().tolerance} >= safe) return {};
   return {fmt::format("Tolerance below {:.2g} m: vertices can slip through faces", safe)};
 }

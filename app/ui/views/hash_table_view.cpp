@@ -115,7 +115,7 @@ void HashTableView::draw(Widgets& w, Session& session, bool& open) {
   if (session.inspector.shown_geometry().buckets == 0) {
     ImGui::Dummy({width, 0.4f * height});
     ImGui::TextWrapped("The scene is too large to show the table of %s while it moves. Pause to see it.",
-                       std::string(session.inspector.shown_method().name).c_str());
+                       session.inspector.shown_method().name.c_str());
     ImGui::Dummy({width, 0.4f * height});
   } else {
     refresh(session, width, height, std::floor(w.px(min_square)));

@@ -41,8 +41,8 @@ bool draw_method_line(Widgets& w, Session& session, const collide::Method& metho
   draw_method_mark(w, method, ImGui::GetFrameHeight());
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  const std::string label(method.name), tooltip(method.description);
-  const bool clicked = w.combo_item(label.c_str(), method.key == session.world().method().key, tooltip.c_str());
+  const bool clicked =
+      w.combo_item(method.name.c_str(), method.key == session.world().method().key, method.description.c_str());
   const StatusLight light = status_light(method);
   ImGui::SameLine(w.px(promise_column));
   w.dot(light.colour);

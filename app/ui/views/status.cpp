@@ -59,14 +59,14 @@ StatusLight status_light(collide::Coverage coverage) {
 std::string shown_method_text(const Session& session) {
   const collide::Method& shown = session.inspector.shown_method();
   const bool drives = shown.key == session.world().method().key;
-  return std::string(shown.name) + (drives ? ", driving" : ", for comparison");
+  return shown.name + (drives ? ", driving" : ", for comparison");
 }
 
 double rounded_down(double share) { return std::floor(share * 1e4) / 1e4; }
 
 std::string reference_sentence(const compare::CompareReport& report) {
   if (!report.reference) return report.reference_note.empty() ? "Measuring" : "Not measured: " + report.reference_note;
-  const std::string name(collide::method_table()[*report.reference].name);
+  const std::string& name = collide::method_table()[*report.reference].name;
   std::string text = "Measured against " + name;
   return report.reference_note.empty() ? text : text + ": " + report.reference_note;
 }
@@ -86,7 +86,7 @@ float draw_status(Widgets& w, Session& session, FloatingBox& box, const ScreenRe
       "Live recall",
       ("Contacts of a recent frame that the driving method missed. Recall is the share that it found. " + against + ".")
           .c_str());
-  if (session.why_no_solver().empty()) draw_step_light(w, session);
+  if (session.simulated()) draw_step_light(w, session);
   ImGui::PopTextWrapPos();
   const ScreenRect covered = box.end();
   return box.in_its_place() ? covered.max.y : area.min.y;
@@ -122,7 +122,7 @@ std::string ghost_distance_text(const Session& session) {
 namespace {
 
 void draw_ghost_legend(Widgets& w, const Session& session) {
-  ImGui::Text("Opaque: %s", integrator_text(session.world()).c_str());
+  ImGui::Text("Opaque: %s", integrator_text(*session.simulated()).c_str());
   w.register_item("Legend", nullptr);
   w.swatch(render::ghost_colour, ImGui::GetTextLineHeight());
   ImGui::SameLine();
@@ -195,7 +195,7 @@ void draw_legend(Widgets& w, const Session& session, const render::Overlays& sho
     draw_legend_line(w, render::contact_missed_colour,
                      std::string(session.comparison.missed() && session.comparison.missed()->empty() ? "none missed by "
                                                                                                      : "missed by ") +
-                         std::string(collide::method_table()[session.comparison.choice.misses_of].name));
+                         collide::method_table()[session.comparison.choice.misses_of].name);
   if (shown.areas) draw_legend_line(w, render::area_colour, "area that the exact method searches");
   if (shown.springs) {
     ImGui::TextUnformatted("Strain of the springs");
@@ -246,7 +246,7 @@ float draw_caption(Widgets& w, const Session& session, const ScreenRect& area, d
     hint = std::min(hint, draw_scene_text(w, session.simulation.caption().c_str(), bottom, area, 1.0f) - w.px(10));
   const float alpha = static_cast<float>(std::clamp((hint_seconds - seconds) / fade_seconds, 0.0, 1.0));
   if (alpha <= 0) return hint;
-  const char* text = session.why_no_solver().empty()
+  const char* text = session.simulated()
                          ? "Drag a body to pull it. Drag the background to orbit. B throws a body. "
                            "G:\u00a0tour. F1:\u00a0help."
                          : "Drag to orbit. Click a body to select it. V:\u00a0compare the methods. G:\u00a0tour. "

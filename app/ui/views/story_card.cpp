@@ -32,7 +32,7 @@ void draw_method(Widgets& w, const session::LiveComparison& comparison, std::siz
   const compare::CompareRow* row = comparison.scored_row(method);
   draw_method_mark(w, its, ImGui::GetTextLineHeight());
   ImGui::SameLine();
-  const std::string text = verdict(comparison, method), name(its.name);
+  const std::string text = verdict(comparison, method), name = its.name;
   const bool narrow =
       ImGui::CalcTextSize((name + remark + text).c_str()).x > ImGui::GetContentRegionAvail().x - w.px(12);
   ImGui::Text("%s%s", name.c_str(), narrow ? "" : remark);
@@ -41,7 +41,7 @@ void draw_method(Widgets& w, const session::LiveComparison& comparison, std::siz
   if (misses) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::contact_missed_colour));
   w.right_text(text);
   if (misses) ImGui::PopStyleColor();
-  w.register_item(fmt::format("Story of {}", its.name).c_str(), std::string(its.summary).c_str());
+  w.register_item(fmt::format("Story of {}", its.name).c_str(), its.summary.c_str());
 }
 
 const char* reason(collide::Coverage coverage) {

@@ -33,7 +33,7 @@ void draw_state(Widgets& w, const Session& session) {
 }
 
 /// Draws how far what is seen is from what is checked.
-void draw_distance(Widgets& w, const softbody::World& world) {
+void draw_distance(Widgets& w, const softbody::BodiesInMotion& world) {
   double distance = 0;
   for (softbody::BodyId id = 0; id < world.bodies().count(); ++id)
     if (const auto& fine = world.model(id).fine)

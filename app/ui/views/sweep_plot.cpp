@@ -64,8 +64,8 @@ void SweepPlot::draw(const Widgets& w, ImVec2 min, ImVec2 max, const Emphasis& e
   draw_axes(w);
   for (const Point& point : points_) {
     const bool pale = emphasis.method && *emphasis.method != point.method;
-    const collide::Method& method = collide::method_table()[point.method];
-    draw_marker(point.at, w.px(mark_radius(point.level)), method.marker, to_imgui(method.colour, pale ? 0.12f : 0.85f),
+    const compare::MethodStyle style = compare::style(collide::method_table()[point.method]);
+    draw_marker(point.at, w.px(mark_radius(point.level)), style.marker, to_imgui(style.colour, pale ? 0.12f : 0.85f),
                 w.px(mark_line));
   }
   draw_front(w);

@@ -18,7 +18,7 @@ bool was_run(const compare::SweepRow& row) { return row.not_run.empty(); }
 /// Returns "Multi-Level SB, level 3, 1,001 buckets, cells x 0.5", with only the settings that the method uses.
 std::string configuration_text(const compare::Configuration& c) {
   const collide::Method& method = collide::method_table()[c.method];
-  std::string text(method.name);
+  std::string text = method.name;
   if (method.uses_levels) text += fmt::format(", level {}", c.settings.levels);
   if (method.uses_hash) text += fmt::format(", {} buckets, cells x {:g}", grouped(c.settings.buckets), c.cell);
   return text;
@@ -56,7 +56,7 @@ std::string not_run_text(const compare::SweepReport& report) {
   return text.empty() ? "All settings fit the budget." : text;
 }
 
-bool in_use(const compare::SweepRow& row, const softbody::World& world) {
+bool in_use(const compare::SweepRow& row, const softbody::BodiesInMotion& world) {
   const collide::Method& method = collide::method_table()[row.configuration.method];
   const collide::Settings &its = row.configuration.settings, &now = world.collision();
   if (method.key != world.method().key || (method.uses_levels && its.levels != now.levels)) return false;
@@ -182,11 +182,12 @@ void SweepView::draw_legend(Widgets& w, const compare::MethodSet& shown) {
   for (std::size_t m = 0; m < shown.size(); ++m) {
     if (!shown[m]) continue;
     const collide::Method& method = collide::method_table()[m];
-    draw_legend_entry(w, std::string(method.name), "Highlights the points of this method.",
+    const compare::MethodStyle style = compare::style(method);
+    draw_legend_entry(w, method.name, "Highlights the points of this method.",
                       !group                  ? new_line
                       : group == method.group ? gap
                                               : group_gap,
-                      [&](ImVec2 at) { draw_marker(at, w.px(5), method.marker, to_imgui(method.colour), w.px(1.8f)); });
+                      [&](ImVec2 at) { draw_marker(at, w.px(5), style.marker, to_imgui(style.colour), w.px(1.8f)); });
     if (ImGui::IsItemHovered()) hovered_method_ = m;
     group = method.group;
     levels |= method.uses_levels;
@@ -194,7 +195,7 @@ void SweepView::draw_legend(Widgets& w, const compare::MethodSet& shown) {
   for (std::size_t level = 0; levels && level < compare::sweep_levels.size(); ++level) {
     draw_legend_entry(w, fmt::format("level {}", compare::sweep_levels[level]),
                       "Points of this subdivision level (§2.1).", level == 0 ? new_line : gap, [&](ImVec2 at) {
-                        draw_marker(at, w.px(SweepPlot::mark_radius(level)), collide::Marker::disc,
+                        draw_marker(at, w.px(SweepPlot::mark_radius(level)), compare::Marker::disc,
                                     ImGui::GetColorU32(ImGuiCol_TextDisabled), w.px(1));
                       });
   }

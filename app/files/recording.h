@@ -1,17 +1,19 @@
 #pragma once
-// Bodies whose motion is recorded, frame by frame. A world of a scene with a recording plays it and simulates nothing.
+// Bodies whose motion is recorded, frame by frame.
 
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
 #include "softbody/model/body_model.h"
+#include "softbody/scene/scene.h"
 
-namespace softbody {
+namespace app::files {
 
 /// A frame of a recording: the first bodies of the recording, and where their vertices are.
 struct RecordedFrame {
@@ -30,14 +32,22 @@ class Recording {
   /// other frames can be read nevertheless.
   virtual std::shared_ptr<const RecordedFrame> frame(int number) = 0;
   /// Returns the model of a body, which is the same in all frames. Precondition: a frame with this body was read.
-  virtual const std::shared_ptr<const BodyModel>& model(std::uint32_t body) const = 0;
+  virtual const std::shared_ptr<const softbody::BodyModel>& model(std::uint32_t body) const = 0;
   /// Frees the memory of frames that can be read again.
   virtual void release() {}
   /// Returns the words by which a command line names the recording.
   virtual std::vector<std::string> command_words() const = 0;
 };
 
+/// What is opened: a scene to simulate, or a recording to play.
+struct Opened {
+  Opened(softbody::Scene s, std::shared_ptr<Recording> r = nullptr) : scene(std::move(s)), recording(std::move(r)) {}
+
+  softbody::Scene scene;                 // with a recording: its names, its view and how its contacts are found
+  std::shared_ptr<Recording> recording;  // nullptr: the scene is simulated
+};
+
 /// Returns the default cell size (§2.2) for the shapes that the bodies have in the first frame.
 glm::vec3 default_cell_size(Recording& recording, int levels, float tolerance);
 
-}  // namespace softbody
+}  // namespace app::files

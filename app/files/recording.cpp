@@ -1,8 +1,8 @@
-#include "softbody/scene/recording.h"
+#include "app/files/recording.h"
 
 #include "collide/methods.h"
 
-namespace softbody {
+namespace app::files {
 
 glm::vec3 default_cell_size(Recording& recording, int levels, float tolerance) {
   const std::shared_ptr<const RecordedFrame> first = recording.frame(0);
@@ -11,4 +11,4 @@ glm::vec3 default_cell_size(Recording& recording, int levels, float tolerance) {
   return collide::default_cell_size({first->x, first->y, first->z, &bodies}, levels, tolerance);
 }
 
-}  // namespace softbody
+}  // namespace app::files

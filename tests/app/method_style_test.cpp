@@ -1,0 +1,58 @@
+// How methods are drawn: the built-in ones, and any that join the table.
+
+#include "app/compare/method_style.h"
+
+#include <algorithm>
+#include <set>
+
+#include "app/compare/method_style.h"
+#include "tests/own_process.h"
+
+namespace app {
+namespace {
+
+using Colour = std::array<float, 3>;
+
+Colour colour_of(const collide::Method& method) {
+  const glm::vec3 c = compare::style(method).colour;
+  return {c.x, c.y, c.z};
+}
+
+TEST(MethodStyle, TellsTheMethodsApart) {
+  std::set<Colour> colours;
+  std::set<compare::Marker> markers;
+  for (const collide::Method& method : collide::method_table()) {
+    colours.insert(colour_of(method));
+    markers.insert(compare::style(method).marker);
+  }
+  EXPECT_EQ(colours.size(), collide::method_table().size());
+  EXPECT_EQ(markers.size(), collide::method_table().size());
+}
+
+TEST(MethodStyle, ShowsFewMethodsAtFirst) {
+  const auto shown = std::ranges::count(compare::usual_methods(), true);
+  EXPECT_TRUE(shown >= 3 && shown <= 6) << shown;
+  for (const std::string_view key : {collide::default_method, collide::paper_method})
+    EXPECT_TRUE(compare::style(*collide::find_method(key)).shown) << key;
+}
+
+void expect_styles_of_further_methods() {
+  std::set<compare::Marker> built_in;
+  for (const collide::Method& method : collide::method_table()) built_in.insert(compare::style(method).marker);
+  std::set<std::pair<compare::Marker, Colour>> further;
+  for (int number = 0; number < 15; ++number) {
+    collide::Method row = *collide::find_method(collide::reference_method);
+    row.key += std::to_string(number);
+    collide::add_method(row);
+    const collide::Method& method = *collide::find_method(row.key);
+    EXPECT_TRUE(compare::style(method).shown);
+    EXPECT_FALSE(built_in.contains(compare::style(method).marker));
+    further.insert({compare::style(method).marker, colour_of(method)});
+  }
+  EXPECT_EQ(further.size(), 15u);
+}
+
+TEST(MethodStyle, HasARuleForFurtherMethods) { tests::in_a_process_of_its_own(expect_styles_of_further_methods); }
+
+}  // namespace
+}  // namespace app
