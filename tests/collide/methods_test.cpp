@@ -50,8 +50,7 @@ void expect_that_the_table_grows() {
     EXPECT_EQ(method_table().size(), number + 1);
     EXPECT_EQ(find_method(row.key), first + number) << "no row moves";
   }
-  EXPECT_TRUE(
-      method_keys().ends_with(", octree, further-12, " + method_keys().substr(method_keys().find("further-13"))));
+  EXPECT_TRUE(method_keys().ends_with(", further-" + std::to_string(max_methods - 1)));
   Method row = *first;
   row.key = "one-too-many";
   EXPECT_THROW(add_method(row), std::length_error);
