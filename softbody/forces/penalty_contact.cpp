@@ -21,7 +21,7 @@ glm::vec3 between(const PenaltyPair& p, Field<const float> x) {
 
 template <class Real>
 PenaltyLaw<Real> law_of(const PenaltyContact& c, const PenaltyPair& p) {
-  return {Real(p.stiffness), Real(c.thickness), Real(p.friction), Real(c.damper_limit * p.damped_mass)};
+  return {Real(p.stiffness), Real(c.thickness), Real(p.friction), Real(c.damper_limit * p.damped_mass), Real(p.loss)};
 }
 
 }  // namespace
@@ -59,6 +59,10 @@ void PenaltyContact::find(const DetectedContacts& detected, const State& state, 
   if (detected.contacts.empty()) return pairs.clear();
   const std::vector<collide::Contact> before = std::exchange(pairs.contact, {});
   const VectorArray stretch = std::exchange(pairs.stretch, {});
+  restitution_.resize(state.body_count());
+  for (const Batch& b : state.batches())
+    for (std::size_t l = 0; l < std::size_t(b.used); ++l)
+      restitution_[b.body[l]] = float(b.model->material[contact::restitution]);
   std::vector<Totals> totals(std::size_t(Share::threads(workers)) + 1);
   const auto task = [&](int thread) {
     const Share share{thread, workers, totals};
@@ -96,7 +100,8 @@ void PenaltyContact::take(const Share& share, const DetectedContacts& detected, 
   for (const collide::Contact& c : own) {
     if (!acts(c)) continue;
     pairs.contact[i] = c;
-    pairs.body_a[i] = body(c.a), pairs.body_b[i] = body(c.b);
+    const BodyId a = pairs.body_a[i] = body(c.a), b = pairs.body_b[i] = body(c.b);
+    pairs.loss[i] = a == b ? 1 : 1 - law::common_restitution(restitution_[a], restitution_[b]);
     ++i;
   }
   locate({first, i}, detected.vertices, state);
