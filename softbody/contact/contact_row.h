@@ -23,11 +23,13 @@ struct ContactRow {
   float bias;                // m/s, that it asks for
   float target;              // m/s, least normal speed
   float slack;               // m/s, by which it may be missed
-  float push;                // m/s, at most so fast it pushes apart: an impact gets no more back than it had
+  float push;                // m/s, at most so fast it pushes apart
+  float before;              // m/s, the normal speed before the forces of the substep
+  float restitution;
   float friction;
   float normal_impulse;        // N s, accumulated along the normal
   glm::vec3 friction_impulse;  // N s, accumulated across it
-  float energy;                // J, that the former gives by pushing apart
+  float energy, returned;      // J, that the former gives by pushing apart, and that restitution gives back
   std::uint32_t feature;       // what it is of: a place in the search's features, or in a list of SolidContact
 };
 

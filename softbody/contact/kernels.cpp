@@ -40,22 +40,21 @@ unsigned act_by(const Shape& shape, std::size_t used, const SolidArguments& s, F
     if (!any_above(moves, zero)) continue;
     const Vec<V> place{load<V>(s.place.x + first), load<V>(s.place.y + first), load<V>(s.place.z + first)};
     Vec<V> impulse = load<V>(s.impulse, first);
-    V most{}, energy{}, returned = load<V>(s.returned + first);
+    V most{}, energy{}, returned{};
     for (std::size_t at = first; at < s.particles * width; at += width) {
       const Vec<V> d = load<V>(x, at) - place;
       Vec<V> velocity = load<V>(v, at);
       if (!may_act(s, shape, d, velocity)) continue;
       const SurfaceAt<V> surface = surface_at(shape, d);
       const Vec<V> before = s.restitution > 0 ? load<V>(s.before, at) : Vec<V>{};
-      const V change = respond(s, moves, surface.distance, surface.normal, before, velocity, energy);
+      const V change = respond(s, moves, surface.distance, surface.normal, before, velocity, energy, returned);
       if (!any_above(change, zero)) continue;
       impulse = impulse + (s.mass * change) * surface.normal;
-      returned += s.restitution * s.mass * change;
       most = larger(change, most);
       store(v, at, velocity);
     }
     store(s.impulse, first, impulse);
-    store(s.returned + first, returned);
+    store(s.returned + first, load<V>(s.returned + first) + s.mass * returned);
     store(s.energy + first, load<V>(s.energy + first) + s.mass * energy);
     acted |= lanes_above(most, zero) << first;
   }

@@ -9,13 +9,15 @@ namespace softbody::contact {
 
 inline constexpr auto rebound_speed =
     Key("rebound_speed", "m/s", 0, {0, 1e6},
-        "Largest speed at which solids throw a body back, unless their restitution throws it back faster. 0: no limit.",
+        "Largest speed at which solids throw a body back without restitution, which returns what this takes. 0: no "
+        "limit.",
         {"Rebound", "%.1f m/s", 0, 10}, {.place = 21});
 inline constexpr auto friction = Key("friction", "", 0.5, {0, 10}, "Coefficient of friction against other bodies.",
                                      {"Friction", "%.2f", 0, 2}, {.place = 23});
-inline constexpr auto restitution = Key(
-    "restitution", "", 0, {0, 1}, "How strongly bodies bounce off each other with surface contact. 1: without loss.",
-    {"Restitution", "%.2f", 0, 1}, {.place = 24});
+inline constexpr auto restitution = Key("restitution", "", 0, {0, 1},
+                                        "Bounce off solids and other bodies; the larger one counts. 0: what contact "
+                                        "takes of an impact is lost. 1: nothing is.",
+                                        {"Restitution", "%.2f", 0, 1}, {.place = 24});
 inline constexpr auto rolling_resistance =
     Key("rolling_resistance", "", 0.02, {0, 10},
         "Coefficient of rolling resistance on solids: the torque over the radius times the normal force.",

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "softbody/state/lane_math.h"
 
@@ -23,7 +22,7 @@ namespace law {
 inline constexpr double push_share = 0.1;
 /// ... but no faster than this.
 inline constexpr double max_separation_speed = 1;  // m/s
-/// Slower impacts are not thrown back, so that resting contacts rest.
+/// Of slower impacts nothing is given back, so that resting contacts rest.
 inline constexpr double impact_speed = 0.5;  // m/s
 
 /// Returns the least change of a gap in one step, in a unit of which a metre has `per_metre`: a gap may close but not
@@ -45,12 +44,11 @@ HWY_INLINE V min_speed(V gap, T inverse_h) {
   return min_change(gap, inverse_h, T(max_separation_speed));
 }
 
-/// Returns the speed with which an impact at the speed `approach` is thrown back (Newton), or -infinity if it is not.
+/// Returns what an impulse (N s) that changes a speed from `before`, in a step, to `after` (m/s) takes of the energy,
+/// and gives back when the two sides part.
 template <class V, class T>
-HWY_INLINE V rebound(V approach, T restitution) {
-  const V none(-std::numeric_limits<T>::infinity());
-  if (!(restitution > 0)) return none;
-  return body::select(approach > V(T(impact_speed)), restitution * approach, none);
+HWY_INLINE V returned(V impulse, V before, V after, T restitution) {
+  return -T(0.5) * restitution * restitution * impulse * (before + after);
 }
 
 /// Returns the damper (N s/m) that a contact of this force (N) acts with, after Hunt and Crossley (1975): nothing is
@@ -73,7 +71,7 @@ T common_friction(T a, T b) {
   return std::sqrt(a * b);
 }
 
-/// Returns the restitution between two materials.
+/// Returns the restitution between two materials, or of a material on a solid.
 template <class T>
 T common_restitution(T a, T b) {
   return std::max(a, b);

@@ -6,8 +6,7 @@
 
 namespace softbody {
 
-// Solids do not move. friction: Coulomb's coefficient. restitution (0 to 1): the share of its normal speed with which a
-// particle that hits the solid is thrown back (Newton); slow ones are not, see impact_speed in law.h.
+// Solids do not move. friction: Coulomb's coefficient. restitution (0 to 1): see contact/rebound.h.
 struct SolidSphere {
   glm::dvec3 centre{0.0};  // m
   double radius = 1;       // m

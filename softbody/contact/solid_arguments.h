@@ -34,14 +34,14 @@ using SolidShape = std::variant<SphereShape<Real>, PlaneShape<Real>, BoxShape<Re
 /// A solid seen from each body's own origin.
 struct SolidArguments {
   std::size_t particles;
-  float mass;  // kg, of one particle
-  float friction, restitution;
-  SolidShape<float> shape;  // grown by the thickness that particles keep from it
-  LaneVector place;         // m, see the shape
+  float mass;                   // kg, of one particle
+  float friction, restitution;  // the latter with the material
+  SolidShape<float> shape;      // grown by the thickness that particles keep from it
+  LaneVector place;             // m, see the shape
   const float* moves;
   Field<float> impulse;         // N s, a value a lane: the normal impulses are added here ...
-  float* returned;              // ... here their sizes times the restitution ...
-  float* energy;                // ... and here the energy (J) that pushing out gives
+  float* returned;              // ... here the energy (J) that restitution gives back ...
+  float* energy;                // ... and here that which pushing out gives
   float h = 0;                  // s
   float slack = 0;              // m/s: a smaller change of normal velocity is left undone
   Field<const float> before{};  // velocities at the start of the step; read only if there is restitution

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/kernels.h"
+#include "softbody/contact/keys.h"
 #include "softbody/contact/law.h"
 #include "softbody/contact/solid_law.h"
 #include "softbody/contact/solid_overlap.h"
@@ -97,7 +98,7 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
   s.particles = b.particles();
   s.mass = float(b.model->particle_mass);
   s.friction = float(solid.friction);
-  s.restitution = float(solid.restitution);
+  s.restitution = float(law::common_restitution(solid.restitution, b.model->material[contact::restitution]));
   s.shape = shape_of<float>(solid, thickness);
   for (int l = 0; l < b.used; ++l) {
     const glm::dvec3 origin = state_.body(b.body[std::size_t(l)]).origin;
@@ -133,7 +134,7 @@ void SolidContact::end_frame() {
   for (const Batch& b : state_.batches()) {
     const OfBatch& own = of_batch_[b.index];
     for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
-      pushes_[b.body[l]] = {glm::dvec3(own.impulse[l]), double(own.returned[l])};
+      pushes_[b.body[l]] = {glm::dvec3(own.impulse[l]), double(own.restitution[l]), double(own.returned[l])};
       state_.ledger.book(WorkBy::solids, double(own.energy[l]));
       if (b.moves[l] != 0) state_.memory(b.body[l]).may_lie_in_solid = own.eased >> l & 1u;
     }
@@ -148,11 +149,6 @@ void SolidContact::note_velocities(const Batch& b) {
   if (!has_restitution_) return;
   state_kernels(b.width).copy(std::size_t(b.used), b.particles(), b.moves.data(), field(state_.v, b.base),
                               field(before_, b.base));
-}
-
-void SolidContact::clear_velocities(const Batch& b) {
-  if (!has_restitution_) return;
-  state_kernels(b.width).clear(std::size_t(b.used), b.particles(), field(before_, b.base));
 }
 
 Field<float> SolidContact::impulse(const Batch& b) { return field(of_batch_[b.index].impulse); }
@@ -180,6 +176,7 @@ bool SolidContact::apply_to_particles(const Batch& b, float h, bool again) {
       more = more || (acted & now) || (pass && now);
       acted |= now;
       own.pushed |= now;
+      own.note_restitution(s.restitution, now);
     }
     if (!more) break;
   }
@@ -212,6 +209,8 @@ void SolidContact::add_particle_rows(BodyId body, float travel, std::vector<Cont
       row.friction = s.friction;
       row.target = law::min_speed(surface.distance, 1 / s.h);
       row.push = std::max(0.0f, row.target);
+      row.before = has_restitution_ ? glm::dot(read(field(std::as_const(before_)), slot), row.normal) : 0;
+      row.restitution = s.restitution;
       row.slack = infinite;  // what is left they do by themselves
       row.feature = i;
     }
@@ -224,9 +223,7 @@ void SolidContact::book(BodyId body, std::span<const ContactRow> rows) {
   OfBatch& own = of_batch_[b.index];
   for (const ContactRow& row : rows) {
     if (row.normal_impulse <= 0) continue;
-    softbody::add(impulse(b), lane, row.normal_impulse * row.normal);
-    own.returned[lane] += own.near[row.feature].restitution * row.normal_impulse;
-    own.energy[lane] += row.energy;
+    own.book(row, lane);
     std::atomic_ref(own.pushed).fetch_or(1u << lane, std::memory_order_relaxed);
   }
 }

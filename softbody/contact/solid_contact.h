@@ -17,7 +17,8 @@ namespace softbody {
 /// What solids did to a body in a frame.
 struct SolidPush {
   glm::dvec3 impulse{0.0};  // N s, along their normals
-  double returned = 0;      // N s, the part of its length that restitution gives back
+  double restitution = 0;   // the largest of those that pushed
+  double returned = 0;      // J, that it gives back when the body leaves them
 };
 
 class SolidContact {
@@ -28,7 +29,7 @@ class SolidContact {
   /// The state must outlive this.
   explicit SolidContact(State& state) : state_(state) {}
 
-  /// features: faces and edges meet solids, too. restitution: some solid throws back.
+  /// features: faces and edges meet solids, too. restitution: some contact has it.
   void set_parts(bool features, bool restitution) { has_features_ = features, has_restitution_ = restitution; }
 
   // A frame: begin_frame(), add() for each batch that moves and each solid, substeps, end_frame().
@@ -44,8 +45,8 @@ class SolidContact {
   // A substep.
   /// Notes the velocities that a batch has at the start of a substep, which restitution needs.
   void note_velocities(const Batch& batch);
-  /// Makes restitution take the batch for one that nothing moves: implicit steps throw back themselves.
-  void clear_velocities(const Batch& batch);
+  /// Returns them; without restitution, the present ones.
+  Field<const float> velocities_before() const { return field(has_restitution_ ? before_ : std::as_const(state_.v)); }
   /// Changes the velocities of a batch so that in a step of h seconds no particle enters a solid.
   void apply(const Batch& batch, float h);
   /// True if solids may touch faces or edges of a batch in this frame; see set_parts().
@@ -58,7 +59,9 @@ class SolidContact {
   void book(BodyId body, std::span<const ContactRow> rows);
   /// Returns where the solids' impulses along their normals (N s) are summed for each lane of a batch.
   Field<float> impulse(const Batch& batch);
-  /// Returns where the part of these impulses is summed that restitution gives back.
+  /// Returns where the largest restitution of the solids that push each lane is noted, and the energy (J) summed that
+  /// it gives back.
+  float* restitution(const Batch& batch) { return of_batch_[batch.index].restitution.data(); }
   float* returned(const Batch& batch) { return of_batch_[batch.index].returned.data(); }
   /// Returns where the energy (J) is summed that they give to each lane by pushing out.
   float* energy(const Batch& batch) { return of_batch_[batch.index].energy.data(); }
@@ -81,12 +84,24 @@ class SolidContact {
  private:
   struct OfBatch {
     std::vector<SolidArguments> near;
-    std::vector<SolidFeature> features;   // of the bodies, that may meet the solids between vertices
-    std::vector<ContactRow> rows;         // of these, in the substep at hand
-    LaneVector impulse{};                 // N s, along the normals
-    std::array<float, lanes> returned{};  // N s, the part of it that restitution gives back
-    std::array<float, lanes> energy{};    // J, given by pushing out
-    unsigned pushed = 0, eased = 0;       // bits: lanes
+    std::vector<SolidFeature> features;      // of the bodies, that may meet the solids between vertices
+    std::vector<ContactRow> rows;            // of these, in the substep at hand
+    LaneVector impulse{};                    // N s, along the normals
+    std::array<float, lanes> restitution{};  // the largest of those that pushed
+    std::array<float, lanes> returned{};     // J, that it gives back
+    std::array<float, lanes> energy{};       // J, given by pushing out
+    unsigned pushed = 0, eased = 0;          // bits: lanes
+
+    void note_restitution(float value, unsigned of_lanes) {
+      for (std::size_t l = 0; value > 0 && l < lanes; ++l)
+        if (of_lanes >> l & 1u) restitution[l] = std::max(restitution[l], value);
+    }
+    void book(const ContactRow& row, std::size_t lane) {
+      softbody::add(field(impulse), lane, row.normal_impulse * row.normal);
+      restitution[lane] = std::max(restitution[lane], row.restitution);
+      returned[lane] += row.returned;
+      energy[lane] += row.energy;
+    }
   };
 
   template <class Solid>

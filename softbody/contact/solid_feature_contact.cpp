@@ -137,11 +137,9 @@ void SolidContact::apply_to_features(const Batch& b, float h) {
   }
   for (const ContactRow& row : own.rows) {
     if (!acted(row)) continue;
-    const SolidFeature& f = own.features[row.feature];
-    softbody::add(impulse(b), std::size_t(f.lane), row.normal_impulse * row.normal);
-    own.returned[std::size_t(f.lane)] += own.near[f.solid].restitution * row.normal_impulse;
-    own.energy[std::size_t(f.lane)] += row.energy;
-    own.pushed |= 1u << f.lane;
+    const int lane = own.features[row.feature].lane;
+    own.book(row, std::size_t(lane));
+    own.pushed |= 1u << lane;
   }
 }
 
@@ -175,9 +173,8 @@ void SolidContact::add_row(const Batch& b, SolidFeature& f, float h) {
   row.friction = s.friction;
   row.target = law::min_speed(surface->distance, 1 / h);
   row.push = std::max(0.0f, row.target);
-  if (s.restitution > 0 && glm::dot(relative_velocity(row, field(state_.v, b.base)), row.normal) < row.target)
-    row.target =
-        std::max(row.target, law::rebound(-glm::dot(relative_velocity(row, s.before), row.normal), s.restitution));
+  row.before = s.restitution > 0 ? glm::dot(relative_velocity(row, s.before), row.normal) : 0;
+  row.restitution = s.restitution;
   row.feature = std::uint32_t(&f - own.features.data());
   own.rows.push_back(row);
 }

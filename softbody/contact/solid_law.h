@@ -17,23 +17,18 @@ namespace body {
 
 /// Acts on the velocity of a point: after the step it is not below the surface, the change of normal velocity acts as
 /// an impulse, and friction takes at most `friction` times it from the tangential velocity. An impact is as fast as
-/// the point was before the step's forces, because these alone may be large on a particle at rest. moves: 1, or 0 for
+/// the point was `before` the step's forces, because these alone may be large on a particle at rest. moves: 1, or 0 for
 /// what stays as it is. Returns the change of normal velocity. Adds to `energy`, of a unit of mass, this change
-/// times the speed at which an overlap is pushed out: an impact gets no more back than it had.
+/// times the speed at which an overlap is pushed out, and to `returned` what restitution gives back later.
 template <class V>
-HWY_INLINE V respond(const SolidArguments& s, V moves, V gap, Vec<V> n, Vec<V> before, Vec<V>& v, V& energy) {
-  const V zero{}, out = law::min_speed(gap, 1.0f / s.h);
-  V target = out;
-  const V normal_speed = dot(v, n);
-  if (s.restitution > 0) {
-    const V thrown_back = larger(law::rebound(-dot(before, n), s.restitution), target);
-    target = select(normal_speed < target, thrown_back, target);
-  }
-  const V wanted = target - normal_speed;
+HWY_INLINE V respond(const SolidArguments& s, V moves, V gap, Vec<V> n, Vec<V> before, Vec<V>& v, V& energy,
+                     V& returned) {
+  const V zero{}, out = law::min_speed(gap, 1.0f / s.h), normal_speed = dot(v, n), wanted = out - normal_speed;
   const V change = moves * select(wanted > V(s.slack), wanted, zero);
   if (!any_above(change, zero)) return change;
   v = v + change * n - law::within_cone(v - normal_speed * n, s.friction * change);
   energy += change * larger(out, zero);
+  if (s.restitution > 0) returned += law::returned(change, dot(before, n), normal_speed + change, s.restitution);
   return change;
 }
 

@@ -162,7 +162,7 @@ SurfaceCandidates::Pair SurfaceCandidates::make_pair(const collide::surface::Sur
           .offset = glm::vec3(b.origin - a.origin),
           .distance = margin(range.a) + margin(range.b),
           .friction = law::common_friction(a.friction, b.friction),
-          .restitution = law::common_restitution(a.restitution, b.restitution),
+          .restitution = range.a == range.b ? 0 : law::common_restitution(a.restitution, b.restitution),
           .inverse_a = a.inverse_mass,
           .inverse_b = b.inverse_mass,
           .slot_a = a.first_slot,

@@ -48,7 +48,9 @@ class SurfaceCandidates {
     bool closes = false, joins = false;            // see SurfaceContact::find_islands()
     int thread = 0;                                // that makes its rows, and where they are
     std::uint32_t first_row = 0, rows = 0;
-    double energy = 0;  // J, that pushing the two apart has given
+    // Since SurfaceContact::take_work():
+    double energy = 0, returned = 0;  // J, that pushing the two apart has given, and that restitution will give back
+    glm::dvec3 impulse{0.0};          // N s on a
   };
   /// What is remembered of a candidate.
   struct CachedContact {

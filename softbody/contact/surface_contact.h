@@ -12,6 +12,7 @@
 
 #include "softbody/contact/contacts.h"
 #include "softbody/contact/joint_solve.h"
+#include "softbody/contact/rebound.h"
 #include "softbody/contact/surface_row_maker.h"
 
 namespace softbody {
@@ -46,7 +47,9 @@ class SurfaceContact {
 
   /// The rows of this substep, from positions at its start, `elapsed` seconds after find(), and velocities with all
   /// forces. On every thread.
-  void make_rows(int thread, int threads, Field<const float> x, Field<const float> v, float elapsed, float h);
+  /// before: the velocities without the forces of this substep.
+  void make_rows(int thread, int threads, Field<const float> x, Field<const float> v, Field<const float> before,
+                 float elapsed, float h);
   /// Solves them on the velocities. On every thread, after a barrier; `barrier` is called by all threads alike.
   void solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
              const std::function<void()>& barrier);
@@ -64,10 +67,11 @@ class SurfaceContact {
   std::size_t rows() const;
   /// Returns true if some row pressed in the last substep. A snapshot keeps such rows only.
   bool presses() const;
-  /// Adds up the energy that the rows of a substep give, which all threads must have solved. On every thread.
-  void add_row_energies(int thread, int threads);
-  /// Returns the energy (J) that pushing apart has given to bodies since the last call.
-  double take_energy();
+  /// Adds up what the rows of a substep do, which all threads must have solved. On every thread.
+  void add_row_work(int thread, int threads);
+  /// Returns the energy (J) that pushing apart has given to bodies since the last call. Adds the impulses of pairs that
+  /// have restitution to `rebounds`.
+  double take_work(Rebounds& rebounds);
   /// `vertices`: those of the bodies that find() was given, and perhaps of more. While all bodies sleep it is the last
   /// substep before.
   std::vector<SurfaceContactPoint> contact_points(const collide::Bodies& vertices) const;

@@ -237,7 +237,6 @@ void SurfaceRowMaker::add_row(const Pair& pair, const ContactRow& corners, const
   float mobility = 0;
   for (std::size_t k = 0; k < 4; ++k) mobility += corners.weight[k] * corners.mobility[k];
   if (mobility <= 0) return;
-  const float speed = glm::dot(relative_velocity(corners, step_.v), normal);
   const float distance = corners.feature == uncached ? pair.distance : candidates_.max_gap(pair, corners.feature);
   const float gap = apart - distance;
   ContactRow& row = rows_.emplace_back(corners);
@@ -250,8 +249,8 @@ void SurfaceRowMaker::add_row(const Pair& pair, const ContactRow& corners, const
   row.relative_stiffness = gap < 0 ? turn * (2 * spring_damping + turn) : 0;
   row.bias = -gap * turn / ((2 * spring_damping + turn) * step_.h);
   row.push = std::max({0.0f, row.target, gap < 0 ? row.bias : 0.0f});
-  if (cached.normal_impulse == 0 && gap + step_.h * speed < 0)
-    row.target = std::max(row.target, law::rebound(-speed, pair.restitution));
+  row.restitution = pair.restitution;
+  row.before = row.restitution > 0 ? glm::dot(relative_velocity(row, step_.before), normal) : 0;
   row.slack = hair * pair.distance / step_.h;
   row.friction = pair.friction;
   // Bodies that stand in each other's way cannot all be pushed out as they ask for: handed on in full, their impulses

@@ -4,7 +4,6 @@
 //
 //   u . n >= -(g + d/2) / h    while half of the distance d is left: nothing passes through;
 //   u . n >= 0.1 (-g - d/2) / h  where it is not: pushed out at a bounded speed;
-//   u . n >= e |u_before . n|  at an impact: Newton's restitution.
 //
 // The share of 0.1, both speeds and the cone of friction are those of contact/law.h.
 // Impulses that bring this about act on the corners by their weights, equal and opposite along the line between the two
@@ -23,7 +22,7 @@ namespace softbody {
 class SurfaceRowMaker {
  public:
   struct Substep {
-    Field<const float> x, v;
+    Field<const float> x, v, before;  // the latter: velocities without the forces of this substep
     float h;
     float until;    // s after the candidates were found: the end of the substep
     float h_ratio;  // the length of this substep over that of the last one; 0: there was none

@@ -18,7 +18,7 @@ void solve_row(ContactRow& row, Field<float> v) {
   const float held =
       row.relative_stiffness / (1 + row.relative_stiffness) * (row.normal_impulse + row.mass * (row.bias - speed));
   const float normal_impulse = std::max({0.0f, held, row.normal_impulse + row.mass * (row.target - speed)});
-  row.energy = 0;
+  row.energy = row.returned = 0;
   if (normal_impulse == 0 && row.normal_impulse == 0) return;
   const float push = normal_impulse - row.normal_impulse;
   row.normal_impulse = normal_impulse;
@@ -28,7 +28,9 @@ void solve_row(ContactRow& row, Field<float> v) {
       law::within_cone(row.friction_impulse - row.mass * slip, row.friction * normal_impulse);
   apply(row, push * row.normal + (friction_impulse - row.friction_impulse), v);
   row.friction_impulse = friction_impulse;
-  row.energy = normal_impulse * std::clamp(speed + push / row.mass, 0.0f, row.push);
+  const float after = speed + push / row.mass;
+  row.energy = normal_impulse * std::clamp(after, 0.0f, row.push);
+  row.returned = law::returned(normal_impulse, row.before, after, row.restitution);
 }
 
 /// Two bodies far inside each other move apart along the line of their centres, each as a whole: their shapes, momentum
@@ -163,15 +165,24 @@ void SurfaceContact::solve_island(int thread, const Island& island, std::span<Co
   std::for_each(own.together.begin(), own.together.begin() + surfaces, [&](const ContactRow* row) { keep(*row); });
 }
 
-void SurfaceContact::add_row_energies(int thread, int threads) {
+void SurfaceContact::add_row_work(int thread, int threads) {
   const collide::Part part = collide::part_of(candidates_.pairs().size(), thread, threads);
   for (Pair& p : std::span(candidates_.pairs()).subspan(part.begin, part.end - part.begin))
-    for (const ContactRow& row : rows_of(p)) p.energy += double(row.energy);
+    for (const ContactRow& row : rows_of(p)) {
+      p.energy += double(row.energy);
+      if (p.restitution <= 0) continue;
+      p.returned += double(row.returned);
+      p.impulse += glm::dvec3(row.normal_impulse * row.normal);
+    }
 }
 
-double SurfaceContact::take_energy() {
+double SurfaceContact::take_work(Rebounds& rebounds) {
   double sum = 0;
-  for (Pair& p : candidates_.pairs()) sum += std::exchange(p.energy, 0.0);
+  for (Pair& p : candidates_.pairs()) {
+    sum += std::exchange(p.energy, 0.0);
+    if (p.impulse == glm::dvec3(0.0)) continue;
+    rebounds.add({p.range.a, p.range.b, std::exchange(p.impulse, glm::dvec3(0.0)), std::exchange(p.returned, 0.0)});
+  }
   return sum;
 }
 

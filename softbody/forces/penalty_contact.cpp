@@ -21,7 +21,7 @@ glm::vec3 between(const PenaltyPair& p, Field<const float> x) {
 
 template <class Real>
 PenaltyLaw<Real> law_of(const PenaltyContact& c, const PenaltyPair& p) {
-  return {Real(p.stiffness), Real(c.thickness), Real(p.friction), Real(c.damper_limit * p.damped_mass)};
+  return {Real(p.stiffness), Real(c.thickness), Real(p.friction), Real(c.damper_limit * p.damped_mass), Real(p.loss)};
 }
 
 }  // namespace
@@ -58,6 +58,10 @@ void PenaltyContact::find(const DetectedContacts& detected, const State& state, 
   if (detected.contacts.empty()) return pairs.clear();
   const std::vector<collide::Contact> before = std::exchange(pairs.contact, {});
   const VectorArray stretch = std::exchange(pairs.stretch, {});
+  restitution_.resize(state.body_count());
+  for (const Batch& b : state.batches())
+    for (std::size_t l = 0; l < std::size_t(b.used); ++l)
+      restitution_[b.body[l]] = float(b.model->material[contact::restitution]);
   constexpr double contact_ns = 10;  // of work, between two barriers
   const int threads = workers.threads_for(contact_ns * double(detected.contacts.size()));
   std::vector<Totals> totals(std::size_t(threads) + 1);
@@ -93,7 +97,8 @@ void PenaltyContact::take(const Share& share, const DetectedContacts& detected, 
   for (const collide::Contact& c : own) {
     if (!acts(c)) continue;
     pairs.contact[i] = c;
-    pairs.body_a[i] = body(c.a), pairs.body_b[i] = body(c.b);
+    const BodyId a = pairs.body_a[i] = body(c.a), b = pairs.body_b[i] = body(c.b);
+    pairs.loss[i] = a == b ? 1 : 1 - law::common_restitution(restitution_[a], restitution_[b]);
     ++i;
   }
   locate({first, i}, detected.vertices, state);

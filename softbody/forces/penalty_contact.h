@@ -104,6 +104,7 @@ class PenaltyContact {
   std::vector<PenaltyEnd> ends_;                // of the pairs of each particle, in their order
   std::vector<collide::Part> of_batch_;         // the particles of each batch
   std::vector<double> stored_;                  // J, of each block of pairs
+  std::vector<float> restitution_;              // of each body
 };
 
 }  // namespace softbody

@@ -7,9 +7,10 @@
 // in front of the surface. A pair that comes into sight from behind it is pushed out with full force at once: work that
 // nobody has put in, as when solids push out what is in them.
 // h is the thickness of the contact layer, k its stiffness, u the speed at which the two separate: Hunt and Crossley's
-// damping (1975), under which nothing is thrown back faster than v. Friction across n is Cundall and Strack's (1979): a
-// spring of stiffness k that the slip stretches, with a damper, cut off at Coulomb's limit. Both dampers can have a
-// limit, which leaves the push at rest alone. Compiled for each of Highway's targets, see state/simd.h.
+// damping (1975), under which nothing is thrown back faster than v; restitution e leaves 1 - e of it. Friction across n
+// is Cundall and Strack's (1979): a spring of stiffness k that the slip stretches, with a damper, cut off at Coulomb's
+// limit. Both dampers can have a limit, which leaves the push at rest alone. Compiled for each of Highway's targets,
+// see state/simd.h.
 #if defined(SOFTBODY_FORCES_PENALTY_LAW_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOFTBODY_FORCES_PENALTY_LAW_H
 #undef SOFTBODY_FORCES_PENALTY_LAW_H
@@ -33,6 +34,7 @@ struct PenaltyLaw {
   V thickness;                                           // h, m
   V friction = Real(0);                                  // Coulomb's coefficient
   V max_damper = std::numeric_limits<Real>::infinity();  // N s/m
+  V loss = Real(1);                                      // 1 - e
 
   static constexpr Real rebound_speed = 2;   // v, m/s
   static constexpr Real approach_limit = 3;  // upper clamp of the damping factor
@@ -48,16 +50,16 @@ struct PenaltyLaw {
     return body::select(w > V(0), stiffness * w * body::smaller(thickness - s, thickness), V(0));
   }
   /// Returns the factor of F at u.
-  static HWY_INLINE V damping(V u) { return clamp(V(1) - damper(V(1)) * u, V(0), V(approach_limit)); }
+  HWY_INLINE V damping(V u) const { return clamp(V(1) - damper(V(1)) * u, V(0), V(approach_limit)); }
   /// Returns F at u, from that at u = 0.
   HWY_INLINE V push(V at_rest, V u) const {
     return at_rest + clamp(-body::smaller(damper(at_rest), max_damper) * u, -at_rest, V(approach_limit - 1) * at_rest);
   }
   /// Returns how fast F falls with u between the limits of that if the damper has no limit, in N s/m.
-  static HWY_INLINE V damper(V push_at_rest) { return law::damper(push_at_rest, V(rebound_speed)); }
+  HWY_INLINE V damper(V push_at_rest) const { return loss * law::damper(push_at_rest, V(rebound_speed)); }
   /// Returns the damper (N s/m) across n of a contact that sticks.
   HWY_INLINE V sticking_damper() const {
-    return body::smaller(V(Real(0.5)) * damper(stiffness * thickness), max_damper);
+    return body::smaller(V(Real(0.5)) * law::damper(stiffness * thickness, V(rebound_speed)), max_damper);
   }
 
   /// Returns the force (N) on the particle that the other one is d away from, against n. velocity: d's, m/s. `stretch`

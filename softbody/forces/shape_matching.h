@@ -48,6 +48,8 @@ struct ShapeMatching {
           "keep its shape by itself.",
           {}, {.place = 40, .if_missing = "10 for meshes from files, else 0"});
   static constexpr std::array keys{&frequency};
+  /// Of what draws a particle to its place, as a share of the critical damping, see internal_damping().
+  static constexpr double damping_ratio = 0.05;
   static constexpr bool internal = true;
   static constexpr auto coordinate = Coordinate::offset;
   static constexpr const char* absent = "no body keeps its shape by itself";

@@ -7,6 +7,7 @@
 #include "softbody/forces/model_forces.h"
 #include "softbody/integrate/force_stage.h"
 #include "softbody/integrate/integrators.h"
+#include "softbody/integrate/resistance.h"
 #include "softbody/scene/solids.h"
 
 namespace softbody {
@@ -65,15 +66,15 @@ const char* capsules(const Facts& f) { return f.scene.capsules.empty() ? "the sc
 const char* restitution(const Facts& f) {
   bool any = false;
   for_each_solid(f.scene, [&any](const auto& solid) { any = any || solid.restitution > 0; });
-  return any ? nullptr : "no solid has restitution";
+  any = any || f.any([](const BodyModel& p) { return p.material[contact::restitution] > 0; });
+  return any ? nullptr : "no solid and no material has restitution";
 }
 
 const char* ground(const Facts& f) { return f.scene.ground ? nullptr : "the scene has no ground"; }
 
 const char* damping(const Facts& f) {
-  return f.any([](const BodyModel& p) { return p.material[Material::internal_damping] > 0; })
-             ? nullptr
-             : "no material has internal damping";
+  return f.any([](const BodyModel& p) { return internal_damping(p) > 0; }) ? nullptr
+                                                                           : "no material has internal damping";
 }
 
 const char* rebound(const Facts& f) {

@@ -2,53 +2,45 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/keys.h"
 #include "softbody/contact/law.h"
-#include "softbody/contact/solid_law.h"
+#include "softbody/contact/rebound.h"
+#include "softbody/forces/model_forces.h"
 #include "softbody/integrate/plan.h"
 #include "softbody/state/kernels.h"
 #include "softbody/state/rigid_motion.h"
 
 namespace softbody {
-namespace {
 
-/// The part of `out`, a body's speed away from the solids that gave it the impulse in this frame, that rebound damping
-/// acts on: all of it without restitution; else what is beyond the restitution times the speed of the impact.
-double excess_rebound_speed(double out, double impulse, double returned, double mass, double& impact) {
-  const double in = impulse / mass - out;  // before the impulse, towards the solids
-  const double restitution = std::min(1.0, returned / impulse);
-  if (in > law::impact_speed)
-    impact = std::max(impact, in);
-  else if (out < law::impact_speed)
-    impact = 0;  // it is over
-  return out < 0 ? (1 - restitution) * out : std::max(0.0, out - restitution * impact);
+double internal_damping(const BodyModel& p) {
+  const auto* shape = data<ShapeMatching>(p);
+  const double frequency = shape ? std::sqrt(shape->stiffness / p.particle_mass) : 0;  // angular
+  return std::max(p.material[Material::internal_damping], 2 * ShapeMatching::damping_ratio * frequency);
 }
-
-}  // namespace
 
 void Resistance::set_plan(const Plan& plan) {
   internal_ = plan.has(Stage::internal_damping);
   rebound_ = plan.has(Stage::rebound_damping);
   rolling_ = plan.has(Stage::rolling_resistance);
+  restitution_ = plan.has(Stage::restitution);
 }
 
 void Resistance::apply(const BatchView& view, std::span<const SolidPush> pushes, double seconds,
-                       std::span<double> impacts) const {
+                       std::span<Impact> impacts) const {
   const Batch& b = view.batch;
   assert(seconds >= 0 && pushes.size() >= std::size_t(b.used) && impacts.size() >= std::size_t(b.used));
-  if (!internal_ && !rebound_ && !rolling_) return;
+  if (!internal_ && !rebound_ && !rolling_ && !restitution_) return;
   const BodyModel& p = *b.model;
   const Material& m = p.material;
-  const double rate = internal_ ? m[Material::internal_damping] * seconds : 0, share = rate / (1 + rate);
+  const double rate = internal_ ? internal_damping(p) * seconds : 0, share = rate / (1 + rate);
   unsigned acts = 0;  // bits: lanes
   for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
     if (b.moves[l] <= 0) continue;
-    const bool touches = pushes[l].impulse != glm::dvec3(0.0);
-    if (!touches) impacts[l] = 0;
-    acts |= unsigned(share > 0 || touches) << l;
+    acts |= unsigned(share > 0 || pushes[l].impulse != glm::dvec3(0.0) || impacts[l].speed > 0) << l;
   }
   if (!acts) return;
   const StateKernels& kernels = state_kernels(b.width);
@@ -64,13 +56,20 @@ void Resistance::apply(const BatchView& view, std::span<const SolidPush> pushes,
     glm::dvec3 velocity = share * motion.velocity, spin = share * motion.spin;
     if (const double size = p.particle_mass * glm::length(motion.momentum); rolling_ && p.rolls && size > 0)
       spin -= motion.spin * std::min(1.0, m[contact::rolling_resistance] * p.radius * normal / size);
+    glm::dvec3 after = motion.velocity;
+    double returned = pushes[l].returned;
     if (rebound_ && m[contact::rebound_speed] > 0 && normal > 0) {
       const glm::dvec3 n = pushes[l].impulse / normal;
-      velocity -= n *
-                  excess_rebound_speed(glm::dot(motion.velocity, n), normal, pushes[l].returned, m[Material::mass],
-                                       impacts[l]) *
-                  std::min(1.0, law::damper(normal, m[contact::rebound_speed]) / m[Material::mass]);
+      const double out = glm::dot(motion.velocity, n);
+      const glm::dvec3 less =
+          n * out * std::min(1.0, law::damper(normal, m[contact::rebound_speed]) / m[Material::mass]);
+      velocity -= less;
+      after -= less;
+      returned += law::returned(-m[Material::mass] * glm::dot(less, n), out, glm::dot(after, n), pushes[l].restitution);
     }
+    if (restitution_)
+      velocity += rebound(impacts[l], pushes[l].impulse, returned,
+                          motion.velocity - pushes[l].impulse / m[Material::mass], after, m[Material::mass]);
     change.set(l, 1 - share, velocity, spin, motion.centre);
   }
   kernels.change_rigidly(used, count, change, view.x, view.v);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "softbody/forces/body_measures.h"
 #include "softbody/integrate/force_stage.h"
@@ -18,7 +19,7 @@ constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a mome
 }  // namespace
 
 std::size_t SolverState::bytes() const {
-  return bodies.bytes() + penalty_pairs.bytes() + bytes_of(pushes) + surface.bytes();
+  return bodies.bytes() + penalty_pairs.bytes() + bytes_of(pushes) + rebounds.bytes() + surface.bytes();
 }
 
 Solver::Solver(const Scene& scene, const Crew& crew)
@@ -50,6 +51,7 @@ void Solver::remove(BodyId body) {
   penalty_.remove(body, vertices_->first[body], vertices_->size(body));
   contacts_.surfaces() = {};  // found anew in the next frame
   solids_.remove(body);
+  rebounds_.remove(body);
   hand_.remove(body);
   state_.remove(body);
 }
@@ -143,6 +145,7 @@ FrameResult Solver::advance(double seconds, const std::function<void()>& after_s
     frame.left = 0;
   }
   solids_.end_frame();
+  state_.ledger.book(WorkBy::surfaces, rebounds_.give_back(state_));
   state_.ledger.book(WorkBy::penalty, held - penalty_energy());
   return {frame.substeps, frame.needed, seconds - frame.left};
 }
@@ -181,7 +184,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   int done = 0;
   const auto go_on = [&](int steps) {
     run(steps, static_cast<float>(h), frame.substeps == 0, after_substep);
-    state_.ledger.book(WorkBy::surfaces, contacts_.surfaces().take_energy());
+    state_.ledger.book(WorkBy::surfaces, contacts_.surfaces().take_work(rebounds_));
     done += steps;
     frame.substeps += steps;
     steps_.spend(steps * ((implicit ? 0 : steps_.work_of_substep()) +
@@ -270,11 +273,13 @@ void Solver::finish_frame(double seconds, Field<float> places) {
     if (batches[i].any_moves()) finish(batches[i], seconds);
     state_.write_positions(batches[i], vertices_->first, places);  // while they are in the cache
   });
+  for (BodyId id = 0; id < state_.body_count(); ++id)
+    state_.ledger.book(WorkBy::solids, std::exchange(state_.memory(id).impact.given, 0.0));
 }
 
 void Solver::finish(const Batch& b, double seconds) {
   std::array<SolidPush, lanes> pushes;
-  std::array<double, lanes> impacts{};
+  std::array<Impact, lanes> impacts;
   for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
     pushes[l] = solids_.push(b.body[l]);
     impacts[l] = state_.memory(b.body[l]).impact;
@@ -294,8 +299,8 @@ void Solver::write_positions(Field<float> to) const {
 }
 
 SolverState Solver::save() const {
-  return {state_.saved(),   penalty_.thickness,          penalty_.pairs,
-          solids_.pushes(), contacts_.surfaces().save(), steps_.hysteresis()};
+  return {state_.saved(), penalty_.thickness,          penalty_.pairs,     solids_.pushes(),
+          rebounds_,      contacts_.surfaces().save(), steps_.hysteresis()};
 }
 
 void Solver::restore(const SolverState& saved) {
@@ -304,6 +309,7 @@ void Solver::restore(const SolverState& saved) {
   penalty_.pairs = saved.penalty_pairs;
   solids_.begin_frame();
   solids_.set_pushes(saved.pushes);
+  rebounds_ = saved.rebounds;
   contacts_.surfaces().restore(saved.surface);
   steps_.set_hysteresis(saved.substep_hysteresis);
   crew_.take({}, 0);

@@ -32,6 +32,7 @@ struct SolverState {
   float penalty_thickness = 0;  // m
   PenaltyPairs penalty_pairs;
   std::vector<SolidPush> pushes;
+  Rebounds rebounds;
   SurfaceContact::State surface;
   StepController::Hysteresis substep_hysteresis;
 
@@ -115,6 +116,7 @@ class Solver {
   std::unique_ptr<ImplicitSteps> implicit_;
   Motion motion_;
   Resistance resistance_;
+  Rebounds rebounds_;
   StepController steps_;
   StepBounds bounds_;
   const collide::Bodies* vertices_ = nullptr;

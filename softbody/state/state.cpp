@@ -121,6 +121,7 @@ void State::set_asleep(BodyId id, bool asleep) {
   Body& body = bodies_[id];
   body.asleep = asleep;
   body.memory.calm_frames = 0;
+  body.memory.impact = {};
   update_moves(body);
   if (!asleep) return;
   for (Index i = 0; i < model(id).mesh.vertices.size(); ++i) field_of(id, v).set(i, glm::dvec3(0.0));

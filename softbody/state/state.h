@@ -37,12 +37,20 @@ struct BatchView {
   Field<float> x, v;
 };
 
+/// What is remembered of an impact until the two sides part, see contact/rebound.h.
+struct Impact {
+  double speed = 0;        // m/s, the largest with which they came together; 0: it is over, or was slow
+  double parting = 0;      // m/s, of the last frame
+  glm::dvec3 energy{0.0};  // J along the contact's normals, that restitution has to give back
+  double given = 0;        // J, that it gave back in the last frame
+};
+
 /// What World, Sleep and Resistance remember of a body from one frame to the next.
 struct BodyMemory {
   int release = 0;               // the frame until which it is pinned
   int calm_frames = 0;           // for how many frames it has been slow enough to sleep
   bool may_lie_in_solid = true;  // it has been placed there, or solids have been moved, and not come out since
-  double impact = 0;             // m/s, the speed with which it came upon the solids that it touches
+  Impact impact;                 // on the solids that it touches
   double speed = 0;              // m/s, of its fastest particle, as of the end of the last frame in which it moved
 };
 

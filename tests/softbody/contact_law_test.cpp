@@ -39,14 +39,13 @@ TEST(ContactLaw, AsksForTheSameAsLengthAndAsSpeed) {
       EXPECT_DOUBLE_EQ(law::min_move(gap, length) / length, law::min_speed(gap, 1 / length));
 }
 
-TEST(ContactLaw, ThrowsBackImpactsOnly) {
-  constexpr double none = -std::numeric_limits<double>::infinity();
-  for (const double e : {0.1, 0.5, 1.0}) {
-    for (const double approach : {-5.0, 0.0, 0.1, law::impact_speed}) EXPECT_EQ(law::rebound(approach, e), none);
-    for (const double approach : {std::nextafter(law::impact_speed, 1.0), 2.0, 300.0})
-      EXPECT_EQ(law::rebound(approach, e), e * approach);
-  }
-  EXPECT_EQ(law::rebound(5.0, 0.0), none) << "nothing is asked for without restitution";
+TEST(ContactLaw, ReturnsAShareOfTheKineticEnergyThatAnImpulseTakes) {
+  constexpr double mass = 0.25;
+  for (const double e : {0.0, 0.5, 1.0})
+    for (const double before : {-3.0, -1.0, 0.0})
+      for (const double after : {-1.0, 0.0, 2.0})
+        EXPECT_NEAR(law::returned(mass * (after - before), before, after, e),
+                    e * e * mass / 2 * (before * before - after * after), 1e-15);
 }
 
 TEST(ContactLaw, LimitsFrictionToTheCone) {
@@ -79,7 +78,7 @@ TEST(ContactLaw, IsTheSameInFloatAndDouble) {
     const float g = 0.002f * float(3 - i), s = 0.3f * float(i - 3), limit = 0.25f * float(i % 4);
     EXPECT_FLOAT_EQ(law::min_move(g, step), float(law::min_move(double(g), double(step))));
     EXPECT_FLOAT_EQ(law::min_speed(g, 1 / step), float(law::min_speed(double(g), 1 / double(step))));
-    EXPECT_FLOAT_EQ(law::rebound(s, e), float(law::rebound(double(s), double(e))));
+    EXPECT_FLOAT_EQ(law::returned(step, s, g, e), float(law::returned(double(step), double(s), double(g), double(e))));
     const glm::vec3 drag(s, g, i == 3 ? 0 : 0.2f), one = law::within_cone(drag, limit);
     const body::Vec<float> same = law::within_cone(body::Vec<float>{drag.x, drag.y, drag.z}, limit);
     const glm::dvec3 exact = law::within_cone(glm::dvec3(drag), double(limit));

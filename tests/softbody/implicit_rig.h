@@ -25,7 +25,6 @@ inline PlaneContact plane(std::size_t particle, std::size_t lane, const glm::dve
           .restitution = 0,
           .normal = normal,
           .min_displacement = min_displacement,
-          .out = 0,
           .force = force};
 }
 

@@ -102,6 +102,20 @@ TEST(PenaltyContact, DampsByTheSpeedOfSeparationBetweenNothingAndThreeTimes) {
   EXPECT_EQ(force({0, 0.05, 0}, {0, 9, 0}).y, 0) << "and nothing is pulled back";
 }
 
+TEST(PenaltyContact, DampsLessByItsRestitution) {
+  for (const double e : {0.0, 0.4, 1.0}) {
+    Pair pair({0, 0.05, 0});
+    const double still = pair.force(glm::dvec3(0.0)).y;
+    PenaltyPair changed = pair.penalty.pairs[0];
+    changed.loss = float(1 - e);
+    pair.penalty.pairs.clear();
+    pair.penalty.pairs.push_back(changed);
+    pair.penalty.group(pair.x.x.size(), {});
+    EXPECT_NEAR(pair.force({0, 1, 0}).y, (1 - 0.5 * (1 - e)) * still, 1e-4) << e;
+    EXPECT_NEAR(pair.force({0, -1, 0}).y, (1 + 0.5 * (1 - e)) * still, 1e-4) << e;
+  }
+}
+
 TEST(PenaltyContact, SeesPositionsFromTheirBodiesOrigins) {
   EXPECT_NEAR(Pair({0, 5.05, 0}, 0, {0, -5, 0}).force(glm::dvec3(0.0)).y, force({0, 0.05, 0}, glm::dvec3(0.0)).y, 1e-3);
 }
@@ -186,7 +200,7 @@ TEST(PenaltyLaw, ItsSlopesAndBoundHoldTheDerivativeOfItsPush) {
           return PenaltyLaw<double>{k, h}.push_at_rest(at, at * at + across * across);
         };
         constexpr double e = 1e-7;
-        const double fall = (push(s - e) - push(s + e)) / (2 * e) * PenaltyLaw<double>::damping(u);
+        const double fall = (push(s - e) - push(s + e)) / (2 * e) * PenaltyLaw<double>{k, h}.damping(u);
         EXPECT_LE(fall, double(slopes.spring) * (1 + 1e-5)) << "s " << s << " across " << across << " u " << u;
         steepest = std::max(steepest, fall);
       }
@@ -299,7 +313,7 @@ TEST_P(PairsInLanes, FollowTheLaw) {
     const auto vector = [](const glm::vec3& a) { return Vector{a.x, a.y, a.z}; };
     const Vector d = pairs.way(i, pairs.x) + vector(p.offset), n = vector(p.normal);
     const PenaltyLaw<double> law{p.stiffness, pairs.penalty.thickness, p.friction,
-                                 double(pairs.penalty.damper_limit) * p.damped_mass};
+                                 double(pairs.penalty.damper_limit) * p.damped_mass, p.loss};
     const auto energy = [&](const Vector& stretch) {
       const double s = dot(d, n);
       return law.stored(s, dot(d, d) - s * s) + law.stored_by_friction(dot(stretch, stretch));

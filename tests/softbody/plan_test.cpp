@@ -64,7 +64,7 @@ TEST(Plan, OfABallAloneInEmptySpace) {
   EXPECT_EQ(why(plan, Stage::solid_planes), "the scene has no solid plane");
   EXPECT_EQ(why(plan, Stage::solid_boxes), "the scene has no solid box");
   EXPECT_EQ(why(plan, Stage::solid_capsules), "the scene has no solid capsule");
-  EXPECT_EQ(why(plan, Stage::restitution), "no solid has restitution");
+  EXPECT_EQ(why(plan, Stage::restitution), "no solid and no material has restitution");
   EXPECT_EQ(why(plan, Stage::rolling_resistance), "no solid to roll on");
   EXPECT_EQ(why(plan, Stage::rebound_damping), "no solid to rebound from");
   EXPECT_EQ(why(plan, Stage::internal_damping), "no material has internal damping");

@@ -160,27 +160,5 @@ TEST(SolidFeature, ThrowsBackByTheSolidsRestitution) {
   }
 }
 
-/// By a sphere under its middle, with springs that are too weak to have a part in it.
-TEST(SolidFeature, ThrowsAFaceBackByTheSolidsRestitution) {
-  Material loose = spring_ball();
-  loose.set(StructuralSprings::keys, {1e-9, 0});
-  loose.set(BendSprings::keys, {1e-9, 0});
-  for (const double e : {0.0, 0.4, 0.8}) {
-    Scene scene = lone_body(loose, {0, -8, 0});
-    scene.bodies[0].position = {0, 0.3, 0};
-    scene.bodies[0].mesh = {.kind = "grid", .columns = 1, .rows = 1, .width = 1, .depth = 1.5};
-    scene.contact_surface = ContactSurface::surfaces;
-    const Mesh mesh = scene.bodies[0].mesh.make();
-    const Triangle& face = mesh.triangles[0];
-    const glm::dvec3 middle = (mesh.vertices[face[0]] + mesh.vertices[face[1]] + mesh.vertices[face[2]]) / 3.0;
-    scene.spheres = {{.centre = middle - glm::dvec3(0, 0.1, 0), .radius = 0.1, .friction = 0, .restitution = e}};
-    World world(scene, {});
-    run(world, 4);
-    double up = 0;
-    for (const Index corner : face) up += particles_of(world)[corner].velocity.y / 3;
-    EXPECT_NEAR(up, 8 * e, 0.01);
-  }
-}
-
 }  // namespace
 }  // namespace softbody::test

@@ -132,7 +132,7 @@ bool draw_solid(Widgets& w, Solid& solid) {
   };
   slide("Friction", "Solid friction", solid.friction, 2, "Coefficient of friction.");
   slide("Restitution", "Solid restitution", solid.restitution, 1,
-        "Share of its speed that a body keeps when it bounces off the solid.");
+        "Bounce of bodies off the solid. 0: what contact takes of an impact is lost. 1: nothing is.");
   return changed;
 }
 

@@ -58,7 +58,7 @@ void evaluate(collide::Part part, PenaltyPairs& p, const PenaltyParticle* motion
     for (std::size_t i = std::min(at + ahead, last), end = i + step; i < end; ++i) hwy::Prefetch(motion + p.b[i]);
     const Vec<V> velocity = vector(second(motion, p.a.data() + at)) - vector(second(motion, p.b.data() + at));
     const PenaltyLaw<V> law{load<V>(p.stiffness.data() + at), V(s.thickness), load<V>(p.friction.data() + at),
-                            V(s.damper_limit) * load<V>(p.damped_mass.data() + at)};
+                            V(s.damper_limit) * load<V>(p.damped_mass.data() + at), load<V>(p.loss.data() + at)};
     Vec<V> stretch = load<V>(field(p.stretch), at);
     const Vec<V> f = law.force(between(p, motion, at), velocity, load<V>(field(p.normal), at), V(s.seconds), stretch);
     store(field(p.stretch), at, stretch);

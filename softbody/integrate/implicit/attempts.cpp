@@ -1,5 +1,6 @@
 #include "softbody/integrate/implicit/attempts.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -10,6 +11,14 @@
 
 namespace softbody {
 namespace {
+
+/// Returns the largest coefficient of friction of a lane's planes.
+double friction_of(const ImplicitWork& work, std::size_t lane) {
+  double most = 0;
+  for (const PlaneContact& c : work.planes)
+    if (c.at % implicit_lanes == lane) most = std::max(most, c.friction);
+  return most;
+}
 
 /// Moves the body in a lane with a share of its spin, rotated by as large a share of h * turning. Returns how much
 /// energy it gains by that, over the energy of this spin; 0 if it gains none.
@@ -23,7 +32,12 @@ double move_rigidly(const ImplicitStep& step, ImplicitWork& work, std::size_t la
   const glm::dmat3 turned = rotation(share * h * turning);
   const glm::dvec3 spin = share * (turned * m.spin_of(glm::transpose(turned) * m.momentum));
   const auto aside = [&](std::size_t i) { return turned * (x(i) - m.centre) - (x(i) - m.centre); };
-  const glm::dvec3 shift = stop_at(work.planes, lane, h, h * (m.velocity + h * step.gravity), aside);
+  const glm::dvec3 meant = h * (m.velocity + h * step.gravity);
+  glm::dvec3 shift = stop_at(work.planes, lane, h, meant, aside);
+  if (const double stopped = glm::distance(shift, meant); stopped > 0) {
+    const glm::dvec3 normal = (shift - meant) / stopped, slip = shift - glm::dot(shift, normal) * normal;
+    shift -= law::within_cone(slip, friction_of(work, lane) * stopped);
+  }
   // Sums of squared speeds.
   double gain = -2 * glm::dot(step.gravity, shift) * double(particles), before = 0, spinning = 0;
   for (std::size_t i = 0; i < particles; ++i) {

@@ -45,7 +45,7 @@ double contact_work(const ImplicitWork& work, std::size_t lane) {
   const LaneView x{work.x, lane}, end_x{work.end_x, lane};
   double sum = 0;
   for (const PlaneContact& c : work.planes)  // they push out, and friction takes
-    if (c.at % implicit_lanes == lane) sum += glm::dot(c.force, c.normal) * c.out;
+    if (c.at % implicit_lanes == lane) sum += glm::dot(c.force, c.normal) * c.out();
   for (const LinearPenaltyPair& s : work.penalty_pairs) {
     if (s.at % implicit_lanes != lane) continue;
     const glm::dvec3 moved = end_x(s.at / implicit_lanes) - x(s.at / implicit_lanes);

@@ -33,16 +33,8 @@ LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, LaneM
         const SurfaceAt<double> surface = surface_from(s, own, x);
         const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
         const double out = law::min_move(surface.distance, h);
-        double min_displacement = out;
-        if (glm::dot(frames.free_displacement(lane, x, v), normal) < out) {
-          in_contact.set(lane);
-          // The spin takes the particle on, along its circle, so it is not what brings it to the plane.
-          const double approach = -glm::dot(frames.velocity_without_spin(lane, x, v), normal);
-          min_displacement = std::max(min_displacement, std::min(0.0, glm::dot(frames.turn(lane, x), normal)) +
-                                                            law::rebound(approach, h * double(s.restitution)));
-        }
-        work.planes.push_back(
-            {at, double(s.friction), double(s.restitution), normal, min_displacement, std::max(0.0, out)});
+        if (glm::dot(frames.free_displacement(lane, x, v), normal) < out) in_contact.set(lane);
+        work.planes.push_back({at, double(s.friction), double(s.restitution), normal, out});
       }
     }
   }

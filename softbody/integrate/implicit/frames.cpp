@@ -26,10 +26,6 @@ ImplicitFrames ImplicitFrames::falling(const glm::dvec3& fall) const {
   return result;
 }
 
-glm::dvec3 ImplicitFrames::velocity_without_spin(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const {
-  return v - glm::cross(frames_[lane].spin, x - frames_[lane].body.centre);
-}
-
 glm::dvec3 ImplicitFrames::turn(std::size_t lane, const glm::dvec3& x) const {
   const Frame& f = frames_[lane];
   return f.turned * (x - f.body.centre) - (x - f.body.centre);
@@ -37,7 +33,7 @@ glm::dvec3 ImplicitFrames::turn(std::size_t lane, const glm::dvec3& x) const {
 
 glm::dvec3 ImplicitFrames::free_displacement(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const {
   const Frame& f = frames_[lane];
-  const glm::dvec3 own = velocity_without_spin(lane, x, v) - f.body.velocity;
+  const glm::dvec3 own = v - glm::cross(f.spin, x - f.body.centre) - f.body.velocity;
   return h_ * f.body.velocity + fall_ + turn(lane, x) + f.turned * (h_ * own);
 }
 

@@ -41,8 +41,6 @@ class ImplicitFrames {
   void leave(Lanes& x, Lanes& v) const;
 
   // For a particle with x, v at the start, in the world:
-  /// Returns its velocity (m/s) without the frame's rotation.
-  glm::dvec3 velocity_without_spin(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const;
   /// Returns its displacement (m) in the step by the frame's rotation.
   glm::dvec3 turn(std::size_t lane, const glm::dvec3& x) const;
   /// Returns its displacement (m) in the step if no force acts on it.

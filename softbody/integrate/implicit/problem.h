@@ -1,6 +1,7 @@
 #pragma once
 // The problem of one implicit step of the bodies in all lanes, and what touches them.
 
+#include <algorithm>
 #include <bitset>
 #include <span>
 
@@ -19,8 +20,9 @@ struct PlaneContact {
   double friction, restitution;
   glm::dvec3 normal;        // unit
   double min_displacement;  // m, that the particle has to move along the normal in this step
-  double out;               // m, what of that takes it out of the solid
   glm::dvec3 force{0.0};    // N
+
+  double out() const { return std::max(0.0, min_displacement); }  // m, that takes it out of the solid
 };
 
 /// The penalty contact between a particle of the batch and one of another body, to first order.

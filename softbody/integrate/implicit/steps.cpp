@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/contact/law.h"
 #include "softbody/integrate/implicit/attempts.h"
 #include "softbody/integrate/implicit/contact_search.h"
 
@@ -36,15 +37,21 @@ void write_end(const ImplicitWork& work, LaneMask moving, double h, const Implic
   }
 }
 
-void add_impulses(const ImplicitWork& work, double h, std::size_t first_lane, const ImplicitResult& result) {
+void add_impulses(const ImplicitStep& step, const ImplicitWork& work, std::size_t first_lane,
+                  const ImplicitResult& result) {
   const BodyField sum{result.impulse, first_lane, 1};
   for (const PlaneContact& c : work.planes) {
-    const std::size_t lane = c.at % implicit_lanes;
+    const std::size_t own = c.at % implicit_lanes, lane = first_lane + own;
     const double push = glm::dot(c.force, c.normal);
-    const glm::dvec3 impulse = h * push * c.normal;
-    sum.add(lane, impulse);
-    result.returned[first_lane + lane] += float(c.restitution * glm::length(impulse));
-    result.energy[first_lane + lane] += float(push * c.out);
+    if (push == 0) continue;
+    sum.add(own, step.h * push * c.normal);
+    // Within the step, the spin takes the particle along its circle.
+    const glm::dvec3 free = step.frames.free_displacement(own, read(work.x, c.at), read(work.v, c.at));
+    result.restitution[lane] = std::max(result.restitution[lane], float(c.restitution));
+    result.returned[lane] +=
+        float(law::returned(step.h * push, glm::dot(free / step.h - step.h * step.gravity, c.normal),
+                            glm::dot(read(work.end_v, c.at), c.normal), c.restitution));
+    result.energy[lane] += float(push * c.out());
   }
 }
 
@@ -87,7 +94,7 @@ void ImplicitSteps::advance_part(ImplicitWork& work, const ImplicitBatch& b, con
     if (open.any()) open &= ~attempt.advance(step, work, open);
   assert(open.none());
   write_end(work, moving, h, b, result);
-  add_impulses(work, h, b.first_lane, result);
+  add_impulses(step, work, b.first_lane, result);
 }
 
 double ImplicitSteps::take_work() {

@@ -24,11 +24,10 @@ void Motion::solve_implicit(const Worker& worker, const Batch& b, Quantity mean,
                           {.mean = field(array(mean)),
                            .rest = field(array(rest)),
                            .impulse = parts_.solids.impulse(b),
+                           .restitution = parts_.solids.restitution(b),
                            .returned = parts_.solids.returned(b),
                            .energy = parts_.solids.energy(b)},
                           double(h));
-  // What solids throw back is in the solve: for the velocities' contact nothing has come at them.
-  parts_.solids.clear_velocities(b);
 }
 
 void implicit_step(Motion& motion, const Worker& worker, const Substep& substep) {

@@ -1,0 +1,84 @@
+#include "softbody/contact/rebound.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "softbody/contact/law.h"
+
+namespace softbody {
+
+glm::dvec3 rebound(Impact& impact, const glm::dvec3& impulse, double returned, const glm::dvec3& before,
+                   const glm::dvec3& after, double mass) {
+  assert(mass > 0);
+  impact.given = 0;
+  const double push = glm::length(impulse);
+  const glm::dvec3 normal = push > 0 ? impulse / push : glm::dvec3(0.0);
+  if (const double approach = -glm::dot(before, normal); approach > law::impact_speed) {
+    if (impact.speed <= 0) impact.parting = -approach;
+    impact.speed = std::max(impact.speed, approach);
+  }
+  if (impact.speed <= 0) return glm::dvec3(0.0);
+  impact.energy += returned * normal;
+  const double energy = glm::length(impact.energy);
+  const glm::dvec3 way = energy > 0 ? impact.energy / energy : normal;
+  const double parting = glm::dot(after, way), last = std::exchange(impact.parting, parting);
+  const double little = 0.02 * impact.speed;  // the speed of what is pressed flat grows by less, and so it parts
+  if (parting < -little || (push > 0 && parting > last + little)) return glm::dvec3(0.0);
+  // No faster than it came.
+  const double speed = std::min(std::sqrt(parting * parting + 2 * energy / mass), std::max(parting, impact.speed));
+  impact.given = mass / 2 * (speed * speed - parting * parting);
+  impact.energy = glm::dvec3(0.0);
+  if (push <= 0 || speed < law::impact_speed) impact.speed = 0;  // it is over
+  return (speed - parting) * way;
+}
+
+void Rebounds::add(const Pair& done) {
+  const auto bodies = [](const Pair& p) { return std::pair(p.a, p.b); };
+  auto found = std::ranges::lower_bound(pairs_, bodies(done), {}, bodies);
+  if (found == pairs_.end() || bodies(*found) != bodies(done)) found = pairs_.insert(found, {done.a, done.b});
+  found->impulse += done.impulse;
+  found->returned += done.returned;
+}
+
+double Rebounds::give_back(State& state) {
+  const auto inverse_mass = [&](BodyId id) {
+    return state.body(id).moves() ? 1 / state.model(id).material[Material::mass] : 0;
+  };
+  const auto velocity = [&](BodyId id) {
+    const BodyField v = state.field_of(id, state.v);
+    const std::size_t count = state.batch_of(id).particles();
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < count && state.body(id).moves(); ++i) sum += v(i) / double(count);
+    return sum;
+  };
+  double given = 0;
+  for (Pair& p : pairs_) {
+    const double a = inverse_mass(p.a), b = inverse_mass(p.b);
+    if (a + b <= 0) {
+      p.impact = {};  // they sleep
+      continue;
+    }
+    const double mass = 1 / (a + b);
+    const glm::dvec3 impulse = std::exchange(p.impulse, glm::dvec3(0.0)), after = velocity(p.a) - velocity(p.b);
+    const glm::dvec3 change =
+        rebound(p.impact, impulse, std::exchange(p.returned, 0.0), after - impulse / mass, after, mass);
+    given += std::exchange(p.impact.given, 0.0);
+    if (change == glm::dvec3(0.0)) continue;
+    for (const auto& [id, share] : {std::pair(p.a, mass * a), std::pair(p.b, -mass * b)})
+      for (std::size_t i = 0; i < state.batch_of(id).particles(); ++i)
+        state.field_of(id, state.v).add(i, share * change);
+  }
+  std::erase_if(pairs_, [](const Pair& p) { return p.impact.speed <= 0; });
+  return given;
+}
+
+void Rebounds::remove(BodyId body) {
+  std::erase_if(pairs_, [&](const Pair& p) { return p.a == body || p.b == body; });
+  for (Pair& p : pairs_) p.a -= p.a > body, p.b -= p.b > body;
+}
+
+}  // namespace softbody
