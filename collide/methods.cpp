@@ -190,6 +190,7 @@ class Table {
   std::span<const Method> rows() const { return {rows_.data(), count_.load()}; }
   void add(Method row) {
     const std::scoped_lock lock(adding_);
+    assert(row.make && std::ranges::find(rows_, row.key, &Method::key) == rows_.end());
     if (rows_.size() == max_methods) throw std::length_error("more than " + std::to_string(max_methods) + " methods");
     rows_.push_back(std::move(row));
     count_ = rows_.size();
@@ -210,14 +211,12 @@ Table& table() {
 
 std::span<const Method> method_table() { return table().rows(); }
 
-void add_method(Method row) {
-  assert(!find_method(row.key) && row.make);
-  table().add(std::move(row));
-}
+void add_method(Method row) { table().add(std::move(row)); }
 
 const Method* find_method(std::string_view key) {
-  const auto found = std::ranges::find(method_table(), key, &Method::key);
-  return found == method_table().end() ? nullptr : &*found;
+  const std::span<const Method> rows = method_table();  // which may grow meanwhile
+  const auto found = std::ranges::find(rows, key, &Method::key);
+  return found == rows.end() ? nullptr : &*found;
 }
 
 std::string method_keys() {

@@ -31,7 +31,7 @@ constexpr std::array rows{
     Row{"octree", {rgb(0, 238, 238), Marker::filled_inverted_triangle, false}},
 };
 
-// For methods without a row, in turn. No common divisor of their numbers lets a pair come back early.
+// For methods without a row, in turn. 3 and 5 have no common divisor, so the first 15 methods all differ.
 constexpr std::array further_markers{Marker::star, Marker::inverted_triangle, Marker::pentagon};
 constexpr std::array further_colours{rgb(0, 0, 0), rgb(170, 0, 85), rgb(85, 102, 0), rgb(255, 85, 170),
                                      rgb(68, 51, 136)};

@@ -1,5 +1,5 @@
 #pragma once
-// Plays a recording, in place of a world that simulates.
+// Plays recorded frames, in place of a world that simulates.
 
 #include <memory>
 

@@ -33,7 +33,7 @@ class Session : private SimulationObserver {
   SurfaceMonitor surfaces;
 
   const softbody::BodiesInMotion& world() const { return simulation.world(); }
-  /// Returns the world if it is simulated; nullptr where a recording is played.
+  /// Returns the world if it is simulated; nullptr where recorded frames are played.
   const softbody::World* simulated() const { return simulation.simulated(); }
 
   /// Takes the steps that are due, now that `elapsed` seconds of real time have passed, and follows with all else.

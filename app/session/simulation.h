@@ -165,7 +165,7 @@ class Simulation {
 /// Returns the loaded scene with the settings in use.
 softbody::Scene scene_in_use(const Simulation& simulation);
 
-/// Returns what shows a scene, or plays a recording, in a window. Throws SceneError.
+/// Returns what shows a scene, or plays frames, in a window. Throws SceneError.
 ShownWorld show_in_window(const files::Opened& opened, int threads);
 /// Returns a world with the work limits of a window. Throws SceneError.
 std::unique_ptr<softbody::World> make_window_world(const softbody::Scene& scene,

@@ -28,7 +28,7 @@ void draw_frames(Widgets& w, Session& session, const session::Player& player) {
   const int last = player.recording()->frame_count() - 1;
   ImGui::BeginDisabled(last == 0);
   if (w.slider("Time line", frame, 0, last, fmt::format("frame %d of {}", grouped(std::uint64_t(last))).c_str(),
-               "Drag it to any frame of the recording; frames count from 0. It pauses there."))
+               "Drag it to any frame; frames count from 0. It pauses there."))
     session.simulation.rewind_to(frame);
   ImGui::EndDisabled();
 }
@@ -40,7 +40,7 @@ void draw_speed(Widgets& w, Session& session) {
   w.checkbox("Loop", session.simulation.loop, "Begins again after the last frame, and else pauses there.");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(w.px(speed_width));
-  if (w.slider("Speed", rate, 1, 240, "%.0f frames/s", "How many frames of the recording are shown each second.", true))
+  if (w.slider("Speed", rate, 1, 240, "%.0f frames/s", "How many frames are shown each second.", true))
     session.simulation.clock.speed = static_cast<double>(rate) * frame_time;
   ImGui::SameLine();
 }

@@ -122,8 +122,9 @@ struct Workers::Shared {
   /// Where other programs take the processor from a helper in the midst of its work, the caller waits for milliseconds.
   /// Then it works alone for a while, which grows with each such wait: no result depends on who does the work.
   void note_wait(Clock::duration own, Clock::duration waited) {
-    caution = waited > 2 * own + std::chrono::microseconds(100) ? std::min(2 * caution + 64, 4096) : caution / 2;
-    runs_alone = caution >= 64 ? caution : 0;
+    const bool is_long = waited > 2 * own + std::chrono::microseconds(100);
+    caution = is_long ? std::min(2 * caution + 64, 1024) : caution / 2;
+    if (is_long) runs_alone = caution;
   }
 
   /// The caller's thread takes part.

@@ -56,8 +56,8 @@ double step_of(std::span<const double> at, std::span<const Index> corners, int d
   double largest = 0;
   for (const Index v : corners) largest = std::max(largest, std::abs(at[v]));
   const bool floats = std::ranges::all_of(corners, [&](Index v) { return double(static_cast<float>(at[v])) == at[v]; });
-  const double binary = floats ? double(std::nextafter(static_cast<float>(largest), INFINITY)) - largest
-                               : std::nextafter(largest, INFINITY) - largest;
+  const double binary = floats ? largest - double(std::nextafter(static_cast<float>(largest), 0.0f))
+                               : largest - std::nextafter(largest, 0.0);
   const bool written = digits > 0 && largest > 0;
   return written ? std::max(binary, std::pow(10, std::floor(std::log10(largest)) + 1 - digits)) : binary;
 }
@@ -334,7 +334,7 @@ std::string remarks(const ImportFindings& f) {
   add(f.weights, " weights of vertices passed over");
   add(f.turned_faces, " faces turned");
   if (f.components - f.cavities > 1) add(f.components - f.cavities, " separate pieces, one body");
-  add(f.cavities, " cavities, which hold no gas");
+  add(f.cavities, f.cavities == 1 ? " cavity, which holds no gas" : " cavities, which hold no gas");
   const auto say = [&text](const std::string& what) { text.append(text.empty() ? "" : ", ").append(what); };
   if (!f.closed) say("open, so that it holds no gas");
   if (f.distance)

@@ -78,7 +78,7 @@ glm::dvec3 origin_near(const glm::dvec3& lo, const glm::dvec3& hi) {
   const glm::dvec3 half = 0.5 * hi - 0.5 * lo;
   int exponent = 0;
   std::frexp(std::max({half.x, half.y, half.z}), &exponent);
-  const double step = std::ldexp(1.0, std::min(exponent + 2, std::numeric_limits<double>::max_exponent - 1));
+  const double step = std::ldexp(1.0, std::clamp(exponent + 2, -900, 1000));
   return step * glm::round((0.5 * lo + 0.5 * hi) / step);
 }
 

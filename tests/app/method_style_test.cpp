@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <set>
 
-#include "app/compare/method_style.h"
 #include "tests/own_process.h"
 
 namespace app {

@@ -506,7 +506,7 @@ TEST(MeshImport, APartInsideAnotherThatFacesInwardsIsACavity) {
   EXPECT_TRUE(mesh.closed);
   EXPECT_NEAR(volume(mesh.vertices, mesh.triangles), ball_volume(1) - ball_volume(0.6), 1e-5);
   EXPECT_EQ(found.turned_faces, 0u);
-  EXPECT_EQ(remarks(found), "1 cavities, which hold no gas");
+  EXPECT_EQ(remarks(found), "1 cavity, which holds no gas");
 
   const auto expect = [](const std::string& obj, double wanted, std::size_t cavities, std::size_t turned) {
     const auto [m, f] = read(obj);
