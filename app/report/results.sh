@@ -5,7 +5,8 @@
 #   app/report/results.sh [PART...]      parts are the functions below; all if none is named
 #
 # SBCOLLIDE is the program (default: build/release/bin/sbcollide); BENCH is the folder of the benchmarks (default:
-# build/bench/bin), CCD_DATA that of the public queries of bench_ccd. A part whose binary or data are missing is left out. Run it on a quiet machine.
+# build/bench/bin), CCD_DATA that of the public queries of bench_ccd. A part whose binary or data are missing is left
+# out. Run it on a quiet machine.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 program=${SBCOLLIDE:-build/release/bin/sbcollide}
