@@ -18,19 +18,20 @@ glm::dvec3 rebound(Impact& impact, const glm::dvec3& impulse, double returned, c
   const double push = glm::length(impulse);
   const glm::dvec3 normal = push > 0 ? impulse / push : glm::dvec3(0.0);
   if (const double approach = -glm::dot(before, normal); approach > law::impact_speed) {
-    if (impact.speed <= 0) impact.parting = -approach;
-    impact.speed = std::max(impact.speed, approach);
+    if (impact.speed <= 0) impact.parting = float(-approach);
+    impact.speed = std::max(impact.speed, float(approach));
   }
   if (impact.speed <= 0) return glm::dvec3(0.0);
-  impact.energy += returned * normal;
+  impact.energy += std::max(0.0, returned) * normal;
   const double energy = glm::length(impact.energy);
   const glm::dvec3 way = energy > 0 ? impact.energy / energy : normal;
-  const double parting = glm::dot(after, way), last = std::exchange(impact.parting, parting);
-  const double little = 0.02 * impact.speed;  // the speed of what is pressed flat grows by less, and so it parts
+  const double parting = glm::dot(after, way), came = double(impact.speed);
+  const double last = double(std::exchange(impact.parting, float(parting)));
+  const double little = 0.02 * came;  // the speed of what is pressed flat grows by less, and so it parts
   if (parting < -little || (push > 0 && parting > last + little)) return glm::dvec3(0.0);
   // No faster than it came.
-  const double speed = std::min(std::sqrt(parting * parting + 2 * energy / mass), std::max(parting, impact.speed));
-  impact.given = mass / 2 * (speed * speed - parting * parting);
+  const double speed = std::min(std::sqrt(parting * parting + 2 * energy / mass), std::max(parting, came));
+  impact.given = float(mass / 2 * (speed * speed - parting * parting));
   impact.energy = glm::dvec3(0.0);
   if (push <= 0 || speed < law::impact_speed) impact.speed = 0;  // it is over
   return (speed - parting) * way;
@@ -66,7 +67,7 @@ double Rebounds::give_back(State& state) {
     const glm::dvec3 impulse = std::exchange(p.impulse, glm::dvec3(0.0)), after = velocity(p.a) - velocity(p.b);
     const glm::dvec3 change =
         rebound(p.impact, impulse, std::exchange(p.returned, 0.0), after - impulse / mass, after, mass);
-    given += std::exchange(p.impact.given, 0.0);
+    given += double(std::exchange(p.impact.given, 0.0f));
     if (change == glm::dvec3(0.0)) continue;
     for (const auto& [id, share] : {std::pair(p.a, mass * a), std::pair(p.b, -mass * b)})
       for (std::size_t i = 0; i < state.batch_of(id).particles(); ++i)

@@ -274,7 +274,7 @@ void Solver::finish_frame(double seconds, Field<float> places) {
     state_.write_positions(batches[i], vertices_->first, places);  // while they are in the cache
   });
   for (BodyId id = 0; id < state_.body_count(); ++id)
-    state_.ledger.book(WorkBy::solids, std::exchange(state_.memory(id).impact.given, 0.0));
+    state_.ledger.book(WorkBy::solids, double(std::exchange(state_.memory(id).impact.given, 0.0f)));
 }
 
 void Solver::finish(const Batch& b, double seconds) {

@@ -39,10 +39,10 @@ struct BatchView {
 
 /// What is remembered of an impact until the two sides part, see contact/rebound.h.
 struct Impact {
-  double speed = 0;        // m/s, the largest with which they came together; 0: it is over, or was slow
-  double parting = 0;      // m/s, of the last frame
   glm::dvec3 energy{0.0};  // J along the contact's normals, that restitution has to give back
-  double given = 0;        // J, that it gave back in the last frame
+  float speed = 0;         // m/s, the largest with which they came together; 0: it is over, or was slow
+  float parting = 0;       // m/s, of the last frame
+  float given = 0;         // J, that it gave back in the last frame
 };
 
 /// What World, Sleep and Resistance remember of a body from one frame to the next.

@@ -183,8 +183,8 @@ TEST_P(SolidKernels, OfASphereActWhereverTheLawDoesAndNowhereElse) {
       const auto surface =
           body::surface_at(SphereShape<float>{3}, body::Vec<float>{float(at.x), float(at.y), float(at.z)});
       expected[l] = {float(speed.x), float(speed.y), float(speed.z)};
-      float given = 0;
-      acted += body::respond(s, 1.0f, surface.distance, surface.normal, {}, expected[l], given) > 0;
+      float given = 0, back = 0;
+      acted += body::respond(s, 1.0f, surface.distance, surface.normal, {}, expected[l], given, back) > 0;
     }
     act(s);
     for (int l = 0; l < lanes; ++l)

@@ -270,7 +270,7 @@ TEST_F(ResistanceOfABody, DampsARebound) {
 TEST_F(ResistanceOfABody, ReturnsWhatItDampedOfARebound) {
   const glm::dvec3 before = motion().velocity;
   const double impulse = 0.5 * material[Material::mass] * material[contact::rebound_speed];
-  impact = {.speed = 10, .parting = before.y};
+  impact = {.speed = 10, .parting = float(before.y)};
   apply({Stage::rebound_damping, Stage::restitution}, {{0, impulse, 0}, 1});
   EXPECT_NEAR(motion().velocity.y, before.y, 1e-5);
 }
