@@ -13,6 +13,7 @@
 #include "collide/core/vertex_run.h"
 #include "random_scene.h"
 #include "require.h"
+#include "softbody/model/body_model.h"
 #include "softbody/scene/limits.h"
 #include "softbody/scene/scene_write.h"
 #include "softbody/world/measures.h"

@@ -16,7 +16,7 @@ StepBound bound_of(const World& world) {
   const PenaltyContact penalty;
   const SolidContact solids(state);
   collide::Workers workers(1);
-  Crew crew(workers, 0);
+  Crew crew(workers);
   std::vector<const Batch*> moving;
   for (const Batch& b : state.batches()) moving.push_back(&b);
   crew.take(std::move(moving), state.particle_count());
