@@ -1,4 +1,4 @@
-#include "app/cli/continuous.h"
+#include "app/cli/commands.h"
 
 #include <array>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "app/cli/detect.h"
+#include "app/cli/commands.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/continuous.h"
 #include "app/cli/method_runs.h"
 #include "app/compare/score.h"
 #include "app/files/output_file.h"
