@@ -1,6 +1,8 @@
 #include "app/cli/commands.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <iterator>
@@ -62,11 +64,19 @@ void write_contacts(files::OutputFile& csv, const SequenceTask& task, std::size_
     return std::minmax(file_vertex[c.a], file_vertex[c.b]);
   };
   if (!std::ranges::is_sorted(contacts, {}, in_file)) std::ranges::sort(contacts, {}, in_file);
+  std::array<char, 160> line;  // five integers of at most 20 digits, and a real number
   for (auto [a, b] : contacts) {
     if (file_vertex[a] > file_vertex[b]) std::swap(a, b);
+    char* end = line.begin();
+    for (const std::size_t number :
+         std::array<std::size_t, 5>{frame, file_vertex[a], file_vertex[b], bodies->body_of(a), bodies->body_of(b)}) {
+      end = std::to_chars(end, line.end(), number).ptr;  // not by fmt: a table may have millions of lines
+      *end++ = ',';
+    }
     const double distance{std::sqrt(collide::squared_distance(x[a], y[a], z[a], x[b], y[b], z[b]))};
-    csv.write(fmt::format("{},{},{},{},{},{:.9g}\n", frame, file_vertex[a], file_vertex[b], bodies->body_of(a),
-                          bodies->body_of(b), distance));
+    end = std::to_chars(end, line.end(), distance, std::chars_format::general, 9).ptr;
+    *end++ = '\n';
+    csv.write({line.begin(), end});
   }
 }
 
