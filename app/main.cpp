@@ -6,10 +6,7 @@
 #include <new>
 
 #include "app/base/streams.h"
-#include "app/cli/detect.h"
-#include "app/cli/list.h"
-#include "app/cli/options.h"
-#include "app/cli/simulate.h"
+#include "app/cli/commands.h"
 #include "app/files/scene_folder.h"
 #include "app/files/temporary_file.h"
 #include "app/report/report.h"

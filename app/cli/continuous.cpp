@@ -1,14 +1,15 @@
-#include "app/cli/continuous.h"
+#include "app/cli/commands.h"
 
 #include <array>
+#include <charconv>
 #include <iostream>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "app/base/timings.h"
-#include "app/files/meetings_csv.h"
 #include "app/files/motion_file.h"
+#include "app/files/output_file.h"
 
 namespace app::cli {
 namespace {
@@ -38,15 +39,32 @@ struct Figures {
   }
 };
 
+/// Returns a number with the fewest digits that identify it.
+std::string shortest(double number) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.begin(), text.end(), number).ptr};
+}
+
+/// Returns a line of the table of meetings.
+std::string csv_line(const FeatureMeeting& meeting) {
+  const auto& [a0, a1] = meeting.feature;
+  const auto& [b0, b1, b2] = meeting.against;
+  const std::string features = meeting.kind == FeatureMeeting::Kind::vertex_face
+                                   ? fmt::format("vf,{},,{},{},{}", a0, b0, b1, b2)
+                                   : fmt::format("ee,{},{},{},{},", a0, a1, b0, b1);
+  return fmt::format("{},{},{},{:d}\n", features, shortest(meeting.first.low), shortest(meeting.first.high),
+                     meeting.passes);
+}
+
 Figures find(const files::MotionFiles& motion, const Options& options) {
-  std::optional<files::MeetingsCsv> csv;
-  if (options.detect.contacts) csv.emplace(*options.detect.contacts);
+  std::optional<files::OutputFile> csv;
+  if (options.detect.contacts) csv.emplace(*options.detect.contacts, "kind,a0,a1,b0,b1,b2,time_low,time_high,passes\n");
   Figures figures;
   collide::Workers workers(options.threads);
   const auto take = [&](const std::vector<FeatureMeeting>& meetings) {
     for (const FeatureMeeting& m : meetings) {
       figures.count(m, motion.mesh.body[m.feature[0]] == motion.mesh.body[m.against[0]]);
-      if (csv) csv->add(m);
+      if (csv) csv->write(csv_line(m));
     }
   };
   figures.ms = time_ms([&] { collide::oracle::find_meetings(motion.mesh, workers, take); });

@@ -1,17 +1,19 @@
-#include "app/cli/detect.h"
+#include "app/cli/commands.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <iterator>
+#include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/continuous.h"
 #include "app/cli/method_runs.h"
 #include "app/compare/score.h"
-#include "app/files/contacts_csv.h"
+#include "app/files/output_file.h"
 
 namespace app::cli {
 namespace {
@@ -53,12 +55,38 @@ SequenceTask read_sequence(const Options& options, std::vector<std::string>& not
   return task;
 }
 
+/// Sorts the contacts of a frame by the numbers that vertices have in the file, and writes a line for each.
+void write_contacts(files::OutputFile& csv, const SequenceTask& task, std::size_t frame,
+                    std::vector<collide::Contact>& contacts) {
+  const std::vector<collide::Index>& file_vertex = task.of().meshes.file_vertex;
+  const auto [x, y, z, bodies] = task.frames[frame].view();
+  const auto in_file = [&](const collide::Contact& c) -> std::pair<collide::Index, collide::Index> {
+    return std::minmax(file_vertex[c.a], file_vertex[c.b]);
+  };
+  if (!std::ranges::is_sorted(contacts, {}, in_file)) std::ranges::sort(contacts, {}, in_file);
+  std::array<char, 160> line;  // five integers of at most 20 digits, and a real number
+  for (auto [a, b] : contacts) {
+    if (file_vertex[a] > file_vertex[b]) std::swap(a, b);
+    char* end = line.begin();
+    for (const std::size_t number :
+         std::array<std::size_t, 5>{frame, file_vertex[a], file_vertex[b], bodies->body_of(a), bodies->body_of(b)}) {
+      end = std::to_chars(end, line.end(), number).ptr;  // not by fmt: a table may have millions of lines
+      *end++ = ',';
+    }
+    const double distance{std::sqrt(collide::squared_distance(x[a], y[a], z[a], x[b], y[b], z[b]))};
+    end = std::to_chars(end, line.end(), distance, std::chars_format::general, 9).ptr;
+    *end++ = '\n';
+    csv.write({line.begin(), end});
+  }
+}
+
 MethodRun run_one(const collide::Method& method, const Options& options, const SequenceTask& task) {
-  std::optional<files::ContactsCsv> csv;
-  if (options.detect.contacts) csv.emplace(*options.detect.contacts);
+  std::optional<files::OutputFile> csv;
+  if (options.detect.contacts)  // the heading protects a mesh that stands where the user forgot the name
+    csv.emplace(*options.detect.contacts, "frame,vertex_a,vertex_b,body_a,body_b,distance\n");
   // The contacts are written at once, because the lists of all frames may be too large to keep.
-  MethodRun run = run_method(method, task, [&](std::size_t frame, const std::vector<collide::Contact>& contacts) {
-    if (csv) csv->add(frame, task.frames[frame].view(), task.of().meshes.file_vertex, contacts);
+  MethodRun run = run_method(method, task, [&](std::size_t frame, std::vector<collide::Contact>& contacts) {
+    if (csv) write_contacts(*csv, task, frame, contacts);
   });
   if (csv) csv->commit();
   return run;

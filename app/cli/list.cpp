@@ -1,4 +1,4 @@
-#include "app/cli/list.h"
+#include "app/cli/commands.h"
 
 #include <iostream>
 #include <optional>

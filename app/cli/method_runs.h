@@ -46,8 +46,8 @@ struct MethodRun {
   std::string not_run;          // why it did not run to the end, else empty
 };
 
-/// Is called with the number of a frame and its contacts in the first run over the sequence.
-using ContactsSink = std::function<void(std::size_t frame, const std::vector<collide::Contact>& contacts)>;
+/// Is called with the number of a frame and its contacts in the first run over the sequence. It may sort them.
+using ContactsSink = std::function<void(std::size_t frame, std::vector<collide::Contact>& contacts)>;
 
 /// Runs one method. Throws UsageError if a frame has more contacts than a method may report.
 MethodRun run_method(const collide::Method& method, const SequenceTask& task, const ContactsSink& sink);

@@ -1,4 +1,4 @@
-#include "app/cli/simulate.h"
+#include "app/cli/commands.h"
 
 #include <unistd.h>
 

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <numeric>
 
-#include "app/compare/heap.h"
+#include "app/base/heap.h"
 #include "app/compare/score.h"
 
 namespace app::compare {

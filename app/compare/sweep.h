@@ -46,7 +46,7 @@ struct SweepRow {
   collide::Coverage coverage = collide::Coverage::exact;
   std::size_t contacts = 0, missed = 0;
   double recall = 1, precision = 1;  // see Score; 1 where there is no reference
-  std::size_t memory = 0;            // bytes of a new detector and its contacts after the frame, see heap.h
+  std::size_t memory = 0;            // bytes of a new detector and its contacts after the frame, see heap_in_use()
 };
 
 struct SweepReport {

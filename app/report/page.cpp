@@ -1,5 +1,10 @@
 #include "app/report/page.h"
 
+#include <fstream>
+#include <iterator>
+
+#include "engine/resources.h"
+
 namespace app::report {
 
 std::string warn_of_busy_machine(const TimedParts& timed) {
@@ -7,6 +12,17 @@ std::string warn_of_busy_machine(const TimedParts& timed) {
   if (!(timed.processor < min_share * timed.wall)) return {};
   return fmt::format("Times may be off: the program got only {:.0f} % of a core while they were taken.",
                      100 * timed.processor / timed.wall);
+}
+
+void Page::fill(const std::string& report, fmt::format_args holes) {
+  const std::filesystem::path file = engine::find_folder("assets/reports") / (report + ".txt");
+  std::ifstream in(file);
+  const std::string pattern(std::istreambuf_iterator<char>(in), {});
+  if (pattern.empty()) throw engine::ResourceError(file.string() + ": cannot be read; install the program again");
+  std::string text = fmt::vformat(pattern, holes);
+  constexpr std::string_view empty_item = "- \n";
+  for (auto at = text.find(empty_item); at != text.npos; at = text.find(empty_item)) text.erase(at, empty_item.size());
+  parts_.push_back(std::move(text));
 }
 
 void Page::warn(const std::string& text) {

@@ -24,14 +24,11 @@ class Page {
   void text(fmt::format_string<Values...> pattern, Values&&... values) {
     parts_.push_back(fmt::format(pattern, std::forward<Values>(values)...) + "\n");
   }
-  /// Adds an item of a list.
-  template <class... Values>
-  void item(fmt::format_string<Values...> pattern, Values&&... values) {
-    const std::string text = fmt::format("- {}\n", fmt::format(pattern, std::forward<Values>(values)...));
-    if (!parts_.empty() && parts_.back().starts_with("- "))
-      parts_.back() += text;
-    else
-      parts_.push_back(text);
+  /// Adds the text of assets/reports/`report`.txt. holes: fmt::arg() for each of its {names}. Leaves out an item that
+  /// is only a hole, and empty. Throws engine::ResourceError if the file cannot be read.
+  template <class... Holes>
+  void introduction(const std::string& report, const Holes&... holes) {
+    fill(report, fmt::make_format_args(holes...));
   }
   /// Adds a paragraph that write_report() also prints on standard error. An empty one is left out.
   void warn(const std::string& text);
@@ -46,6 +43,8 @@ class Page {
   std::string markdown(bool with_plots) const;
 
  private:
+  void fill(const std::string& report, fmt::format_args holes);
+
   std::vector<std::string> parts_;  // empty: the next plot
   std::vector<Plot> plots_;
   std::vector<std::string> warnings_;

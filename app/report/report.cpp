@@ -5,6 +5,7 @@
 
 #include "app/base/usage_error.h"
 #include "app/files/scene_folder.h"
+#include "engine/resources.h"
 
 namespace app::report {
 namespace {
@@ -29,7 +30,9 @@ const Report& find_report(const std::string& name) {
 
 void report(const ReportOptions& options) {
   const Report& report = find_report(options.name);
-  files::scene_folder();  // throws where there is none: some reports open their scenes only after minutes
+  // They throw where there is none: some reports need them only after minutes.
+  files::scene_folder();
+  engine::find_folder("assets/reports");
   report.make(options);
 }
 

@@ -2,7 +2,7 @@
 
 #include <cassert>
 
-#include "app/base/freed_memory.h"
+#include "app/base/heap.h"
 
 namespace app::session {
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "app/base/heap.h"
 #include "app/compare/compare.h"
-#include "app/compare/heap.h"
 #include "softbody/world/world.h"
 #include "tests/app/scenes.h"
 
@@ -92,7 +92,7 @@ TEST(Sweep, ReportsWhatNewDetectorsFind) {
     EXPECT_EQ(row.missed, report.true_contacts - row.contacts);
     EXPECT_TRUE(row.recall == 1.0 || !method.exact) << method.key;
     if (method.key == "grid-hash") {
-      EXPECT_TRUE(row.memory > c.settings.buckets || compare::heap_in_use() == 0) << "at least a byte per bucket";
+      EXPECT_TRUE(row.memory > c.settings.buckets || heap_in_use() == 0) << "at least a byte per bucket";
     }
   }
 }

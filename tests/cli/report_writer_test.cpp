@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "app/report/contact/results.h"
+#include "app/report/detection/results.h"
 #include "app/report/page.h"
+#include "app/report/stability/results.h"
 
 namespace app::test {
 namespace {
@@ -56,14 +59,30 @@ TEST(Plot, IsDrawnSeriesBySeries) {
 TEST(Page, HasOneEmptyLineBetweenItsParts) {
   report::Page page;
   page.text("# {}", "Balls");
-  page.item("first");
-  page.item("second");
+  page.text("- first\n- second");
   page.plot(line());
   page.plot({.name = "nothing", .caption = "", .title = "", .x = "", .y = "", .settings = ""});
   page.text("The end.");
   EXPECT_EQ(page.plots().size(), 1u);
   EXPECT_EQ(page.markdown(true), "# Balls\n\n- first\n- second\n\n![A line.](<line.svg>)\n\nThe end.\n");
   EXPECT_EQ(page.markdown(false), "# Balls\n\n- first\n- second\n\nThe end.\n");
+}
+
+TEST(Page, FillsTheHolesOfIntroductionsAndLeavesOutEmptyItems) {
+  const auto check = [](auto results, report::Page (*page_of)(const decltype(results)&)) {
+    results.command = "this";
+    for (const bool quick : {false, true}) {
+      results.quick = quick;
+      const std::string text = page_of(results).markdown(false);
+      EXPECT_NE(text.find("\n\n`this` makes this report."), text.npos) << text;
+      EXPECT_EQ(text.find_first_of("{}"), text.npos) << text;
+      EXPECT_EQ(text.find("\n- \n"), text.npos) << text;
+      EXPECT_EQ(text.find("\n- This is the quick report") != text.npos, quick) << text;
+    }
+  };
+  check(report::ContactResults{}, report::contact_page);
+  check(report::DetectionResults{}, report::detection_page);
+  check(report::StabilityResults{}, report::stability_page);
 }
 
 TEST(WarnOfBusyMachine, ComparesProcessorTimeWithTheClock) {

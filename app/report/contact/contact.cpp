@@ -88,13 +88,6 @@ class ContactReport {
   std::vector<Job> jobs_;
 };
 
-void add_impacts(ContactReport& report, bool quick) {
-  for (const Impact& impact : impacts()) {
-    for (const double speed : quick ? std::span<const double>(quick_speeds) : std::span<const double>(speeds))
-      report.add_impact(impact, speed);
-  }
-}
-
 }  // namespace
 
 void report_contact(const ReportOptions& options) {
@@ -104,7 +97,11 @@ void report_contact(const ReportOptions& options) {
   for (const softbody::Scene& scene : scenes) {
     if (!options.quick || options.scene || std::ranges::count(quick_scenes, scene.key) > 0) report.add_scene(scene);
   }
-  if (!options.scene) add_impacts(report, options.quick);
+  if (!options.scene) {
+    for (const Impact& impact : impacts())
+      for (const double speed : options.quick ? std::span<const double>(quick_speeds) : speeds)
+        report.add_impact(impact, speed);
+  }
   report.run();
   write_report(options.out, "contact.csv", contact_table(report.results), "contact.md", contact_page(report.results));
 }

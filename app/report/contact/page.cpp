@@ -123,41 +123,11 @@ Plot passed_against_speed(std::span<const ContactCase> cases) {
 // ---- the page ----
 
 void add_introduction(Page& page, const ContactResults& r) {
-  page.text("# Contact: how accurate it is, and what it costs");
-  page.text("`{}` makes this report. All figures except times are the same on every machine.", r.command);
-  page.item(
-      "Every scene, and spheres thrown at 1 to 1,000 m/s, run with surface contact and with the paper's vertex-vertex "
-      "contact at several tolerances. \"x 1\" is the scene's own tolerance (0.2 R for the spheres). An oracle judges "
-      "them. It shares no code with the detectors and the contact response.");
-  page.item(
-      "Vertex-vertex contact runs with the literal method and with one of the exact methods. All other methods are "
-      "exact, too: they find the same contacts, so the bodies move alike. `report detection` says what each costs. "
-      "Surface contact has one search of its own, which is exact. Detector and tolerance do not change what it does, "
-      "so it has one row.");
-  page.item(
-      "The oracle looks for overlaps every {} frames (impacts: every frame). Penetrating: vertices inside another "
-      "body, per look. Missed: the share of them that no contact of the detector joins to that body. R: radius of the "
-      "smallest closed body.",
-      r.limits.stride);
-  page.item(
-      "Passed: vertices that came to the other side of a surface from one frame to the next (where bodies are slow, "
-      "from one centimetre of motion to the next), summed. The path of a vertex is taken as a straight line, which "
-      "cuts the corners of a curved path. So a vertex that went in and out counts only if its bodies passed each other "
-      "by more than R. `contact.csv` also has all passages of vertices through faces and of edges through edges. "
-      "Through a solid: bodies whose middle went through one.");
-  page.item("Jitter: RMS speed over the last second of the particles whose bodies do not sleep.");
-  page.item("ms: processor time of a step on one thread, mean over the frames until all bodies slept.");
-  page.item(
-      "A scene fails if: something is not finite; anything passed or went through a solid; a body pierces itself at "
-      "the end; something is deeper than {:g} R at the end, or in a solid at any time; in scenes with gravity also if "
-      "not all bodies sleep after {} frames.",
-      ContactTrial::depth_bound, r.limits.frames);
-  page.item(
-      "Budget: scenes with more than {} vertices times frames, and runs of more than {:g} s of processor time, are "
-      "listed as over budget.",
-      whole(static_cast<double>(r.vertex_frames)), r.limits.seconds);
-  page.item("`contact.csv` has every figure.");
-  if (r.quick) page.item("This is the quick report: fewer scenes, frames, speeds and tolerances.");
+  page.introduction(
+      "contact", fmt::arg("command", r.command), fmt::arg("stride", r.limits.stride),
+      fmt::arg("depth", ContactTrial::depth_bound), fmt::arg("frames", r.limits.frames),
+      fmt::arg("budget", whole(static_cast<double>(r.vertex_frames))), fmt::arg("seconds", r.limits.seconds),
+      fmt::arg("quick", r.quick ? "This is the quick report: fewer scenes, frames, speeds and tolerances." : ""));
 }
 
 std::string missed_share(std::size_t missed, std::size_t penetrations, const ContactChoice& choice) {

@@ -155,36 +155,16 @@ std::string in_words(const compare::Configuration& c) {
 
 void add_introduction(Page& page, const DetectionResults& r) {
   const compare::SweepLimits& l = r.limits;
-  page.text("# Collision detection: what every method costs, and what it misses");
-  page.text(
-      "`{}` makes this report. Its times are those of the machine that it ran on: compare them with one another. "
-      "Contacts, hashes and boxes are the same on every machine, and so are pair tests, except those of the exact "
-      "method.",
-      r.command);
-  page.item(
-      "Every method runs on the same recorded states, over levels 0, 3, 6, 9, four bucket counts and five cell sizes, "
-      "as far as it uses them. A cell size is given in units of the automatic one: the largest box of its level {} + "
-      "the tolerance.",
-      r.of_files > 0 ? "at rest (without --rest, in the first frame)" : "at rest");
-  if (r.of_files > 0)
-    page.item(
-        "The states are frames of a recorded sequence of {}, counted from 0. Left out is what needs the scenes of the "
-        "program: the paper's Table 1 and the growth with the number of bodies.",
-        grouped(r.of_files));
-  page.item(
-      "Detectors run on {} thread{}, from scratch: they forget before each run what they learnt from earlier frames. "
-      "All configurations run once to be checked and at most {} times to be timed, in rounds of shuffled order. A "
-      "configuration that has taken {:g} ms is left out of further rounds.",
-      r.threads, r.threads == 1 ? "" : "s", l.repetitions, l.repeat_ms);
-  page.item(
-      "Budget: a configuration that is predicted to take more than {} pair tests is not run. A hash evaluation counts "
-      "as 32.",
-      grouped(l.budget));
-  page.item(
-      "Memory is what a new detector and its list of contacts hold after a frame, correct to some KiB. Detectors keep "
-      "their scratch memory, so this is their peak from then on.");
-  page.item("`detection.csv` has every row of every state.");
-  if (r.quick) page.item("This is the quick report: fewer scenes, frames, states and repetitions.");
+  const std::string sequence = fmt::format(
+      "The states are frames of a recorded sequence of {}, counted from 0. Left out is what needs the scenes of the "
+      "program: the paper's Table 1 and the growth with the number of bodies.",
+      grouped(r.of_files));
+  page.introduction(
+      "detection", fmt::arg("command", r.command), fmt::arg("sequence", r.of_files > 0 ? sequence : ""),
+      fmt::arg("shape", r.of_files > 0 ? "at rest (without --rest, in the first frame)" : "at rest"),
+      fmt::arg("threads", r.threads), fmt::arg("plural", r.threads == 1 ? "" : "s"),
+      fmt::arg("repetitions", l.repetitions), fmt::arg("repeat_ms", l.repeat_ms), fmt::arg("budget", grouped(l.budget)),
+      fmt::arg("quick", r.quick ? "This is the quick report: fewer scenes, frames, states and repetitions." : ""));
 }
 
 // ---- Table 1 ----

@@ -1,13 +1,11 @@
-#include "app/report/solver/coarse.h"
-
 #include <algorithm>
-#include <cmath>
 
 #include <glm/geometric.hpp>
 
-#include "app/base/timings.h"
 #include "app/files/scene_folder.h"
+#include "app/reference/body_shape.h"
 #include "app/report/files.h"
+#include "app/report/solver/results.h"
 #include "softbody/model/body_model.h"
 #include "softbody/world/world.h"
 
@@ -58,15 +56,6 @@ Fall fall(const softbody::Scene& scene) {
   return done;
 }
 
-double rms_distance(const Look& a, const Look& b) {
-  double squares = 0;
-  for (std::size_t v = 0; v < a.about.size(); ++v) {
-    const glm::dvec3 way = a.about[v] - b.about[v];
-    squares += glm::dot(way, way);
-  }
-  return std::sqrt(squares / double(a.about.size()));
-}
-
 }  // namespace
 
 CoarseResults measure_coarse(bool quick) {
@@ -99,7 +88,7 @@ CoarseResults measure_coarse(bool quick) {
     for (std::size_t k = 0; k < falls[i].looks.size(); ++k) {
       const Look &here = falls[i].looks[k], &finest = falls.back().looks[k];
       run.middle = std::max(run.middle, glm::distance(here.middle, finest.middle) / radius);
-      run.shape = std::max(run.shape, rms_distance(here, finest) / radius);
+      run.shape = std::max(run.shape, reference::rms_distance(here.about, finest.about) / radius);
     }
     run.cost = solving[i].median() / solving.back().median();
   }

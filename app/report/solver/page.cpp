@@ -103,45 +103,15 @@ Plot error_against_time(const SolverCase& c, double bound) {
 constexpr std::array bounds{1e-1, 1e-2, 5e-3, 2e-3, 1e-3, 1e-4};  // R
 
 void add_introduction(Page& page, const SolverResults& r) {
-  page.text("# Solvers: error against run time");
-  page.text("`{}` makes this report.", r.command);
-  page.item(
-      "Every integrator advances each scene by {:g} s in frames of 1/{:.0f} s, with 1, 2, 4 ... of its steps per frame "
-      "(each step of XPBD has 20 substeps; `auto` chooses its own steps). Error: RMS over the particles of the "
-      "difference to the reference, in radii R, at the end.",
-      r.seconds, 1 / r.frame_time);
-  page.item(
-      "ms: processor time of the thread for whole steps, per simulated second; the median of {} repetitions that take "
-      "turns, or of fewer where these took {:g} s. Bodies of one mesh and material are solved side by side, one per "
-      "SIMD lane. \"Batch\" is the cost per body when {} are solved side by side. \"Alone\" is the cost of a lone "
-      "body. Plots show the batch. Scenes from files have the bodies that they have; their cost stands under "
-      "\"alone\".",
-      r.repetitions, r.max_run_seconds, softbody::lanes);
-  page.item(
-      "Reference: RK4 in double, written apart from the solvers, at a step that was halved until the positions changed "
-      "by less than {:g} R. Scenes with parts that it does not model are compared with the world's rk4 in floats.",
-      r.bound);
-  page.item(
-      "A curve ends with the first error that is not above the reference's own uncertainty, with the first run that "
-      "takes longer than {:g} s of processor time ({:g} s simulated), or with {} steps per frame. Each table is "
-      "followed by which. Runs are timed: on another machine a curve may end elsewhere.",
-      r.max_run_seconds, r.seconds, r.max_substeps);
-  page.item(
-      "Growth: the factor by which a disturbance of the start of 1e-8 R (floats: 1e-5 m) has grown at the end. No "
-      "solver is nearer to the reference than this growth times its rounding.");
-  page.item(
-      "Energy: difference to the reference's, divided by the energy above balance at the start or by m g R, whichever "
-      "is larger. Momentum: difference, divided by the body's own; only where nothing acts from outside. Inner speed: "
-      "RMS of all motion except that of the body as a whole. Where a body starts in balance, this is jitter.");
-  page.item(
-      "Order: order of the error, observed from each number of steps to its double. It is the median (of an even "
-      "number the mean of the middle two) over the longest row of errors, from {:g} R on, each of which is less than "
-      "{:g} times the one before. Of rows of the same length the one with the most steps counts. A row has at least "
-      "two falls, or one that reaches the reference's uncertainty. Since smaller falls are left out, the order is "
-      "rather too high than too low, and no order below {:.1f} is seen.",
-      SolverCase::max_order_error, SolverCase::clear_fall, -std::log2(SolverCase::clear_fall));
-  page.item("`solver.csv` has every figure.");
-  if (r.quick) page.item("This is the quick report: fewer scenes, steps and repetitions, and a coarser reference.");
+  page.introduction(
+      "solver", fmt::arg("command", r.command), fmt::arg("seconds", r.seconds),
+      fmt::arg("frame_rate", 1 / r.frame_time), fmt::arg("repetitions", r.repetitions),
+      fmt::arg("run_seconds", r.max_run_seconds), fmt::arg("lanes", softbody::lanes), fmt::arg("bound", r.bound),
+      fmt::arg("substeps", r.max_substeps), fmt::arg("order_error", SolverCase::max_order_error),
+      fmt::arg("clear_fall", SolverCase::clear_fall), fmt::arg("least_order", -std::log2(SolverCase::clear_fall)),
+      fmt::arg("quick", r.quick
+                            ? "This is the quick report: fewer scenes, steps and repetitions, and a coarser reference."
+                            : ""));
 }
 
 std::string two_digits(std::optional<double> value) { return value ? fmt::format("{:.2g}", *value) : ""; }

@@ -10,8 +10,6 @@
 
 #include "app/base/timings.h"
 #include "app/report/page.h"
-#include "app/report/solver/coarse.h"
-#include "app/report/solver/stiffness.h"
 #include "softbody/integrate/integrators.h"
 
 namespace app::report {
@@ -73,6 +71,40 @@ struct SolverCase {
   /// body that starts in balance are only rounding.
   std::optional<double> order(const WorkCurve& curve, double bound) const;
 };
+
+/// A fine body that falls on a solid sphere, simulated by so many particles.
+struct CoarseRun {
+  std::size_t particles;
+  double distance;  // R, between the two surfaces at rest, see softbody::coarsen(); 0: the mesh itself is simulated
+  double middle;    // R: the most that its middle is away from that of the finest run
+  double shape;     // R, the same of its vertices about the middle, RMS
+  double cost;      // time of the solver, in that of the finest run
+};
+
+struct CoarseResults {
+  std::size_t vertices = 0;     // of the mesh
+  std::vector<CoarseRun> runs;  // from coarse to fine
+};
+
+/// Measures what a coarse mesh that is simulated in place of a fine one costs and saves: the creature of the scene
+/// `shapes` at several resolutions, the finest of them the mesh itself. quick: once, with fewer.
+CoarseResults measure_coarse(bool quick);
+
+/// A body of one mesh.
+struct Stiffness {
+  std::size_t particles;
+  double sag;     // R: how much lower it is on the ground, at rest, than in free flight
+  double period;  // s, of its slowest swing after it was stretched
+};
+
+/// A body of one shape and one material, in meshes from coarse to fine.
+struct StiffnessCase {
+  std::string name;
+  std::vector<Stiffness> meshes;
+};
+
+/// Measures whether a material is as stiff in a fine mesh as in a coarse one. quick: without the finest meshes.
+std::vector<StiffnessCase> measure_stiffness(bool quick);
 
 struct SolverResults {
   std::string command;

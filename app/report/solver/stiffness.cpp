@@ -1,5 +1,3 @@
-#include "app/report/solver/stiffness.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>

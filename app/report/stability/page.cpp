@@ -82,31 +82,14 @@ Plot step_against_stiffness(const StabilityResults& results) {
 
 void add_introduction(Page& page, const StabilityResults& r) {
   constexpr reference::StabilityBounds b = reference::stability_bounds;
-  page.text("# Stability: extreme cases");
-  page.text("`{}` makes this report. All figures are the same on every machine.", r.command);
-  page.item(
-      "Every case runs for {:g} s, by every integrator, in frames of 1/30, 1/60 and 1/240 s, {}. Named integrators "
-      "take exactly one step of their own per frame (a step of XPBD has 20 substeps), so that the report shows where "
-      "they blow up. Only `auto` chooses its steps.",
-      r.seconds,
-      r.from_file ? "with all stiffnesses and pressures of the scene times a factor"
-                  : "with springs of 10 to 1e8 N/m (bend springs a fourth of it, gas pressure in proportion)");
-  page.item(
-      "A cell passes if: everything is finite; the energy that came from nowhere (beyond the work booked in the "
-      "solver's ledger) and was not lost again is never more than {:g} max(E0 - E_eq, m g R); the fastest particle and "
-      "the longest box stay within what this energy can give; no "
-      "particle is ever deeper than {:g} R in a solid (after 10 frames where it began inside), nor deeper than {:g} R "
-      "in the last quarter; no body goes through a solid; and at the end shape (RMS, moved and turned to fit) is "
-      "within {:g} R, volume within {:g} %, and motion within the body no more than {:g} m/s above a reference's.",
-      b.energy, b.transient, b.steady, b.shape, 100 * b.volume, b.rest);
-  page.item(
-      "Reference: RK4 in double, written apart from the solvers. It must have settled, be back in its shape (where "
-      "nothing but springs and gas acts), and change by less than 0.1 % when its step is halved or its start is "
-      "disturbed by 1e-7 R. A case without a reference is marked *, with the reason below its table, and judged on the "
-      "rest.");
-  page.item("E0 - E_eq and m g R are those of all bodies that have started or joined by then.");
-  page.item("`stability.csv` has every figure of every cell.");
-  if (r.quick) page.item("This is the quick report: fewer cases and stiffnesses, and half the time.");
+  page.introduction(
+      "stability", fmt::arg("command", r.command), fmt::arg("seconds", r.seconds),
+      fmt::arg("stiffnesses",
+               r.from_file ? "with all stiffnesses and pressures of the scene times a factor"
+                           : "with springs of 10 to 1e8 N/m (bend springs a fourth of it, gas pressure in proportion)"),
+      fmt::arg("energy", b.energy), fmt::arg("transient", b.transient), fmt::arg("steady", b.steady),
+      fmt::arg("shape", b.shape), fmt::arg("volume", 100 * b.volume), fmt::arg("rest", b.rest),
+      fmt::arg("quick", r.quick ? "This is the quick report: fewer cases and stiffnesses, and half the time." : ""));
 }
 
 /// Returns "1/60".

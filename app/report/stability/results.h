@@ -6,7 +6,7 @@
 
 #include "app/reference/stability_criteria.h"
 #include "app/report/page.h"
-#include "app/report/stability/step_map.h"
+#include "softbody/integrate/integrators.h"
 
 namespace app::report {
 
@@ -27,6 +27,17 @@ struct StabilitySection {
   std::string key, name;
   std::vector<StabilityRow> rows;
 };
+
+/// The largest step (s) with which a slightly disturbed ball in free flight keeps its energy for 300 steps.
+struct StableStep {
+  double stiffness = 0;  // N/m
+  double found = 0;
+  double predicted = 0;  // the integrator's own bound with its safety factor; infinite if it has none
+};
+inline constexpr double max_step_tried = 0.1;  // s
+
+/// Returns the largest stable step, up to max_step_tried, to within 10 %. `stiffness`: N/m.
+StableStep find_stable_step(const softbody::Integrator& integrator, double stiffness);
 
 struct StabilityResults {
   std::string command;

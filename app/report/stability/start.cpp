@@ -1,4 +1,4 @@
-#include "app/report/stability/start.h"
+#include "app/report/stability/cell.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,9 @@
-#include "app/report/stability/step_map.h"
-
 #include <cmath>
 #include <random>
 
 #include "app/reference/reference_body.h"
 #include "app/report/solver/scenes.h"
+#include "app/report/stability/results.h"
 #include "app/report/steps.h"
 #include "softbody/forces/bound.h"
 #include "softbody/world/measures.h"
