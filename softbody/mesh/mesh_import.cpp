@@ -267,18 +267,13 @@ class Importer {
       const Index to = welded_to_[corner];
       return (to == in_file_[edge[0]] || to == in_file_[edge[1]]) && moved_by_weld(corner);
     };
-    return std::ranges::any_of(faces,
-                               [&](std::size_t face) { return std::ranges::any_of(corners_of(face), is_moved_end); });
-  }
-
-  std::span<const Index> corners_of(std::size_t face) const {
-    const std::size_t begin = face > 0 ? mesh_file_.faces[face - 1].end : 0;
-    return std::span(mesh_file_.corners).subspan(begin, mesh_file_.faces[face].end - begin);
+    return std::ranges::any_of(
+        faces, [&](std::size_t face) { return std::ranges::any_of(mesh_file_.corners_of(face), is_moved_end); });
   }
 
   /// Returns the vertex numbers that a face of the file has at its side that became this edge of the mesh.
   std::string edge_in(std::size_t face, const Edge& edge) const {
-    const std::span<const Index> corners = corners_of(face);
+    const std::span<const Index> corners = mesh_file_.corners_of(face);
     const Edge welded = ordered(in_file_[edge[0]], in_file_[edge[1]]);
     Edge ends = welded;
     for (std::size_t i = 0; i < corners.size(); ++i) {
