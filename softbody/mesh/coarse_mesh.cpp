@@ -22,7 +22,6 @@
 namespace softbody {
 namespace {
 
-constexpr Index absent = ~Index{0};
 constexpr int max_tries = 8;
 
 /// The triangles of a mesh in a tree.
@@ -212,17 +211,8 @@ class Coarsener {
     Mesh mesh;
     for (std::size_t i = 0; i < left.size(); i += 3) mesh.triangles.push_back({left[i], left[i + 1], left[i + 2]});
     cut_off_blisters(mesh.triangles);
-    std::vector<Index> from, number(at_.size(), absent);
-    for (Triangle& t : mesh.triangles)
-      for (Index& corner : t) {
-        Index& known = number[corner];
-        if (known == absent) {
-          known = static_cast<Index>(from.size());
-          from.push_back(corner);
-          mesh.vertices.push_back(fine_.vertices[corner]);
-        }
-        corner = known;
-      }
+    std::vector<Index> from = renumber_vertices(mesh.triangles);
+    for (const Index v : from) mesh.vertices.push_back(fine_.vertices[v]);
     flip_edges(mesh);
     return {std::move(mesh), std::move(from)};
   }

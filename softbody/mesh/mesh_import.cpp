@@ -30,7 +30,6 @@ namespace {
 
 using collide::surface::Box;
 
-constexpr Index no_vertex = ~Index{0};
 constexpr const char* where_weld_is = "(in the window under Files, in a scene beside the mesh's path)";
 
 /// Returns the smallest rotation that brings `up` to the y axis.
@@ -88,7 +87,8 @@ class Importer {
     begin("cutting polygons into triangles");
     take_outlines();
     cut_polygons();
-    compact();
+    in_file_ = renumber_vertices(mesh_.triangles);
+    for (const Index v : in_file_) mesh_.vertices.push_back(position_[v]);
     begin("turning faces outwards");
     orient_faces();
     connect_triangles(mesh_);
@@ -205,20 +205,6 @@ class Importer {
     }
     if (mesh_.triangles.empty())
       fail("has no face with three different corners; check the export, or lower weld " + std::string(where_weld_is));
-  }
-
-  /// Removes the vertices that no triangle uses.
-  void compact() {
-    std::vector<Index> number(position_.size(), no_vertex);
-    for (Triangle& t : mesh_.triangles)
-      for (Index& corner : t) {
-        if (number[corner] == no_vertex) {
-          number[corner] = static_cast<Index>(in_file_.size());
-          in_file_.push_back(corner);
-          mesh_.vertices.push_back(position_[corner]);
-        }
-        corner = number[corner];
-      }
   }
 
   void orient_faces() {
