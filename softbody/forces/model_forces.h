@@ -46,6 +46,16 @@ const typename F::Data* data(const BodyModel& model) {
   return found ? &*found : nullptr;
 }
 
+/// Returns what the laws of the volume v pull with together (Pa), and how fast that grows with it.
+inline Jet volume_pull(const BodyModel& model, double v) {
+  Jet sum = 0;
+  for_each_force(Forces{}, [&]<class F>(Name<F>) {
+    if constexpr (coordinate_of<F>() == Coordinate::volume)
+      if (const auto* d = data<F>(model)) sum = sum + d->pull(Jet(v, 1));
+  });
+  return sum;
+}
+
 /// Returns a body model whose starting shape is the mesh itself, whether or not that is in equilibrium.
 std::shared_ptr<BodyModel> make_unbalanced_body_model(const MeshSource& mesh, const Material& material);
 

@@ -21,6 +21,7 @@
 
 #include <bitset>
 #include <cstddef>
+#include <optional>
 #include <type_traits>
 
 #include "softbody/forces/gas.h"
@@ -72,15 +73,11 @@ concept HasElements = requires {
   typename F::Data;
 };
 
+/// Returns the coordinate of which the force is a law; nothing for an object of the solver.
 template <class F>
-constexpr bool is_of_length() {
-  if constexpr (HasElements<F>) return F::coordinate == Coordinate::length;
-  return false;
-}
-template <class F>
-constexpr bool is_of_volume() {
-  if constexpr (HasElements<F>) return F::coordinate == Coordinate::volume;
-  return false;
+constexpr std::optional<Coordinate> coordinate_of() {
+  if constexpr (HasElements<F>) return F::coordinate;
+  return {};
 }
 
 /// True if the force changes velocities, in steps that are not made of forces alone.
@@ -92,8 +89,7 @@ concept Kicks = requires(const F& force, const ForceBatch& batch) {
 /// True if XPBD moves the particles to where the law has them.
 template <class F>
 constexpr bool is_projected() {
-  if constexpr (HasElements<F>) return F::coordinate != Coordinate::offset;
-  return false;
+  return HasElements<F> && coordinate_of<F>() != Coordinate::offset;
 }
 
 /// True if the force acts as a force in XPBD.
