@@ -51,7 +51,7 @@ World::Parts::Parts(Scene s, const Options& o)
   solver.set_max_candidates(o.max_candidates);
   solver.set_vertices(particles.bodies);
   solver.set_plan(plan);
-  check_sizes(models);
+  check_sizes(models, choice);
   set_integrator();
   if (scene.default_cell_size) settings.cell_size = default_cell_size(settings.levels);
   arrive();
@@ -66,9 +66,9 @@ void World::Parts::set_integrator() {
   solver.steps().set_choice(choice);
 }
 
-/// Throws SceneError if one of these models has too many particles for the integrator that is chosen.
-void World::Parts::check_sizes(const BodyModelSet& all) const {
-  if (!choice.integrator().implicit) return;
+/// Throws SceneError if one of these models has too many particles for this integrator.
+void World::Parts::check_sizes(const BodyModelSet& all, const IntegratorChoice& wanted) const {
+  if (!wanted.integrator().implicit) return;
   for (const auto& p : all.all())
     if (const auto count = p->mesh.vertices.size(); count > max_implicit_particles)
       throw SceneError("scene '" + scene.key + "': a body of " + std::to_string(count) +
@@ -251,14 +251,8 @@ void World::set_method(std::string_view key) {
 
 void World::set_integrator(const IntegratorChoice& choice) {
   Parts& s = *parts_;
-  const IntegratorChoice before = s.choice;
+  s.check_sizes(s.models, choice);
   s.choice = choice;
-  try {
-    s.check_sizes(s.models);
-  } catch (const SceneError&) {
-    s.choice = before;
-    throw;
-  }
   s.set_integrator();
   s.wake_all();
 }
