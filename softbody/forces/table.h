@@ -38,9 +38,7 @@ struct List {};
 using Forces = List<StructuralSprings, BendSprings, ShearSprings, GasPressure, ShapeMatching, PenaltyContact, Hand>;
 
 template <class Force>
-struct Name {
-  using type = Force;
-};
+struct Name {};
 
 /// Calls use(Name<F>{}) for each force F of the list, in its order.
 template <class Use, class... Force>
@@ -48,11 +46,7 @@ HWY_INLINE constexpr void for_each_force(List<Force...>, Use&& use) {
   (use(Name<Force>{}), ...);
 }
 
-template <class... Force>
-constexpr std::size_t count(List<Force...>) {
-  return sizeof...(Force);
-}
-inline constexpr std::size_t force_count = count(Forces{});
+inline constexpr std::size_t force_count = []<class... Force>(List<Force...>) { return sizeof...(Force); }(Forces{});
 
 using ForceMask = std::bitset<force_count>;  // in the order of the list
 
