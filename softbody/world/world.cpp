@@ -181,9 +181,12 @@ void World::step(const std::function<void()>& after_substep) {
   if (const auto& grab = grabbed()) s.solver.state().set_asleep(grab->body, false);  // a grabbed body stays awake
   ++s.frame;
   if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.solver.state(), touching.vertex_body, touching.result.contacts);
-  const float thickness = s.penalty_thickness;
-  if (s.plan.has(stage_of<PenaltyContact>)) {
-    s.penalty_thickness = std::min(s.settings.tolerance, s.penalty_thickness + float(0.05 * s.frame_time));  // 5 cm/s
+  const bool penalty = s.plan.has(stage_of<PenaltyContact>);
+  const auto grown = [&, thickness = s.penalty_thickness](double seconds) {
+    return std::min(s.settings.tolerance, thickness + float(0.05 * seconds));  // 5 cm/s
+  };
+  if (penalty) {
+    s.penalty_thickness = grown(s.frame_time);
     s.solver.set_contacts({touching.bodies, touching.vertex_body, touching.result.contacts}, s.penalty_thickness);
   }
   double looking_ms = 0;
@@ -208,13 +211,10 @@ void World::step(const std::function<void()>& after_substep) {
   s.report.integrator = steps.integrator;
   s.report.why = steps.why;
   const bool whole = done.seconds == s.frame_time;
-  if (!whole)
-    s.penalty_thickness =
-        std::min(s.penalty_thickness, thickness + float(0.05 * done.seconds));  // it grows with time, not frames
+  if (penalty) s.penalty_thickness = grown(done.seconds);  // with time, not frames
   s.report.solve_ms = ms_since(start) - looking_ms;
   s.detect();
-  const bool penalty_grows = s.plan.has(stage_of<PenaltyContact>) &&
-                             s.penalty_thickness < s.settings.tolerance;  // nobody falls asleep meanwhile
+  const bool penalty_grows = penalty && s.penalty_thickness < s.settings.tolerance;  // nobody falls asleep meanwhile
   if (s.plan.has(Stage::sleep) && whole && !penalty_grows)
     s.sleep.settle(s.solver.state(), touching.vertex_body, touching.result.contacts,
                    s.solver.surface_contact().candidates().interactions());
