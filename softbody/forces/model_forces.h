@@ -4,7 +4,6 @@
 #include <optional>
 #include <tuple>
 #include <variant>
-#include <vector>
 
 #include "softbody/forces/table.h"
 

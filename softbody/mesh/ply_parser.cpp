@@ -1,11 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
-#include <limits>
 #include <optional>
-#include <utility>
 
 #include "softbody/mesh/limits.h"
 #include "softbody/mesh/mesh_parser.h"

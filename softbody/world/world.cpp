@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 #include "softbody/integrate/force_stage.h"
