@@ -216,18 +216,15 @@ softbody::BodySource body_source(const Body& body, const std::vector<softbody::M
   std::size_t material = 0;
   while (!body.material.empty() && material < materials.size() && materials[material].name != body.material) ++material;
   if (material == materials.size()) throw Error("material '" + body.material + "': the scene has none of this name");
-  const Vector &p = body.position, &v = body.velocity;
-  for (int axis = 0; axis < 3; ++axis) {
-    constexpr double farthest = 1e6, fastest = 1e3;
-    const auto a = std::size_t(axis);
-    if (!(std::abs(p[a]) <= farthest)) throw Error("position: must be from -1000000 to 1000000 m along each axis");
-    if (!(std::abs(v[a]) <= fastest)) throw Error("velocity: must be from -1000 to 1000 m/s along each axis");
-  }
+  for (const double x : body.position)
+    if (!(std::abs(x) <= 1e6)) throw Error("position: must be from -1000000 to 1000000 m along each axis");
+  for (const double v : body.velocity)
+    if (!(std::abs(v) <= 1e3)) throw Error("velocity: must be from -1000 to 1000 m/s along each axis");
   if (body.appear < 0) throw Error("appear: must not be negative");
   return {.mesh = meshes[std::size_t(body.mesh)],
           .material = static_cast<int>(material),
-          .position = to_glm(p),
-          .velocity = to_glm(v),
+          .position = to_glm(body.position),
+          .velocity = to_glm(body.velocity),
           .appear = body.appear,
           .release = body.appear};
 }

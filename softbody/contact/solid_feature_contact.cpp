@@ -1,7 +1,6 @@
 // SolidContact: faces and edges of bodies on solids that are round or sharp.
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-
-#include <glm/common.hpp>
 
 #include "softbody/contact/law.h"
 #include "softbody/contact/surface_vectors.h"

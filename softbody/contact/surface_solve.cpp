@@ -1,7 +1,6 @@
 // Surface contact: the impulses of a substep.
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -9,6 +8,7 @@
 #include "softbody/contact/law.h"
 #include "softbody/contact/surface_contact.h"
 #include "softbody/contact/surface_vectors.h"
+#include "softbody/mesh/sets.h"
 
 namespace softbody {
 
@@ -128,19 +128,14 @@ bool SurfaceContact::find_islands(int thread, int threads, Field<const float> v,
 /// Pairs that have closed in this substep and share bodies are an island: it grows where a solve closes others.
 void SurfaceContact::join_islands() {
   const std::vector<Pair>& pairs = candidates_.pairs();
-  std::vector<Index> joined(candidates_.body_count());
-  std::iota(joined.begin(), joined.end(), Index{0});
-  const auto root = [&](Index body) {
-    while (joined[body] != body) body = joined[body] = joined[joined[body]];
-    return body;
-  };
+  Sets joined(candidates_.body_count());
   for (const Pair& p : pairs)
-    if (p.joins) joined[root(p.range.b)] = root(p.range.a);
+    if (p.joins) joined.unite(p.range.a, p.range.b);
   islands_.clear();
-  std::vector<std::size_t> place(joined.size(), pairs.size());
+  std::vector<std::size_t> place(candidates_.body_count(), pairs.size());
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     if (!pairs[i].joins) continue;
-    std::size_t& at = place[root(pairs[i].range.a)];
+    std::size_t& at = place[joined.find(pairs[i].range.a)];
     if (at == pairs.size()) {
       at = islands_.size();
       islands_.emplace_back();

@@ -77,22 +77,6 @@ LargestEigenvalue largest_eigenvalue(const Laplacian& laplacian, Vector v) {
   return {std::min(most, reserve * (ritz.eigenvalues()[count - 1] + residual)), count < steps};
 }
 
-/// Sums the pulls of all laws of the volume.
-struct SumPressures {
-  Jet volume;
-  Jet& pull;
-  void operator()(Volume, const auto& law) const { pull = pull + law.pull(volume); }
-};
-
-struct SumStretch {
-  const std::vector<glm::dvec3>& area;
-  double& sum;
-  void operator()(Length c, const auto& law) const {
-    const glm::dvec3 d = area[c.i] - area[c.j];
-    sum += law.stiffness * glm::dot(d, d);
-  }
-};
-
 }  // namespace
 
 double pair_bound(std::size_t particles, std::span<const WeightedPair> pairs) {
@@ -144,8 +128,7 @@ double stiffness_per_mass(const BodyModel& p, const SurfaceShape& surface, Volum
   // the larger root of x^2 - (l + s) x + s (l - q). In the second part, particles i and j of an edge are joined by a
   // sixth of the line between the two corners opposite, which is at most the medians from there to the edge together:
   // a row is at most two medians a face at i.
-  Jet pull = 0;
-  visit_forces<Coordinate::volume>(p, {}, SumPressures{Jet(surface.volume, 1), pull});
+  const Jet pull = volume_pull(p, surface.volume);
   const double l = 2 * f.pair_stiffness, s = pull.slope * surface.area2;
   const double q = surface.area2 > 0 ? std::min(l, surface.stretch / surface.area2) : 0;
   const double both = (l + s) / 2 + std::sqrt((l - s) * (l - s) / 4 + s * q);
@@ -165,7 +148,10 @@ SurfaceShape measure_surface(const BodyModel& p, const std::vector<glm::dvec3>& 
     s.two_medians = std::max(s.two_medians, std::sqrt(2 * std::max({of_a + of_b, of_b + of_c, of_c + of_a})));
   }
   for (const glm::dvec3& a : area) s.area2 += glm::dot(a, a);
-  visit_forces<Coordinate::length>(p, {}, SumStretch{area, s.stretch});
+  visit_forces<Coordinate::length>(p, {}, [&](Length c, const auto& law) {
+    const glm::dvec3 d = area[c.i] - area[c.j];
+    s.stretch += law.stiffness * glm::dot(d, d);
+  });
   return s;
 }
 

@@ -76,7 +76,4 @@ struct Jet {
   friend bool operator>=(Jet a, Jet b) { return a.value >= b.value; }
 };
 
-/// Returns how fast the pull of a law grows with its coordinate q.
-double stiffness_at(const auto& law, double q) { return law.pull(Jet(q, 1)).slope; }
-
 }  // namespace softbody

@@ -20,17 +20,6 @@ struct SumElastic {
   }
 };
 
-template <class Act>
-struct EachVolumeLaw {
-  const Act& act;
-  void operator()(Volume, const auto& law) const { act(law); }
-};
-
-template <class Act>
-void each_volume_law(const BodyModel& p, const Act& act) {
-  visit_forces<Coordinate::volume>(p, {}, EachVolumeLaw<Act>{act});
-}
-
 }  // namespace
 
 double elastic_energy(const BodyModel& p, const Shape& x) {
@@ -45,17 +34,18 @@ double elastic_energy(const BodyModel& p, const Shape& x) {
 
 StoredEnergy stored_energy(const BodyModel& p, const Shape& x) {
   StoredEnergy energy{.elastic = elastic_energy(p, x)};
-  if (p.forces->pressure > 0)
-    each_volume_law(p, [&, v = enclosed_volume(p, x)](const auto& law) { energy.gas += law.stored(v); });
+  if (p.forces->pressure <= 0) return energy;
+  visit_forces<Coordinate::volume>(
+      p, {}, [&, v = enclosed_volume(p, x)](Volume, const auto& law) { energy.gas += law.stored(v); });
   return energy;
 }
 
 StoredEnergy stored_energy_change(const BodyModel& p, const Shape& from, const Shape& to) {
   StoredEnergy change{.elastic = elastic_energy(p, to) - elastic_energy(p, from)};
-  if (p.forces->pressure > 0)
-    each_volume_law(p, [&, v = enclosed_volume(p, from), end = enclosed_volume(p, to)](const auto& law) {
-      change.gas += law.stored_change(v, end);
-    });
+  if (p.forces->pressure <= 0) return change;
+  const double before = enclosed_volume(p, from), after = enclosed_volume(p, to);
+  visit_forces<Coordinate::volume>(p, {},
+                                   [&](Volume, const auto& law) { change.gas += law.stored_change(before, after); });
   return change;
 }
 

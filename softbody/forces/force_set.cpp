@@ -37,7 +37,9 @@ void ForceSet::add_unprojected(const ForceBatch& b) const {
 }
 
 void ForceSet::advance(const ForceBatch& b, const Advance& how, LaneVolumes& volumes) const {
-  add_if(b, []<class F>(Name<F>) { return !is_of_length<F>() && !is_of_volume<F>() && !Kicks<F>; });
+  add_if(b, []<class F>(Name<F>) {
+    return coordinate_of<F>() != Coordinate::length && coordinate_of<F>() != Coordinate::volume && !Kicks<F>;
+  });
   force_kernels(b.batch.width).advance(lanes_of(b), b.kick_arguments(), how, field(b.state.v, b.batch.base), volumes);
   kick(b);
 }

@@ -36,11 +36,6 @@ void Hand::remove(BodyId body) {
   if (grab_ && grab_->body > body) --grab_->body;
 }
 
-Hand::Pull Hand::pull_of(const BodyModel& model) const {
-  const double rate = 2 * std::numbers::pi * grab_->frequency, mass = model.material[Material::mass];  // 1/s, kg
-  return {mass * rate * rate, 2 * grab_->damping_ratio * mass * rate};
-}
-
 glm::dvec3 Hand::point(const HeldBody& body) const {
   glm::dvec3 point(0.0);
   for (int i = 0; i < 3; ++i) point += grab_->weights[i] * (body.origin + body.x(grab_->corners[std::size_t(i)]));
@@ -49,9 +44,10 @@ glm::dvec3 Hand::point(const HeldBody& body) const {
 
 /// On the point, which everything else would let go at `velocity` after a step of h.
 glm::dvec3 Hand::force(const HeldBody& body, double h, const glm::dvec3& velocity) const {
-  const Pull p = pull_of(body.model);
+  const double rate = 2 * std::numbers::pi * grab_->frequency, mass = body.model.material[Material::mass];  // 1/s, kg
   const double point_mass = body.model.particle_mass / glm::dot(grab_->weights, grab_->weights);
-  return pull(p.stiffness, p.damping, point_mass, h, grab_->target - point(body), velocity);
+  return pull(mass * rate * rate, 2 * grab_->damping_ratio * mass * rate, point_mass, h, grab_->target - point(body),
+              velocity);
 }
 
 void Hand::note_point(State& state) {

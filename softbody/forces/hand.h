@@ -50,11 +50,6 @@ class Hand {
   void add_impulse(const HeldBody& body, double h) const;
 
  private:
-  /// Of the spring and of the damper that pull a body of this model: N/m and N s/m.
-  struct Pull {
-    double stiffness, damping;
-  };
-  Pull pull_of(const BodyModel& model) const;
   glm::dvec3 point(const HeldBody& body) const;
   glm::dvec3 force(const HeldBody& body, double h, const glm::dvec3& velocity) const;
 

@@ -4,7 +4,6 @@
 #include <optional>
 #include <tuple>
 #include <variant>
-#include <vector>
 
 #include "softbody/forces/table.h"
 
@@ -44,6 +43,16 @@ template <HasElements F>
 const typename F::Data* data(const BodyModel& model) {
   const auto& found = std::get<index_of<F>>(model.forces->data);
   return found ? &*found : nullptr;
+}
+
+/// Returns what the laws of the volume v pull with together (Pa), and how fast that grows with it.
+inline Jet volume_pull(const BodyModel& model, double v) {
+  Jet sum = 0;
+  for_each_force(Forces{}, [&]<class F>(Name<F>) {
+    if constexpr (coordinate_of<F>() == Coordinate::volume)
+      if (const auto* d = data<F>(model)) sum = sum + d->pull(Jet(v, 1));
+  });
+  return sum;
 }
 
 /// Returns a body model whose starting shape is the mesh itself, whether or not that is in equilibrium.

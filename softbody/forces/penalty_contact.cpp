@@ -92,32 +92,18 @@ void PenaltyContact::take(const Share& share, const DetectedContacts& detected, 
   const collide::Part part = share.part(detected.contacts.size());
   const auto own = std::span(detected.contacts).subspan(part.begin, part.end - part.begin);
   const auto count = std::size_t(std::ranges::count_if(own, acts));
-  const std::size_t first = share.before({count, 0}, [&](const Totals& all) { pairs.resize(all.first); }).first;
-  std::size_t i = first;
+  std::size_t i = share.before({count, 0}, [&](const Totals& all) { pairs.resize(all.first); }).first;
   for (const collide::Contact& c : own) {
     if (!acts(c)) continue;
     pairs.contact[i] = c;
     const BodyId a = pairs.body_a[i] = body(c.a), b = pairs.body_b[i] = body(c.b);
     pairs.loss[i] = a == b ? 1 : 1 - law::common_restitution(restitution_[a], restitution_[b]);
-    ++i;
-  }
-  locate({first, i}, detected.vertices, state);
-}
-
-void PenaltyContact::locate(collide::Part part, const collide::Bodies& vertices, const State& state) {
-  for (std::size_t i = part.begin; i < part.end; ++i) {
-    const BodyId a = pairs.body_a[i], b = pairs.body_b[i];
-    pairs.slot_a[i] = std::uint32_t(state.slot(a, pairs.contact[i].a - vertices.first[a]));
-    pairs.slot_b[i] = std::uint32_t(state.slot(b, pairs.contact[i].b - vertices.first[b]));
+    pairs.slot_a[i] = std::uint32_t(state.slot(a, c.a - detected.vertices.first[a]));
+    pairs.slot_b[i] = std::uint32_t(state.slot(b, c.b - detected.vertices.first[b]));
     const glm::vec3 offset(state.body(a).origin - state.body(b).origin);
     for (int k = 0; k < 3; ++k) pairs.offset[std::size_t(k)][i] = offset[k];
+    ++i;
   }
-}
-
-void PenaltyContact::locate(const collide::Bodies& vertices, const State& state) {
-  locate({0, pairs.size()}, vertices, state);
-  group(state.x[0].size(), state.batches());
-  gather(field(state.x), field(state.v));
 }
 
 void PenaltyContact::group(std::size_t slots, std::span<const Batch> batches) {

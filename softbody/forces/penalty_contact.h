@@ -46,8 +46,6 @@ class PenaltyContact {
   /// Takes the contacts for the coming frame, and hands the friction springs of those that were there before on to
   /// them. thickness: of the contact layer, m. The contacts ascend.
   void find(const DetectedContacts& detected, const State& state, float thickness, collide::Workers& workers);
-  /// Finds again where the bodies' particles stand in the state's arrays, and how far apart their origins are.
-  void locate(const collide::Bodies& vertices, const State& state);
   /// Finds the particles that the pairs join by their slots, which are below `slots`.
   void group(std::size_t slots, std::span<const Batch> batches);
   /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up.
@@ -92,7 +90,6 @@ class PenaltyContact {
     return pairs.empty() ? collide::Part{} : of_batch_[batch.index];
   }
   void gather(collide::Part particles, Field<const float> x, Field<const float> v);
-  void locate(collide::Part part, const collide::Bodies& vertices, const State& state);
   void take(const Share& share, const DetectedContacts& detected, const State& state);
   void group(const Share& share, std::size_t slots, std::span<const Batch> batches);
   void set_traits(const State& state, const Batch& batch);

@@ -21,6 +21,7 @@
 
 #include <bitset>
 #include <cstddef>
+#include <optional>
 #include <type_traits>
 
 #include "softbody/forces/gas.h"
@@ -37,9 +38,7 @@ struct List {};
 using Forces = List<StructuralSprings, BendSprings, ShearSprings, GasPressure, ShapeMatching, PenaltyContact, Hand>;
 
 template <class Force>
-struct Name {
-  using type = Force;
-};
+struct Name {};
 
 /// Calls use(Name<F>{}) for each force F of the list, in its order.
 template <class Use, class... Force>
@@ -47,11 +46,7 @@ HWY_INLINE constexpr void for_each_force(List<Force...>, Use&& use) {
   (use(Name<Force>{}), ...);
 }
 
-template <class... Force>
-constexpr std::size_t count(List<Force...>) {
-  return sizeof...(Force);
-}
-inline constexpr std::size_t force_count = count(Forces{});
+inline constexpr std::size_t force_count = []<class... Force>(List<Force...>) { return sizeof...(Force); }(Forces{});
 
 using ForceMask = std::bitset<force_count>;  // in the order of the list
 
@@ -72,15 +67,11 @@ concept HasElements = requires {
   typename F::Data;
 };
 
+/// Returns the coordinate of which the force is a law; nothing for an object of the solver.
 template <class F>
-constexpr bool is_of_length() {
-  if constexpr (HasElements<F>) return F::coordinate == Coordinate::length;
-  return false;
-}
-template <class F>
-constexpr bool is_of_volume() {
-  if constexpr (HasElements<F>) return F::coordinate == Coordinate::volume;
-  return false;
+constexpr std::optional<Coordinate> coordinate_of() {
+  if constexpr (HasElements<F>) return F::coordinate;
+  return {};
 }
 
 /// True if the force changes velocities, in steps that are not made of forces alone.
@@ -92,8 +83,7 @@ concept Kicks = requires(const F& force, const ForceBatch& batch) {
 /// True if XPBD moves the particles to where the law has them.
 template <class F>
 constexpr bool is_projected() {
-  if constexpr (HasElements<F>) return F::coordinate != Coordinate::offset;
-  return false;
+  return HasElements<F> && coordinate_of<F>() != Coordinate::offset;
 }
 
 /// True if the force acts as a force in XPBD.

@@ -10,14 +10,12 @@ namespace softbody {
 template <Coordinate... coordinates, class At>
 void visit_forces(const BodyModel& model, Field<const double> x, const At& at) {
   for_each_force(Forces{}, [&]<class F>(Name<F>) {
-    if constexpr (HasElements<F>) {
-      if constexpr (((F::coordinate == coordinates) || ...))
-        if (const auto* d = data<F>(model)) {
-          HeldOf<F, double> held{};
-          body::hold<F, double, one_lane>(*d, x, 1, held);
-          body::visit<F, double>(model, *d, held, at);
-        }
-    }
+    if constexpr (((coordinate_of<F>() == coordinates) || ...))
+      if (const auto* d = data<F>(model)) {
+        HeldOf<F, double> held{};
+        body::hold<F, double, one_lane>(*d, x, 1, held);
+        body::visit<F, double>(model, *d, held, at);
+      }
   });
 }
 

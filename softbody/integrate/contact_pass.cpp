@@ -1,7 +1,7 @@
 #include "softbody/integrate/contact_pass.h"
 
 #include <algorithm>
-#include <cmath>
+
 #include "softbody/contact/keys.h"
 
 namespace softbody {

@@ -47,9 +47,8 @@ class ContactPass {
   }
   /// Changes the velocities so that in a step of h from here surfaces do not pass through each other, nor particles
   /// into solids. The velocities of all batches must be there. Needs a barrier after it.
-  void apply(const Worker& worker, float h) { apply(worker, h, 0); }
-  /// Does the same for the positions that a substep of h ends with.
-  void apply_at_end(const Worker& worker, float h) { apply(worker, h, h); }
+  /// since_start: s, of the substep that has brought the positions here.
+  void apply(const Worker& worker, float h, float since_start = 0);
   /// Counts a substep that this thread has done.
   void advance(const Worker& worker, float h);
 
@@ -58,7 +57,6 @@ class ContactPass {
   SurfaceContact& surfaces() { return surfaces_; }
 
  private:
-  void apply(const Worker& worker, float h, float since_start);
   void keep_overlapping_awake();
   void solve_island(int thread, const SurfaceContact::Island& island, float h);
   void apply_surfaces(const Worker& worker, float h, float since_start);

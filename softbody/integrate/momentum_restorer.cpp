@@ -1,7 +1,5 @@
 #include "softbody/integrate/momentum_restorer.h"
 
-#include <glm/geometric.hpp>
-
 #include "softbody/state/kernels.h"
 #include "softbody/state/rigid_motion.h"
 

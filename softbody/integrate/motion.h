@@ -62,7 +62,7 @@ class Motion {
   /// Does the same after advance_velocities() with Volumes::implicit_, so that the pressure is the one at the end.
   void contacts_under_pressure(const Worker& worker, float h);
   /// Does the same for the positions that a substep of h ends with.
-  void contacts_at_end(const Worker& worker, float h) { parts_.contacts.apply_at_end(worker, h); }
+  void contacts_at_end(const Worker& worker, float h) { parts_.contacts.apply(worker, h, h); }
   /// XPBD, on displacements d in this step of h, which starts at x0. Wants the positions to be x0 + d.
   void project(const Batch& batch, Quantity x0, Quantity d, float h);
   /// Adds what the hand does in a step of h to velocities that hold what all else does, after other_forces().

@@ -56,11 +56,9 @@ const char* force(const Facts& f) {
 const char* gravity(const Facts& f) { return f.scene.gravity != glm::dvec3(0.0) ? nullptr : "the scene has none"; }
 
 const char* spheres(const Facts& f) { return f.scene.spheres.empty() ? "the scene has no solid sphere" : nullptr; }
-
+const char* ground(const Facts& f) { return f.scene.ground ? nullptr : "the scene has no ground"; }
 const char* planes(const Facts& f) { return f.scene.planes.empty() ? "the scene has no solid plane" : nullptr; }
-
 const char* boxes(const Facts& f) { return f.scene.boxes.empty() ? "the scene has no solid box" : nullptr; }
-
 const char* capsules(const Facts& f) { return f.scene.capsules.empty() ? "the scene has no solid capsule" : nullptr; }
 
 const char* restitution(const Facts& f) {
@@ -69,8 +67,6 @@ const char* restitution(const Facts& f) {
   any = any || f.any([](const BodyModel& p) { return p.material[contact::restitution] > 0; });
   return any ? nullptr : "no solid and no material has restitution";
 }
-
-const char* ground(const Facts& f) { return f.scene.ground ? nullptr : "the scene has no ground"; }
 
 const char* damping(const Facts& f) {
   return f.any([](const BodyModel& p) { return internal_damping(p) > 0; }) ? nullptr

@@ -22,7 +22,6 @@
 namespace softbody {
 namespace {
 
-constexpr Index absent = ~Index{0};
 constexpr int max_tries = 8;
 
 /// The triangles of a mesh in a tree.
@@ -74,28 +73,10 @@ std::map<Edge, std::vector<Index>> faces_at_edges(const std::vector<Triangle>& t
   return faces;
 }
 
-/// Returns the parts that have edges with one triangle only.
-std::set<Index> open_parts(const Mesh& mesh, const std::vector<Index>& part) {
-  std::set<Index> open;
-  for (const auto& [edge, faces] : faces_at_edges(mesh.triangles))
-    if (faces.size() == 1) open.insert(part[edge[0]]);
-  return open;
-}
-
-/// Returns the closed parts that face inwards.
-std::set<Index> cavities_of(const Mesh& mesh, const std::vector<Index>& part) {
-  std::vector<Triangle> triangles = mesh.triangles;
-  std::set<Index> cavities;
-  for (const SurfacePart& p : align(triangles))
-    if (p.closed && volume(mesh.vertices, mesh.triangles, p) < 0) cavities.insert(part[triangles[p.faces[0]][0]]);
-  return cavities;
-}
-
 std::vector<glm::vec3> rounded(const std::vector<glm::dvec3>& points) { return {points.begin(), points.end()}; }
 
-glm::vec3 normal_of(std::span<const glm::vec3> at, const Triangle& t) {
-  return glm::cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]]);
-}
+/// Returns the normal of a triangle, of any length.
+auto normal_of(const auto& at, const Triangle& t) { return glm::cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]]); }
 
 /// Removes blisters: a few triangles that hang together and are joined to many others along edges of more than two
 /// triangles only. Edge collapses leave them, mostly as two triangles with the same corners.
@@ -133,7 +114,6 @@ void flip_edges(Mesh& mesh) {
   constexpr double straight = 0.99;  // the least cosine between the normals before and after
   constexpr int max_passes = 10;
   const auto& at = mesh.vertices;
-  const auto normal = [&](const Triangle& t) { return glm::cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]]); };
   const auto slimness = [&](const Triangle& t) { return cosine_of_smallest_angle(at[t[0]], at[t[1]], at[t[2]]); };
   for (int pass = 0, flips = 1; pass < max_passes && flips > 0; ++pass) {
     flips = 0;
@@ -151,9 +131,9 @@ void flip_edges(Mesh& mesh) {
       if (c == d || faces.contains(across) || made.contains(across)) continue;
       const Triangle one{a, d, c}, other{d, b, c};
       if (std::max(slimness(one), slimness(other)) >= std::max(slimness(left), slimness(right)) - 1e-6) continue;
-      const glm::dvec3 before = normal(left) + normal(right);
+      const glm::dvec3 before = normal_of(at, left) + normal_of(at, right);
       const auto bends = [&](const Triangle& t) {
-        const glm::dvec3 n = normal(t);
+        const glm::dvec3 n = normal_of(at, t);
         return !(glm::dot(n, before) > straight * glm::length(n) * glm::length(before));
       };
       if (bends(one) || bends(other)) continue;
@@ -171,10 +151,16 @@ class Coarsener {
       : fine_(fine),
         at_(rounded(fine.vertices)),
         part_(parts_of(fine)),
-        open_(open_parts(fine, part_)),
-        cavities_(cavities_of(fine, part_)),
         normal_(at_.size(), glm::vec3(0.0f)),
         faces_(at_, fine.triangles) {
+    std::vector<Triangle> turned = fine.triangles;
+    for (const SurfacePart& p : align(turned)) {
+      const Index part = part_[turned[p.faces[0]][0]];
+      if (!p.closed)
+        open_.insert(part);
+      else if (volume(fine.vertices, fine.triangles, p) < 0)
+        cavities_.insert(part);
+    }
     for (const Triangle& t : fine.triangles)
       for (const Index corner : t) normal_[corner] += normal_of(at_, t);
     const glm::dvec3 size = faces_.box().hi - faces_.box().lo;
@@ -212,17 +198,8 @@ class Coarsener {
     Mesh mesh;
     for (std::size_t i = 0; i < left.size(); i += 3) mesh.triangles.push_back({left[i], left[i + 1], left[i + 2]});
     cut_off_blisters(mesh.triangles);
-    std::vector<Index> from, number(at_.size(), absent);
-    for (Triangle& t : mesh.triangles)
-      for (Index& corner : t) {
-        Index& known = number[corner];
-        if (known == absent) {
-          known = static_cast<Index>(from.size());
-          from.push_back(corner);
-          mesh.vertices.push_back(fine_.vertices[corner]);
-        }
-        corner = known;
-      }
+    std::vector<Index> from = renumber_vertices(mesh.triangles);
+    for (const Index v : from) mesh.vertices.push_back(fine_.vertices[v]);
     flip_edges(mesh);
     return {std::move(mesh), std::move(from)};
   }
@@ -249,8 +226,9 @@ class Coarsener {
       const std::vector<SurfacePart> parts = align(turned);
       if (turned != mesh.triangles) return false;
       for (const SurfacePart& p : parts) {
-        const bool is_cavity = cavities_.contains(part_[from[turned[p.faces[0]][0]]]);
-        if (p.closed && (volume(mesh.vertices, turned, p) < 0) != is_cavity) return false;
+        const Index part = part_[from[turned[p.faces[0]][0]]];
+        const bool inwards = p.closed && volume(mesh.vertices, turned, p) < 0;
+        if (p.closed ? inwards != cavities_.contains(part) : !open_.contains(part)) return false;
       }
     } catch (const SurfaceError&) {
       return false;
@@ -259,13 +237,9 @@ class Coarsener {
     for (Triangle& t : outlines) std::ranges::sort(t);
     std::ranges::sort(outlines);
     if (std::ranges::adjacent_find(outlines) != outlines.end()) return false;
-    std::vector<Index> part;
-    for (const Index v : from) part.push_back(part_[v]);
-    std::vector<char> there(at_.size(), false);
-    for (const Index p : part) there[p] = true;
-    for (Index v = 0; v < part_.size(); ++v)
-      if (part_[v] == v && !there[v]) return false;
-    return std::ranges::includes(open_, open_parts(mesh, part));
+    std::set<Index> there;
+    for (const Index v : from) there.insert(part_[v]);
+    return there == std::set<Index>(part_.begin(), part_.end());
   }
 
   static std::size_t crossings_of(const Mesh& mesh) {
@@ -318,7 +292,7 @@ class Coarsener {
   const Mesh& fine_;
   std::vector<glm::vec3> at_;      // its vertices
   std::vector<Index> part_;        // of each of them
-  std::set<Index> open_;           // parts that are not closed
+  std::set<Index> open_;           // parts that have edges with one triangle only
   std::set<Index> cavities_;       // closed parts that face inwards
   std::vector<glm::vec3> normal_;  // at each of them, of any length
   FaceTree faces_;                 // of its triangles

@@ -41,13 +41,13 @@ struct FileMesh {
   std::size_t weights = 0;        // lines v X Y Z W with W other than 1, which only curves and surfaces use
   int digits = 0;                 // the most significant ones of a coordinate; 0: a binary file
 
+  std::span<const Index> corners_of(std::size_t face) const {
+    const std::size_t begin = face > 0 ? faces[face - 1].end : 0;
+    return std::span(corners).subspan(begin, faces[face].end - begin);
+  }
   /// Calls visit(corners, face) for each face in the order of the file.
   void for_each_face(const auto& visit) const {
-    std::size_t begin = 0;
-    for (std::size_t face = 0; face < faces.size(); ++face) {
-      visit(std::span(corners).subspan(begin, faces[face].end - begin), face);
-      begin = faces[face].end;
-    }
+    for (std::size_t face = 0; face < faces.size(); ++face) visit(corners_of(face), face);
   }
   glm::dvec3 position(std::size_t vertex) const { return {x[vertex], y[vertex], z[vertex]}; }
   bool has_lines() const { return format != Format::ply_binary; }

@@ -1,7 +1,6 @@
 #pragma once
 // Limits of meshes.
 
-#include <cstddef>
 #include <cstdint>
 
 namespace softbody {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <unordered_map>
 
 #include <glm/geometric.hpp>
 
@@ -84,6 +85,18 @@ Mesh quad_grid(int columns, int rows, double width, double depth) {
   sort_unique(mesh.shear_pairs);
   mesh.bend_shares.assign(mesh.bend_pairs.size(), 1.0 / (steps * steps));  // as many more pull side by side
   return mesh;
+}
+
+std::vector<Index> renumber_vertices(std::vector<Triangle>& triangles) {
+  std::vector<Index> old;
+  std::unordered_map<Index, Index> number;
+  for (Triangle& t : triangles)
+    for (Index& corner : t) {
+      const auto [known, is_new] = number.try_emplace(corner, static_cast<Index>(old.size()));
+      if (is_new) old.push_back(corner);
+      corner = known->second;
+    }
+  return old;
 }
 
 double volume(const std::vector<glm::dvec3>& vertices, const std::vector<Triangle>& triangles) {

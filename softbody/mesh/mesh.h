@@ -42,6 +42,9 @@ Mesh quad_grid(int columns, int rows, double width, double depth);
 /// are as stiff as those of the sphere that materials are stated for, see connect_triangles.cpp.
 void connect_triangles(Mesh& mesh);
 
+/// Gives the vertices of triangles new numbers, from 0 in the order in which they come. Returns the old number of each.
+std::vector<Index> renumber_vertices(std::vector<Triangle>& triangles);
+
 /// Returns the signed volume of a closed triangle mesh in m^3, by the divergence theorem.
 double volume(const std::vector<glm::dvec3>& vertices, const std::vector<Triangle>& triangles);
 

@@ -30,7 +30,6 @@ namespace {
 
 using collide::surface::Box;
 
-constexpr Index no_vertex = ~Index{0};
 constexpr const char* where_weld_is = "(in the window under Files, in a scene beside the mesh's path)";
 
 /// Returns the smallest rotation that brings `up` to the y axis.
@@ -88,7 +87,8 @@ class Importer {
     begin("cutting polygons into triangles");
     take_outlines();
     cut_polygons();
-    compact();
+    in_file_ = renumber_vertices(mesh_.triangles);
+    for (const Index v : in_file_) mesh_.vertices.push_back(position_[v]);
     begin("turning faces outwards");
     orient_faces();
     connect_triangles(mesh_);
@@ -207,20 +207,6 @@ class Importer {
       fail("has no face with three different corners; check the export, or lower weld " + std::string(where_weld_is));
   }
 
-  /// Removes the vertices that no triangle uses.
-  void compact() {
-    std::vector<Index> number(position_.size(), no_vertex);
-    for (Triangle& t : mesh_.triangles)
-      for (Index& corner : t) {
-        if (number[corner] == no_vertex) {
-          number[corner] = static_cast<Index>(in_file_.size());
-          in_file_.push_back(corner);
-          mesh_.vertices.push_back(position_[corner]);
-        }
-        corner = number[corner];
-      }
-  }
-
   void orient_faces() {
     try {
       const SurfaceFindings found = orient(mesh_.triangles, mesh_.vertices);
@@ -267,18 +253,13 @@ class Importer {
       const Index to = welded_to_[corner];
       return (to == in_file_[edge[0]] || to == in_file_[edge[1]]) && moved_by_weld(corner);
     };
-    return std::ranges::any_of(faces,
-                               [&](std::size_t face) { return std::ranges::any_of(corners_of(face), is_moved_end); });
-  }
-
-  std::span<const Index> corners_of(std::size_t face) const {
-    const std::size_t begin = face > 0 ? mesh_file_.faces[face - 1].end : 0;
-    return std::span(mesh_file_.corners).subspan(begin, mesh_file_.faces[face].end - begin);
+    return std::ranges::any_of(
+        faces, [&](std::size_t face) { return std::ranges::any_of(mesh_file_.corners_of(face), is_moved_end); });
   }
 
   /// Returns the vertex numbers that a face of the file has at its side that became this edge of the mesh.
   std::string edge_in(std::size_t face, const Edge& edge) const {
-    const std::span<const Index> corners = corners_of(face);
+    const std::span<const Index> corners = mesh_file_.corners_of(face);
     const Edge welded = ordered(in_file_[edge[0]], in_file_[edge[1]]);
     Edge ends = welded;
     for (std::size_t i = 0; i < corners.size(); ++i) {

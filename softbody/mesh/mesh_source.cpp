@@ -3,11 +3,8 @@
 namespace softbody {
 
 MeshSource MeshSource::from_file(const MeshFile& file, const std::function<void(std::string_view)>& begin_stage) {
-  MeshSource source;
-  source.kind = "file";
-  source.file = file;
-  source.imported = std::make_shared<const ImportedMesh>(import_mesh(file, begin_stage));
-  return source;
+  return {
+      .kind = "file", .file = file, .imported = std::make_shared<const ImportedMesh>(import_mesh(file, begin_stage))};
 }
 
 Mesh MeshSource::make() const {

@@ -1,11 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
-#include <limits>
 #include <optional>
-#include <utility>
 
 #include "softbody/mesh/limits.h"
 #include "softbody/mesh/mesh_parser.h"
@@ -15,22 +12,15 @@ namespace {
 
 enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-constexpr std::array<std::pair<std::string_view, Type>, 16> types{{{"char", Type::int8},
-                                                                   {"int8", Type::int8},
-                                                                   {"uchar", Type::uint8},
-                                                                   {"uint8", Type::uint8},
-                                                                   {"short", Type::int16},
-                                                                   {"int16", Type::int16},
-                                                                   {"ushort", Type::uint16},
-                                                                   {"uint16", Type::uint16},
-                                                                   {"int", Type::int32},
-                                                                   {"int32", Type::int32},
-                                                                   {"uint", Type::uint32},
-                                                                   {"uint32", Type::uint32},
-                                                                   {"float", Type::float32},
-                                                                   {"float32", Type::float32},
-                                                                   {"double", Type::float64},
-                                                                   {"float64", Type::float64}}};
+/// The two names of each type, in their order.
+constexpr std::array<std::array<std::string_view, 2>, 8> type_names{{{"char", "int8"},
+                                                                     {"uchar", "uint8"},
+                                                                     {"short", "int16"},
+                                                                     {"ushort", "uint16"},
+                                                                     {"int", "int32"},
+                                                                     {"uint", "uint32"},
+                                                                     {"float", "float32"},
+                                                                     {"double", "float64"}}};
 
 bool is_real(Type type) { return type == Type::float32 || type == Type::float64; }
 
@@ -152,9 +142,11 @@ class PlyParser : public MeshParser {
   }
 
   Type type_of(std::string_view word) const {
-    const auto* type = std::ranges::find(types, word, &std::pair<std::string_view, Type>::first);
-    if (type == types.end()) fail_at_line(quoted(word) + " is no type of a property; write e.g. float, int or uchar");
-    return type->second;
+    const auto is_named = [&](const auto& names) { return std::ranges::find(names, word) != names.end(); };
+    const auto* type = std::ranges::find_if(type_names, is_named);
+    if (type == type_names.end())
+      fail_at_line(quoted(word) + " is no type of a property; write e.g. float, int or uchar");
+    return static_cast<Type>(type - type_names.begin());
   }
 
   void require_complete(const Element& element) const {
@@ -194,21 +186,11 @@ class PlyParser : public MeshParser {
       }
     }
     if (text() && !words_.next().empty()) fail("more numbers than the header says; correct the header or the line");
-    switch (element_->kind) {
-      case Element::Kind::vertex:
-        mesh_.x.push_back(position_[0]);
-        mesh_.y.push_back(position_[1]);
-        mesh_.z.push_back(position_[2]);
-        break;
-      case Element::Kind::face:
-        add_face(corners_);
-        break;
-      case Element::Kind::tristrips:
-        add_strips();
-        break;
-      case Element::Kind::other:
-        break;
-    }
+    using Kind = Element::Kind;
+    if (element_->kind == Kind::vertex)
+      mesh_.x.push_back(position_[0]), mesh_.y.push_back(position_[1]), mesh_.z.push_back(position_[2]);
+    if (element_->kind == Kind::face) add_face(corners_);
+    if (element_->kind == Kind::tristrips) add_strips();
   }
 
   void scalar(const Property& property) {
@@ -284,24 +266,13 @@ class PlyParser : public MeshParser {
   /// Returns the next number of a binary file.
   template <class Number>
   Number binary(Type type) {
-    switch (type) {
-      case Type::int8:
-        return static_cast<Number>(binary<std::int8_t>());
-      case Type::uint8:
-        return static_cast<Number>(binary<std::uint8_t>());
-      case Type::int16:
-        return static_cast<Number>(binary<std::int16_t>());
-      case Type::uint16:
-        return static_cast<Number>(binary<std::uint16_t>());
-      case Type::int32:
-        return static_cast<Number>(binary<std::int32_t>());
-      case Type::uint32:
-        return static_cast<Number>(binary<std::uint32_t>());
-      case Type::float32:
-        return static_cast<Number>(binary<float>());
-      case Type::float64:
-        break;
-    }
+    if (type == Type::int8) return static_cast<Number>(binary<std::int8_t>());
+    if (type == Type::uint8) return static_cast<Number>(binary<std::uint8_t>());
+    if (type == Type::int16) return static_cast<Number>(binary<std::int16_t>());
+    if (type == Type::uint16) return static_cast<Number>(binary<std::uint16_t>());
+    if (type == Type::int32) return static_cast<Number>(binary<std::int32_t>());
+    if (type == Type::uint32) return static_cast<Number>(binary<std::uint32_t>());
+    if (type == Type::float32) return static_cast<Number>(binary<float>());
     return static_cast<Number>(binary<double>());
   }
 

@@ -27,7 +27,7 @@ std::vector<Side> sorted_sides(const std::vector<Triangle>& triangles) {
   for (Index f = 0; f < triangles.size(); ++f)
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = triangles[f][k], b = triangles[f][(k + 1) % 3];
-      sides.push_back({{std::min(a, b), std::max(a, b)}, f, a < b});
+      sides.push_back({ordered(a, b), f, a < b});
     }
   std::sort(sides.begin(), sides.end());
   return sides;
@@ -122,17 +122,10 @@ std::vector<std::size_t> depths_of(const std::vector<SurfacePart>& parts, const 
   collide::surface::Surfaces surfaces;
   std::vector<Index> owner;  // of each vertex of the bodies
   for (const SurfacePart& part : parts) {
-    std::map<Index, Index> local;
-    std::vector<glm::dvec3> points;
     std::vector<Triangle> faces;
-    for (const Index f : part.faces) {
-      Triangle& t = faces.emplace_back(triangles[f]);
-      for (Index& corner : t) {
-        const auto [known, is_new] = local.try_emplace(corner, static_cast<Index>(points.size()));
-        if (is_new) points.push_back(vertices[corner]);
-        corner = known->second;
-      }
-    }
+    for (const Index f : part.faces) faces.push_back(triangles[f]);
+    std::vector<glm::dvec3> points;
+    for (const Index v : renumber_vertices(faces)) points.push_back(vertices[v]);
     at.add(points);
     owner.resize(owner.size() + points.size(), static_cast<Index>(surfaces.size()));
     const auto count = static_cast<Index>(points.size());

@@ -15,17 +15,14 @@ void rotate(Matrix4& a, Matrix4& v, std::size_t p, std::size_t q) {
   const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
   const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
   const double c = 1 / std::sqrt(t * t + 1), s = t * c;
-  for (auto& row : a) {
-    const double rp = row[p], rq = row[q];
-    row[p] = c * rp - s * rq, row[q] = s * rp + c * rq;
-  }
+  for (Matrix4* m : {&a, &v})
+    for (auto& row : *m) {
+      const double rp = row[p], rq = row[q];
+      row[p] = c * rp - s * rq, row[q] = s * rp + c * rq;
+    }
   for (std::size_t k = 0; k < 4; ++k) {
     const double pk = a[p][k], qk = a[q][k];
     a[p][k] = c * pk - s * qk, a[q][k] = s * pk + c * qk;
-  }
-  for (auto& row : v) {
-    const double rp = row[p], rq = row[q];
-    row[p] = c * rp - s * rq, row[q] = s * rp + c * rq;
   }
 }
 

@@ -63,16 +63,14 @@ struct RigidChange {
   DoubleLaneVector push, spin, about;  // m/s, rad/s, m
 
   /// Sets what happens to a lane; nothing, if numbers are not finite.
-  void set(std::size_t lane, double kept, const glm::dvec3& velocity, const glm::dvec3& turn, const glm::dvec3& centre);
+  void set(std::size_t lane, double kept, const glm::dvec3& velocity, const glm::dvec3& turn,
+           const glm::dvec3& centre) {
+    acts[lane] = std::isfinite(glm::dot(velocity, velocity) + glm::dot(turn, turn) + glm::dot(centre, centre));
+    keep[lane] = kept;
+    push.set(lane, velocity);
+    spin.set(lane, turn);
+    about.set(lane, centre);
+  }
 };
-
-inline void RigidChange::set(std::size_t lane, double kept, const glm::dvec3& velocity, const glm::dvec3& turn,
-                             const glm::dvec3& centre) {
-  acts[lane] = std::isfinite(glm::dot(velocity, velocity) + glm::dot(turn, turn) + glm::dot(centre, centre));
-  keep[lane] = kept;
-  push.set(lane, velocity);
-  spin.set(lane, turn);
-  about.set(lane, centre);
-}
 
 }  // namespace softbody

@@ -12,10 +12,6 @@
 
 namespace softbody {
 
-bool Batch::any_moves() const {
-  return std::any_of(moves.begin(), moves.end(), [](float m) { return m > 0; });
-}
-
 /// Returns a batch of the model with a free lane. The first batch of a model grows with its bodies: one large body
 /// takes, as measured, 1.3 (2,562 vertices) to 1.6 times (50,000) as long in eight lanes as alone. Two bodies already
 /// take 1.4 times as long apart as in lanes.

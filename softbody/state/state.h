@@ -2,6 +2,7 @@
 // Where the particles of all bodies are, how fast they go, and which body is in which lane. It knows no force, no
 // contact and no integrator.
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <memory>
@@ -28,7 +29,9 @@ struct Batch {
 
   std::size_t particles() const { return model->mesh.vertices.size(); }
   std::size_t values() const { return particles() * std::size_t(width); }  // of one array
-  bool any_moves() const;
+  bool any_moves() const {
+    return std::ranges::any_of(moves, [](float m) { return m > 0; });
+  }
 };
 
 /// A batch with its positions and velocities (m and m/s).

@@ -1,7 +1,6 @@
 #include "softbody/world/measures.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <glm/geometric.hpp>

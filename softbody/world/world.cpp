@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 #include "softbody/integrate/force_stage.h"
@@ -51,7 +50,7 @@ World::Parts::Parts(Scene s, const Options& o)
   solver.set_max_candidates(o.max_candidates);
   solver.set_vertices(particles.bodies);
   solver.set_plan(plan);
-  check_sizes(models);
+  check_sizes(models, choice);
   set_integrator();
   if (scene.default_cell_size) settings.cell_size = default_cell_size(settings.levels);
   arrive();
@@ -66,9 +65,9 @@ void World::Parts::set_integrator() {
   solver.steps().set_choice(choice);
 }
 
-/// Throws SceneError if one of these models has too many particles for the integrator that is chosen.
-void World::Parts::check_sizes(const BodyModelSet& all) const {
-  if (!choice.integrator().implicit) return;
+/// Throws SceneError if one of these models has too many particles for this integrator.
+void World::Parts::check_sizes(const BodyModelSet& all, const IntegratorChoice& wanted) const {
+  if (!wanted.integrator().implicit) return;
   for (const auto& p : all.all())
     if (const auto count = p->mesh.vertices.size(); count > max_implicit_particles)
       throw SceneError("scene '" + scene.key + "': a body of " + std::to_string(count) +
@@ -181,9 +180,12 @@ void World::step(const std::function<void()>& after_substep) {
   if (const auto& grab = grabbed()) s.solver.state().set_asleep(grab->body, false);  // a grabbed body stays awake
   ++s.frame;
   if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.solver.state(), touching.vertex_body, touching.result.contacts);
-  const float thickness = s.penalty_thickness;
-  if (s.plan.has(stage_of<PenaltyContact>)) {
-    s.penalty_thickness = std::min(s.settings.tolerance, s.penalty_thickness + float(0.05 * s.frame_time));  // 5 cm/s
+  const bool penalty = s.plan.has(stage_of<PenaltyContact>);
+  const auto grown = [&, thickness = s.penalty_thickness](double seconds) {
+    return std::min(s.settings.tolerance, thickness + float(0.05 * seconds));  // 5 cm/s
+  };
+  if (penalty) {
+    s.penalty_thickness = grown(s.frame_time);
     s.solver.set_contacts({touching.bodies, touching.vertex_body, touching.result.contacts}, s.penalty_thickness);
   }
   double looking_ms = 0;
@@ -208,13 +210,10 @@ void World::step(const std::function<void()>& after_substep) {
   s.report.integrator = steps.integrator;
   s.report.why = steps.why;
   const bool whole = done.seconds == s.frame_time;
-  if (!whole)
-    s.penalty_thickness =
-        std::min(s.penalty_thickness, thickness + float(0.05 * done.seconds));  // it grows with time, not frames
+  if (penalty) s.penalty_thickness = grown(done.seconds);  // with time, not frames
   s.report.solve_ms = ms_since(start) - looking_ms;
   s.detect();
-  const bool penalty_grows = s.plan.has(stage_of<PenaltyContact>) &&
-                             s.penalty_thickness < s.settings.tolerance;  // nobody falls asleep meanwhile
+  const bool penalty_grows = penalty && s.penalty_thickness < s.settings.tolerance;  // nobody falls asleep meanwhile
   if (s.plan.has(Stage::sleep) && whole && !penalty_grows)
     s.sleep.settle(s.solver.state(), touching.vertex_body, touching.result.contacts,
                    s.solver.surface_contact().candidates().interactions());
@@ -251,14 +250,8 @@ void World::set_method(std::string_view key) {
 
 void World::set_integrator(const IntegratorChoice& choice) {
   Parts& s = *parts_;
-  const IntegratorChoice before = s.choice;
+  s.check_sizes(s.models, choice);
   s.choice = choice;
-  try {
-    s.check_sizes(s.models);
-  } catch (const SceneError&) {
-    s.choice = before;
-    throw;
-  }
   s.set_integrator();
   s.wake_all();
 }

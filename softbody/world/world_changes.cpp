@@ -134,7 +134,7 @@ BodyId World::add(const BodySource& source) {
   Parts& s = *parts_;
   BodyModelSet more = s.models;
   s.check_capacity(*more.add(source, s.scene.materials), 1);
-  s.check_sizes(more);
+  s.check_sizes(more, s.choice);
   s.models = std::move(more);
   const BodyId id = s.spawn(source);
   s.bodies_added(1);

@@ -83,7 +83,7 @@ struct World::Parts : WorldValues {
   void wake_near(BodyId body);
   void update_plan();
   void check_capacity(const BodyModel& p, std::size_t number) const;
-  void check_sizes(const BodyModelSet& all) const;
+  void check_sizes(const BodyModelSet& all, const IntegratorChoice& wanted) const;
   void bodies_added(std::size_t number);  // by hand
   Dropper dropper() const;                // the scene's, or one over its first body
   void drop(const Dropper& dropper);

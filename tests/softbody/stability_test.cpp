@@ -122,7 +122,7 @@ TEST(StiffnessBound, HoldsACrumpledBody) {
       const double springs = 2 * stiffness_per_mass(*make_body_model({}, without), {});
       EXPECT_GE(bound, springs);
       const SurfaceShape s = measure_surface(*p, x);
-      const double norm = stiffness_at(*data<GasPressure>(*p), s.volume) * s.area2 / p->particle_mass;
+      const double norm = volume_pull(*p, s.volume).slope * s.area2 / p->particle_mass;
       const double geometric =
           std::abs(data<GasPressure>(*p)->gauge(s.volume)) * p->largest_degree * s.two_medians / 6 / p->particle_mass;
       EXPECT_LE(bound, (springs + norm + geometric) * (1 + 1e-12)) << "no more than the sum of its parts";

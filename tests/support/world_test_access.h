@@ -10,11 +10,18 @@ struct WorldTestAccess {
   static Solver& solver(World& world) { return world.parts_->solver; }
   /// J, that the penalty pairs of the last frame hold now.
   static double penalty_energy(const World& world) {
-    PenaltyContact last = solver(world).penalty_contact();
-    if (last.pairs.empty()) return 0;
-    last.locate(world.parts_->particles.bodies, world.state());
-    last.measure({0, last.pairs.size()});
-    return last.energy();
+    const PenaltyContact& last = solver(world).penalty_contact();
+    const State& state = world.state();
+    double sum = 0;
+    for (std::size_t i = 0; i < last.pairs.size(); ++i) {
+      PenaltyPair p = last.pairs[i];
+      const std::vector<Index>& first = world.parts_->particles.bodies.first;
+      p.slot_a = std::uint32_t(state.slot(p.body_a, p.contact.a - first[p.body_a]));
+      p.slot_b = std::uint32_t(state.slot(p.body_b, p.contact.b - first[p.body_b]));
+      p.offset = glm::vec3(state.body(p.body_a).origin - state.body(p.body_b).origin);
+      sum += last.energy(p, field(state.x));
+    }
+    return sum;
   }
   /// m, of the penalty force: grows slowly towards the tolerance.
   static float penalty_thickness(const World& world) { return world.parts_->penalty_thickness; }

@@ -179,7 +179,7 @@ class PairsOf {
  public:
   explicit PairsOf(const BodyModel& model) {
     for_each_force(Forces{}, [&]<class F>(Name<F>) {
-      if constexpr (is_of_length<F>())
+      if constexpr (coordinate_of<F>() == Coordinate::length)
         if (const auto* d = data<F>(model)) std::get<index_of<F>>(next_) = d->template elements<Real>();
     });
   }
@@ -187,7 +187,7 @@ class PairsOf {
   template <class At>
   HWY_INLINE void visit(Index i, const At& at) {
     for_each_force(Forces{}, [&]<class F>(Name<F>) HWY_ATTR {
-      if constexpr (is_of_length<F>()) {
+      if constexpr (coordinate_of<F>() == Coordinate::length) {
         auto& next = std::get<index_of<F>>(next_);
         std::size_t count = 0;
         for (; count < next.size() && next[count].i == i; ++count) at(next[count]);
@@ -295,14 +295,7 @@ HWY_INLINE void volume_rate(const LaneBodies<float>& b, Field<const float> v, fl
 template <class V, int width>
 HWY_INLINE void press(const LaneBodies<float>& b, const KickArguments& k, bool implicit_volume, Field<float> v,
                       LaneVolumes& volumes, std::size_t first) {
-  const auto pull = [&](double volume) {  // of all laws, and how fast it grows
-    Jet sum = 0;
-    for_each_force(Forces{}, [&]<class F>(Name<F>) {
-      if constexpr (is_of_volume<F>())
-        if (const auto* d = data<F>(b.model)) sum = sum + d->pull(Jet(volume, 1));
-    });
-    return sum;
-  };
+  const auto pull = [&](double volume) { return volume_pull(b.model, volume); };
   const double h = implicit_volume ? double(k.h) : 0, h_over_mass = double(k.h_over_mass);
   float push[lanes]{};
   for (int l = 0; l < std::min(b.used, lanes_of<V>); ++l) {

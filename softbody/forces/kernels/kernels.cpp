@@ -83,10 +83,8 @@ struct Kernels {
       store(volumes, three_volumes / V(3.0f));
       store(area2, square);
       for_each_force(Forces{}, [&]<class F>(Name<F>) HWY_ATTR {
-        if constexpr (HasElements<F>) {
-          if constexpr (F::coordinate == Coordinate::length)
-            if (const auto* d = data<F>(b.model)) visit<F, V>(b.model, *d, {}, AddStretch<V, width>{b.f, sum});
-        }
+        if constexpr (coordinate_of<F>() == Coordinate::length)
+          if (const auto* d = data<F>(b.model)) visit<F, V>(b.model, *d, {}, AddStretch<V, width>{b.f, sum});
       });
       store(stretch, sum);
       for (int l = 0; l < std::min(b.used, int(step)); ++l)

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "softbody/integrate/implicit/frames.h"
 #include "softbody/integrate/implicit/matrix.h"
 #include "softbody/integrate/implicit/work.h"
 

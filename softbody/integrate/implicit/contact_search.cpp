@@ -1,7 +1,5 @@
 #include "softbody/integrate/implicit/contact_search.h"
 
-#include <algorithm>
-
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/law.h"

@@ -1,7 +1,6 @@
 #pragma once
 // The search for what may touch the bodies of a batch in an implicit step.
 
-#include "softbody/integrate/implicit/frames.h"
 #include "softbody/integrate/implicit/steps.h"
 
 namespace softbody {

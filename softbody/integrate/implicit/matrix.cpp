@@ -37,7 +37,7 @@ Shape balanced_shape(const BodyModel& p) {
 }
 
 /// What the forces inside a body at x add to the matrix, but for how the pull of the volume changes with it: see
-/// volume_stiffness().
+/// volume_pull().
 struct Assemble {
   const BodyModel& model;
   const Shape& x;
@@ -153,19 +153,6 @@ CholeskyFactor copy(const Eigen::SimplicialLLT<Sparse>& llt) {
   return f;
 }
 
-struct SumVolumeStiffness {
-  double volume;
-  double& sum;
-  void operator()(Volume, const auto& law) const { sum += stiffness_at(law, volume); }
-};
-
-/// Returns by how much the pulls on the volume v grow with it, in Pa/m^3.
-double volume_stiffness(const BodyModel& p, double v) {
-  double sum = 0;
-  visit_forces<Coordinate::volume>(p, {}, SumVolumeStiffness{v, sum});
-  return sum;
-}
-
 /// dV/dx
 Eigen::VectorXd volume_gradient(const BodyModel& p, const Shape& x) {
   const auto n = static_cast<Eigen::Index>(p.mesh.vertices.size());
@@ -214,7 +201,7 @@ ImplicitMatrix::ImplicitMatrix(const BodyModel& p, double h, const ImplicitMatri
   for (const glm::dvec3& place : x) shape_.push_back(place - mean);
   if (p.forces->pressure <= 0 || !rotates_) return;
   const Eigen::VectorXd g = volume_gradient(p, x), response = factored_->llt.solve(g);
-  const double slope = volume_stiffness(p, volume(x, p.mesh.triangles));
+  const double slope = volume_pull(p, volume(x, p.mesh.triangles)).slope;
   gas_.assign(g.begin(), g.end());
   gas_response_.assign(response.begin(), response.end());
   gas_weight_ = slope / (1 + slope * std::inner_product(g.begin(), g.end(), response.begin(), 0.0));

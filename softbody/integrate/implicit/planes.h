@@ -1,7 +1,6 @@
 #pragma once
 // Corrections of an implicit step whose solve has left particles behind planes.
 
-#include <algorithm>
 #include <span>
 
 #include <glm/geometric.hpp>

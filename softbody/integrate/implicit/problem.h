@@ -5,6 +5,9 @@
 #include <bitset>
 #include <span>
 
+#include <glm/geometric.hpp>
+
+#include "softbody/contact/law.h"
 #include "softbody/forces/penalty_contact.h"
 #include "softbody/integrate/implicit/matrix.h"
 #include "softbody/state/lanes.h"
@@ -37,7 +40,15 @@ struct LinearPenaltyPair {
   double max_work = 0;               // J, that it can do in the step, whatever force_after() says
 
   /// Returns the force (N) after the particle has moved by u. It never pulls, and friction does not exceed its limit.
-  glm::dvec3 force_after(const glm::dvec3& u) const;
+  glm::dvec3 force_after(const glm::dvec3& u) const {
+    const glm::dvec3 apart = u - partner, faster = apart - start_separation;
+    const double press = std::max(0.0, glm::dot(force, normal) - double(slopes.spring) * glm::dot(apart, normal) -
+                                           double(slopes.damper) * glm::dot(faster, normal));
+    const auto across = [this](const glm::dvec3& v) { return v - glm::dot(v, normal) * normal; };
+    // The friction spring of the start has slipped for this step already, see PenaltyContact::evaluate().
+    const glm::dvec3 drag = across(force) - double(slopes.across_spring + slopes.across_damper) * across(faster);
+    return press * normal + law::within_cone(drag, friction * press);
+  }
 };
 
 /// What is solved in one step, in the frames of the lanes.

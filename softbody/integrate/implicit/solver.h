@@ -12,7 +12,6 @@
 // for deformable objects"): rounds of this solve with the contact forces held, and of a search for these forces
 // (implicit/contact_forces.h). Penalty contacts with other bodies enter to first order.
 
-#include <array>
 #include <utility>
 
 #include "softbody/forces/kernels/kernels.h"

@@ -1,7 +1,6 @@
 #pragma once
 // Implicit steps of batches of bodies.
 
-#include <array>
 #include <functional>
 #include <map>
 #include <memory>
