@@ -1,6 +1,5 @@
 #include "app/ui/user_interface.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "app/ui/help.h"

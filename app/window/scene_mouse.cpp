@@ -2,7 +2,6 @@
 
 #include <imgui.h>
 
-#include <utility>
 
 #include <glm/geometric.hpp>
 

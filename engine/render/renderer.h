@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <glm/vec2.hpp>
 #include <memory>
 #include <span>
 

@@ -1,6 +1,5 @@
 #include "app/ui/views/coverage_light.h"
 
-#include <algorithm>
 
 #include <fmt/core.h>
 #include <glm/common.hpp>
