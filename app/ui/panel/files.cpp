@@ -58,11 +58,10 @@ void draw_mesh_settings(Widgets& w, session::Import& import) {
   w.checkbox("Z is up", import.z_is_up, "In the file; else y is. It holds for the next mesh.");
   w.row_label("Weld", w.px(narrow_column));
   const double mm = 1e3 * double{import.size};  // of the mesh's size
-  auto weld = static_cast<float>(mm * import.weld);
-  if (w.slider("Weld distance", weld, static_cast<float>(mm * session::Import::min_weld),
-               static_cast<float>(mm * session::Import::max_weld), "%.4f mm",
+  double weld = mm * import.weld;
+  if (w.slider("Weld distance", weld, mm * session::Import::min_weld, mm * session::Import::max_weld, "%.4f mm",
                "Vertices of the next mesh that are no further apart become one. Raise it if seams stay open.", true))
-    import.weld = std::clamp(double{weld} / mm, session::Import::min_weld, session::Import::max_weld);
+    import.weld = std::clamp(weld / mm, session::Import::min_weld, session::Import::max_weld);
   w.row_label("Particles", w.px(narrow_column));
   bool automatic = import.resolution == 0;
   if (w.checkbox("Auto###Auto resolution", automatic,
