@@ -27,11 +27,7 @@ bool field_with_button(Widgets& w, const char* label, std::string& value, const 
 
 /// Draws what is wrong with the field above, if anything is.
 void draw_problem(Widgets& w, const char* label, const std::string& problem) {
-  if (problem.empty()) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
-  ImGui::TextWrapped("%s", problem.c_str());
-  ImGui::PopStyleColor();
-  w.register_item(label, nullptr);
+  if (!problem.empty()) w.wrapped_text(label, problem, true);
 }
 
 void draw_open(Widgets& w, Session& session, session::Import& import) {
@@ -90,8 +86,7 @@ void save(Session& session, UiState& ui) {
 void draw_save_question(Widgets& w, Session& session, UiState& ui) {
   const std::string question = ui.save_question.about(ui.save_as);
   if (question.empty()) return;
-  ImGui::TextWrapped("%s", question.c_str());
-  w.register_item("Save question", nullptr);
+  w.wrapped_text("Save question", question);
   ImGui::SetCursorPosX(w.px(narrow_column));
   if (w.button("Replace", "Writes the scene over the file.", w.px(file_button_width))) save(session, ui);
   ImGui::SameLine();

@@ -94,13 +94,12 @@ void draw_step_light(Widgets& w, Session& session) {
   w.register_item(
       "Step light",
       fmt::format("{} Substeps per frame: {} taken, {} needed.", light.sentence, margin.taken, margin.needed).c_str());
-  if (!session.simulation.stability().blow_up()) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::ColorConvertU32ToFloat4(to_imgui(render::status_red)));
-  ImGui::TextWrapped("%s (frame %d). Rewind, then choose more substeps, Auto, or softer springs.",
-                     session.simulation.stability().blow_up()->what.c_str(),
-                     session.simulation.stability().blow_up()->frame);
-  ImGui::PopStyleColor();
-  w.register_item("Blow-up", nullptr);
+  const auto& blow_up = session.simulation.stability().blow_up();
+  if (!blow_up) return;
+  w.wrapped_text("Blow-up",
+                 fmt::format("{} (frame {}). Rewind, then choose more substeps, Auto, or softer springs.",
+                             blow_up->what, blow_up->frame),
+                 true);
   if (w.button("Rewind to the last good frame", "Goes back to the last frame before the blow-up."))
     session.simulation.rewind_to(session.simulation.stability().last_good_frame());
 }

@@ -118,6 +118,8 @@ class Widgets {
   /// text_line() is flush left and wraps text that is too long; right_text() is flush right.
   void text_line(const std::string& text);
   void right_text(const std::string& text);
+  /// Draws text that wraps, in red if it tells of a problem. Has no tooltip.
+  void wrapped_text(const char* label, const std::string& text, bool problem = false);
   /// Draws a line with a grey label and its value at the right.
   void figure(const char* label, const std::string& value, const char* tooltip);
   /// Draws a colour swatch in the middle of a line.
