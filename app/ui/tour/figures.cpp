@@ -1,4 +1,4 @@
-#include "app/ui/tour/figures.h"
+// The figures of the guided tour: those of each step, and those of the whole frame.
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 
 #include "app/base/text.h"
 #include "app/render/palette.h"
+#include "app/ui/tour/steps.h"
 #include "app/ui/views/bucket_view.h"
 
 namespace app::ui {

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include "app/render/palette.h"
-#include "app/ui/tour/figures.h"
 
 namespace app::ui {
 namespace {
