@@ -1,4 +1,4 @@
-#include "app/ui/time_line.h"
+#include "app/ui/parts.h"
 
 #include <algorithm>
 

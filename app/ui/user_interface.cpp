@@ -2,14 +2,10 @@
 
 #include <utility>
 
-#include "app/ui/help.h"
 #include "app/ui/panel/panel.h"
-#include "app/ui/sidebar.h"
-#include "app/ui/time_line.h"
+#include "app/ui/parts.h"
 #include "app/ui/tour/tour_view.h"
-#include "app/ui/views/compare_view.h"
-#include "app/ui/views/import_report.h"
-#include "app/ui/views/status.h"
+#include "app/ui/views/views.h"
 
 namespace app::ui {
 

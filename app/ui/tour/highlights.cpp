@@ -10,7 +10,7 @@
 #include "app/render/overlay_shapes.h"
 #include "app/render/palette.h"
 #include "app/ui/tour/steps.h"
-#include "app/ui/views/bucket_view.h"
+#include "app/ui/views/views.h"
 
 namespace app::ui {
 namespace {

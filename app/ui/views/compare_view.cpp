@@ -1,4 +1,4 @@
-#include "app/ui/views/compare_view.h"
+#include "app/ui/views/views.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,6 @@
 #include <fmt/core.h>
 
 #include "app/render/palette.h"
-#include "app/ui/views/method_choice.h"
 #include "app/ui/widgets/method_mark.h"
 
 namespace app::ui {

@@ -1,4 +1,4 @@
-#include "app/ui/views/import_report.h"
+#include "app/ui/views/views.h"
 
 #include <algorithm>
 
