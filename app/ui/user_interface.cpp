@@ -48,8 +48,6 @@ void UserInterface::show_field_problem(session::Notice& notice) {
   field_problem_ = *problem;
 }
 
-double UserInterface::seconds_to_change(double seconds) const { return seconds_to_hint_change(seconds); }
-
 void UserInterface::draw_lower(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area) {
   bool open = true;
   if (ui.lower == LowerView::comparison)
