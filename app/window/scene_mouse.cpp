@@ -2,7 +2,6 @@
 
 #include <imgui.h>
 
-
 #include <glm/geometric.hpp>
 
 namespace app::window {
