@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <glm/mat3x3.hpp>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <optional>

@@ -7,13 +7,6 @@
 namespace engine {
 namespace {
 
-template <class Generate>
-GLuint generated(Generate generate) {
-  GLuint name = 0;
-  generate(1, &name);
-  return name;
-}
-
 int supported_samples(int wanted) {
   GLint max = 0;
   glGetIntegerv(GL_MAX_SAMPLES, &max);
@@ -22,25 +15,10 @@ int supported_samples(int wanted) {
 
 }  // namespace
 
-namespace detail {
-void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
-void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
-void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
-void delete_program(GLuint name) { glDeleteProgram(name); }
-void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
-void delete_renderbuffer(GLuint name) { glDeleteRenderbuffers(1, &name); }
-}  // namespace detail
-
-FramebufferName generate_framebuffer() { return FramebufferName(generated(glGenFramebuffers)); }
-
-Buffer::Buffer() : name_(generated(glGenBuffers)) {}
-
 void Buffer::upload(GLenum target, const void* data, std::size_t bytes, GLenum usage) {
   glBindBuffer(target, id());
   glBufferData(target, static_cast<GLsizeiptr>(bytes), data, usage);
 }
-
-VertexArray::VertexArray() : name_(generated(glGenVertexArrays)) {}
 
 void enable_attributes(GLuint count, GLuint first_per_instance) {
   for (GLuint attribute = 0; attribute < count; ++attribute) {
@@ -48,8 +26,6 @@ void enable_attributes(GLuint count, GLuint first_per_instance) {
     if (attribute >= first_per_instance) glVertexAttribDivisor(attribute, 1);
   }
 }
-
-Texture::Texture() : name_(generated(glGenTextures)) {}
 
 void Texture::bind(int unit, GLenum target) const {
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));

@@ -33,21 +33,27 @@ class GlName {
 };
 
 namespace detail {
-void delete_buffer(GLuint name);
-void delete_vertex_array(GLuint name);
-void delete_texture(GLuint name);
-void delete_program(GLuint name);
-void delete_framebuffer(GLuint name);
-void delete_renderbuffer(GLuint name);
+inline void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
+inline void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
+inline void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
+inline void delete_program(GLuint name) { glDeleteProgram(name); }
+inline void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
+inline void delete_renderbuffer(GLuint name) { glDeleteRenderbuffers(1, &name); }
 }  // namespace detail
 
+/// Returns the name of a new object, by glGenBuffers() or the like.
+template <class Generate>
+GLuint generated(Generate generate) {
+  GLuint name = 0;
+  generate(1, &name);
+  return name;
+}
+
 using FramebufferName = GlName<detail::delete_framebuffer>;
-FramebufferName generate_framebuffer();
 
 /// A buffer whose data is set once or streamed every frame.
 class Buffer {
  public:
-  Buffer();
   GLuint id() const { return name_.get(); }
 
   /// Replaces the contents; for data that stays. Leaves the buffer bound to `target`.
@@ -65,16 +71,15 @@ class Buffer {
  private:
   void upload(GLenum target, const void* data, std::size_t bytes, GLenum usage);
 
-  GlName<detail::delete_buffer> name_;
+  GlName<detail::delete_buffer> name_{generated(glGenBuffers)};
 };
 
 class VertexArray {
  public:
-  VertexArray();
   void bind() const { glBindVertexArray(name_.get()); }
 
  private:
-  GlName<detail::delete_vertex_array> name_;
+  GlName<detail::delete_vertex_array> name_{generated(glGenVertexArrays)};
 };
 
 /// The offset of an attribute in its buffer, in the form that glVertexAttribPointer takes.
@@ -87,12 +92,11 @@ void enable_attributes(GLuint count, GLuint first_per_instance);
 /// A texture of any kind; the caller binds and defines it.
 class Texture {
  public:
-  Texture();
   GLuint id() const { return name_.get(); }
   void bind(int unit, GLenum target) const;
 
  private:
-  GlName<detail::delete_texture> name_;
+  GlName<detail::delete_texture> name_{generated(glGenTextures)};
 };
 
 /// Filters the bound 2D texture linearly and repeats its outermost texels beyond its edges.

@@ -3,13 +3,7 @@
 #include <png.h>
 
 namespace engine {
-namespace fs = std::filesystem;
-
 namespace {
-
-[[noreturn]] void fail_to_read(const fs::path& path, const char* reason) {
-  throw ImageError("cannot read " + path.string() + ": " + reason);
-}
 
 std::vector<std::uint8_t> without_alpha(const Image& image) {
   std::vector<std::uint8_t> rgb;
@@ -39,17 +33,6 @@ std::string encode_png(const Image& image) {
     throw ImageError(std::string("cannot encode a picture: ") + png.message);
   bytes.resize(size);
   return bytes;
-}
-
-Image load_png(const fs::path& path) {
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_file(&png, path.c_str())) fail_to_read(path, png.message);
-  png.format = PNG_FORMAT_RGBA;
-  Image image{static_cast<int>(png.width), static_cast<int>(png.height),
-              std::vector<std::uint8_t>(PNG_IMAGE_SIZE(png))};
-  if (!png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr)) fail_to_read(path, png.message);
-  return image;
 }
 
 }  // namespace engine

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <glm/vec4.hpp>
 #include <stdexcept>
 #include <string>
@@ -26,7 +25,7 @@ struct Image {
   }
 };
 
-/// A picture cannot be encoded or read. what() is the reason, after the path if there is one.
+/// A picture cannot be encoded. what() is the reason.
 class ImageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -34,8 +33,5 @@ class ImageError : public std::runtime_error {
 
 /// Returns the bytes of an 8-bit RGB PNG file; drops alpha. Throws ImageError, also if the picture is empty.
 std::string encode_png(const Image& image);
-
-/// Reads any PNG as RGBA. Throws ImageError.
-Image load_png(const std::filesystem::path& path);
 
 }  // namespace engine

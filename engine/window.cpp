@@ -83,14 +83,7 @@ Window::Window(const WindowOptions& options) {
     glfwTerminate();
     throw;
   }
-  glfwSetWindowUserPointer(window_, this);
-  glfwSetWindowRefreshCallback(window_, &Window::on_refresh);
-  glfwSetKeyCallback(window_, &Window::on_key);
-  glfwSetDropCallback(window_, &Window::on_drop);
-  glfwSetMouseButtonCallback(window_, &Window::on_button);
-  glfwSetCursorPosCallback(window_, &Window::on_cursor);
-  glfwSetScrollCallback(window_, &Window::on_scroll);
-  glfwSetCharCallback(window_, &Window::on_character);
+  set_callbacks();
   glfwSetWindowSizeLimits(window_, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwSwapInterval(options.vsync ? 1 : 0);
   update_size();
@@ -154,37 +147,34 @@ glm::vec2 Window::cursor() const {
 
 bool Window::left_button_down() const { return glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS; }
 
-namespace {
-
-Window& self(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
-
-}  // namespace
-
-void Window::on_refresh(GLFWwindow* window) { self(window).event_ = true; }
-
-void Window::on_drop(GLFWwindow* window, int count, const char** paths) {
-  Window& w = self(window);
-  w.event_ = true;
-  w.dropped_files_.insert(w.dropped_files_.end(), paths, paths + count);
-}
-
-void Window::on_cursor(GLFWwindow* window, double x, double y) {
-  self(window).event_ = true;
-  self(window).cursor_ = {x, y};
-}
-
-void Window::on_button(GLFWwindow* window, int button, int action, int) {
-  Window& w = self(window);
-  w.input_.push(ButtonEvent{button, action == GLFW_PRESS, w.cursor_, w.last_poll_, glfwGetTime()});
-}
-
-void Window::on_scroll(GLFWwindow* window, double x, double y) { self(window).input_.push(ScrollEvent{{x, y}}); }
-
-void Window::on_character(GLFWwindow* window, unsigned int code) { self(window).input_.push(CharacterEvent{code}); }
-
-void Window::on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
-  const KeyMeaning meaning = key_meaning(key, [](int named) { return glfwGetKeyName(named, 0); });
-  self(window).input_.push(KeyEvent{key, meaning, scancode, action, mods});
+void Window::set_callbacks() {
+  static constexpr auto self = [](GLFWwindow* window) -> Window& {
+    return *static_cast<Window*>(glfwGetWindowUserPointer(window));
+  };
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) { self(window).event_ = true; });
+  glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+    Window& w = self(window);
+    w.event_ = true;
+    w.dropped_files_.insert(w.dropped_files_.end(), paths, paths + count);
+  });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+    self(window).event_ = true;
+    self(window).cursor_ = {x, y};
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
+    Window& w = self(window);
+    w.input_.push(ButtonEvent{button, action == GLFW_PRESS, w.cursor_, w.last_poll_, glfwGetTime()});
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* window, double x, double y) {
+    self(window).input_.push(ScrollEvent{{x, y}});
+  });
+  glfwSetCharCallback(window_,
+                      [](GLFWwindow* window, unsigned int code) { self(window).input_.push(CharacterEvent{code}); });
+  glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int mods) {
+    const KeyMeaning meaning = key_meaning(key, [](int named) { return glfwGetKeyName(named, 0); });
+    self(window).input_.push(KeyEvent{key, meaning, scancode, action, mods});
+  });
 }
 
 }  // namespace engine

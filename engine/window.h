@@ -63,14 +63,7 @@ class Window {
 
  private:
   void update_size();
-
-  static void on_refresh(GLFWwindow* window);
-  static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
-  static void on_character(GLFWwindow* window, unsigned int code);
-  static void on_cursor(GLFWwindow* window, double x, double y);
-  static void on_scroll(GLFWwindow* window, double x, double y);
-  static void on_drop(GLFWwindow* window, int count, const char** paths);
-  static void on_button(GLFWwindow* window, int button, int action, int mods);
+  void set_callbacks();  // GLFW then fills the members below
 
   GLFWwindow* window_ = nullptr;
   // Stored, because each query waits for the X server and a frame asks a dozen times.

@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include "app/base/time_series.h"
 #include "app/compare/drawn_positions.h"

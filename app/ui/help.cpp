@@ -1,4 +1,4 @@
-#include "app/ui/help.h"
+#include "app/ui/parts.h"
 
 #include <algorithm>
 #include <string_view>

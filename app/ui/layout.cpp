@@ -4,10 +4,9 @@
 #include <cmath>
 
 #include "app/ui/panel/panel.h"
-#include "app/ui/sidebar.h"
-#include "app/ui/time_line.h"
-#include "app/ui/views/compare_view.h"
+#include "app/ui/parts.h"
 #include "app/ui/views/sweep_view.h"
+#include "app/ui/views/views.h"
 
 namespace app::ui {
 namespace {

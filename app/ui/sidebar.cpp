@@ -1,8 +1,6 @@
-#include "app/ui/sidebar.h"
+#include "app/ui/parts.h"
 
-#include "app/ui/views/bucket_view.h"
-#include "app/ui/views/status.h"
-#include "app/ui/views/surface_view.h"
+#include "app/ui/views/views.h"
 
 namespace app::ui {
 

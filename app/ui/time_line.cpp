@@ -1,4 +1,4 @@
-#include "app/ui/time_line.h"
+#include "app/ui/parts.h"
 
 #include <algorithm>
 
@@ -36,12 +36,12 @@ void draw_frames(Widgets& w, Session& session, const session::Player& player) {
 /// Draws how fast the frames that are played follow each other, and whether they begin again.
 void draw_speed(Widgets& w, Session& session) {
   const double frame_time = session.world().frame_time();
-  auto rate = static_cast<float>(session.simulation.clock.speed / frame_time);
+  double rate = session.simulation.clock.speed / frame_time;
   w.checkbox("Loop", session.simulation.loop, "Begins again after the last frame, and else pauses there.");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(w.px(speed_width));
   if (w.slider("Speed", rate, 1, 240, "%.0f frames/s", "How many frames are shown each second.", true))
-    session.simulation.clock.speed = static_cast<double>(rate) * frame_time;
+    session.simulation.clock.speed = rate * frame_time;
   ImGui::SameLine();
 }
 

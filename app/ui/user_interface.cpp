@@ -1,16 +1,11 @@
 #include "app/ui/user_interface.h"
 
-#include <algorithm>
 #include <utility>
 
-#include "app/ui/help.h"
 #include "app/ui/panel/panel.h"
-#include "app/ui/sidebar.h"
-#include "app/ui/time_line.h"
+#include "app/ui/parts.h"
 #include "app/ui/tour/tour_view.h"
-#include "app/ui/views/compare_view.h"
-#include "app/ui/views/import_report.h"
-#include "app/ui/views/status.h"
+#include "app/ui/views/views.h"
 
 namespace app::ui {
 
@@ -52,8 +47,6 @@ void UserInterface::show_field_problem(session::Notice& notice) {
     notice.clear();
   field_problem_ = *problem;
 }
-
-double UserInterface::seconds_to_change(double seconds) const { return seconds_to_hint_change(seconds); }
 
 void UserInterface::draw_lower(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area) {
   bool open = true;

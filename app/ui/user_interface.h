@@ -13,8 +13,6 @@ class UserInterface {
   /// Draws one frame. Call it between begin_frame() and end_frame() of the Gui. `seconds`: since the window opened.
   void draw(Session& session, UiState& ui, float scale, double seconds, WidgetRecorder* recorder = nullptr);
 
-  /// Returns the seconds until the interface changes by itself; infinity if it does not.
-  double seconds_to_change(double seconds) const;
   /// Returns true while a sweep shows its progress.
   bool shows_sweep(const UiState& ui) const { return ui.lower == LowerView::sweep && sweep_view_.state().running; }
 

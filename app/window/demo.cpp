@@ -175,7 +175,7 @@ class Demo {
             .counting = !session_.stands_still() || interface_.shows_sweep(ui_),
             .reporting = ui_.import.busy() || ui_.exporter.finishing(),
             .typing = graphics_->gui.wants_keyboard(),
-            .next_change = settling_ ? 0 : interface_.seconds_to_change(seconds_)};
+            .next_change = settling_ ? 0 : ui::seconds_to_hint_change(seconds_)};
   }
 
   InterfaceKey interface_key() const {

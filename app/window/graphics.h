@@ -3,6 +3,7 @@
 
 #include "app/render/canvas.h"
 #include "app/render/scene_view.h"
+#include "app/ui/widgets/dock.h"
 #include "engine/context.h"
 #include "engine/gui.h"
 #include "engine/resources.h"
@@ -18,7 +19,12 @@ struct Graphics {
         view(engine::find_folder("shaders"), threads) {}
 
   /// Clears the whole window to dock_colour().
-  void clear() const;
+  void clear() const {
+    const ImVec4 colour = ui::dock_colour();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glClearColor(colour.x, colour.y, colour.z, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+  }
 
   engine::Window window;  // first: the others need its context
   engine::Gui gui{window};

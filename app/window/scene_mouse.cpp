@@ -2,8 +2,6 @@
 
 #include <imgui.h>
 
-#include <utility>
-
 #include <glm/geometric.hpp>
 
 namespace app::window {

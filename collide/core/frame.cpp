@@ -1,6 +1,5 @@
 #include "collide/core/frame.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 

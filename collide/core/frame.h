@@ -84,6 +84,11 @@ struct Frame {
   const Bodies* bodies = nullptr;
 };
 
+/// Returns the position (m) of a vertex.
+inline glm::vec3 position(const Frame& frame, Index vertex) {
+  return {frame.x[vertex], frame.y[vertex], frame.z[vertex]};
+}
+
 /// Returns true if the frame has bodies and a position for each of their vertices: the precondition of every detection.
 inline bool is_complete(const Frame& frame) {
   if (!frame.bodies) return false;

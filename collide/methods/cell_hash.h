@@ -104,7 +104,12 @@ class CellList {
   }
 
  private:
-  void tidy();
+  void tidy() {
+    std::sort(cells_.begin(), cells_.end());
+    cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+    if (cells_.size() > DebugGeometry::debug_cell_limit) cells_.resize(DebugGeometry::debug_cell_limit);
+  }
+
   std::vector<DebugGeometry::Cell> cells_;
 };
 

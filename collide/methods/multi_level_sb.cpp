@@ -2,8 +2,6 @@
 // between its corners, and boxes are not padded by the tolerance, so contacts can be missed. And the same method made
 // complete: only its §2.2 differs, which says into which buckets a box goes.
 
-#include <algorithm>
-
 #include "collide/core/cutoff.h"
 #include "collide/methods/box_table.h"
 #include "collide/methods/cell_hash.h"

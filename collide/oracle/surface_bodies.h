@@ -8,10 +8,6 @@
 
 namespace collide::oracle {
 
-inline glm::vec3 position(const Frame& frame, Index vertex) {
-  return {frame.x[vertex], frame.y[vertex], frame.z[vertex]};
-}
-
 /// Throws std::invalid_argument unless there is one surface for each body, null or with as many vertices as the body.
 void require_match(const Frame& frame, const surface::Surfaces& surfaces);
 

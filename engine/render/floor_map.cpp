@@ -9,7 +9,7 @@
 namespace engine::render {
 
 FloorMap::FloorMap(const std::filesystem::path& shaders)
-    : program_(shaders, "floor_map.vert", "floor_map.frag"), framebuffer_(generate_framebuffer()) {
+    : program_(shaders, "floor_map.vert", "floor_map.frag"), framebuffer_(generated(glGenFramebuffers)) {
   map_.bind(unit_floor_map, GL_TEXTURE_2D);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size, size, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   set_linear_clamped();

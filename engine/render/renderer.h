@@ -9,9 +9,16 @@
 
 #include "engine/camera.h"
 #include "engine/frame_data.h"
-#include "engine/viewport.h"
 
-namespace engine::render {
+namespace engine {
+
+/// The part of the bound framebuffer to draw into, in pixels from OpenGL's bottom left corner.
+struct Viewport {
+  glm::ivec2 origin{0};
+  glm::ivec2 size{0};
+};
+
+namespace render {
 
 class Renderer {
  public:
@@ -34,4 +41,5 @@ class Renderer {
   std::unique_ptr<Passes> passes_;
 };
 
-}  // namespace engine::render
+}  // namespace render
+}  // namespace engine

@@ -23,7 +23,7 @@ glm::vec4 LightView::shadow_bounds(std::span<const glm::vec4> spheres) const {
   return {min, max};
 }
 
-ShadowMap::ShadowMap() : framebuffer_(generate_framebuffer()) {
+ShadowMap::ShadowMap() : framebuffer_(generated(glGenFramebuffers)) {
   depth_.bind(0, GL_TEXTURE_2D);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT16, size, size, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT, nullptr);
   set_linear_clamped();

@@ -14,6 +14,7 @@
 #include "softbody/model/body_model.h"
 #include "tests/app/recorded_bodies.h"
 #include "tests/app/scenes.h"
+#include "tests/load_png.h"
 #include "tests/temporary_folder.h"
 
 namespace app {
@@ -107,7 +108,7 @@ TEST_F(ExporterTest, GivesPicturesTheNextFreeName) {
   }
   EXPECT_EQ(names(folder.path()), (std::set<std::string>{"picture_0001.png", "picture_0002.png", "picture_0003.png"}));
   EXPECT_EQ(read_file(folder.path() / "picture_0002.png"), "mine");
-  EXPECT_EQ(engine::load_png(folder.path() / "picture_0001.png").at(0, 0).x, 1);
+  EXPECT_EQ(tests::load_png(folder.path() / "picture_0001.png").at(0, 0).x, 1);
   EXPECT_NE(exporter.message().find("picture_0003.png"), std::string::npos);
 }
 
@@ -123,7 +124,7 @@ TEST_F(ExporterTest, TakesPicturesOfTheChosenSize) {
   exporter.size = session::Exporter::own;
   exporter.own_size = {33, 21};
   EXPECT_EQ(take(), " (33 x 21)");
-  EXPECT_EQ(engine::load_png(folder.path() / "picture_0003.png").width, 33);
+  EXPECT_EQ(tests::load_png(folder.path() / "picture_0003.png").width, 33);
   EXPECT_EQ(session.simulation.notice.text(), exporter.message());
   EXPECT_FALSE(session.simulation.notice.is_error());
   exporter.with_panel = true;
@@ -134,7 +135,7 @@ TEST_F(ExporterTest, RecordsPicturesOfTheChosenSize) {
   exporter.size = session::Exporter::own;
   exporter.own_size = {34, 22};
   record("pictures", 3);
-  EXPECT_EQ(engine::load_png(folder.path() / "pictures_0001" / "picture_00003.png").height, 22);
+  EXPECT_EQ(tests::load_png(folder.path() / "pictures_0001" / "picture_00003.png").height, 22);
   EXPECT_EQ(session.simulation.notice.text(), exporter.message()) << "what was written";
   EXPECT_NE(exporter.message().find("3 frames"), std::string::npos) << exporter.message();
 }
@@ -162,7 +163,7 @@ TEST_F(ExporterTest, RecordsEachFrameOnce) {
   const auto sequence = folder.path() / "pictures_0001";
   ASSERT_EQ(names(sequence).size(), 9u);
   for (int i = 1; i <= 9; ++i)
-    EXPECT_EQ(engine::load_png(sequence / ("picture_0000" + std::to_string(i) + ".png")).at(0, 0).x, i);
+    EXPECT_EQ(tests::load_png(sequence / ("picture_0000" + std::to_string(i) + ".png")).at(0, 0).x, i);
   EXPECT_FALSE(exporter.failed());
   record("pictures", 2);
   EXPECT_TRUE(names(folder.path()).contains("pictures_0002"));

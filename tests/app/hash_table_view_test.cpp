@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/ui/views/bucket_view.h"
+#include "app/ui/views/views.h"
 #include "tests/app/panel_rig.h"
 #include "tests/bucket_loads.h"
 

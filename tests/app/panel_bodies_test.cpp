@@ -4,7 +4,7 @@
 
 #include "app/files/scene_folder.h"
 #include "app/ui/panel/panel.h"
-#include "app/ui/time_line.h"
+#include "app/ui/parts.h"
 #include "softbody/forces/gas.h"
 #include "softbody/forces/material_keys.h"
 #include "softbody/forces/springs.h"

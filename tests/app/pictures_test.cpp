@@ -11,6 +11,7 @@
 #include "engine/image.h"
 #include "engine/resources.h"
 #include "softbody/world/world.h"
+#include "tests/load_png.h"
 
 namespace app {
 namespace {
@@ -46,7 +47,7 @@ TEST(Pictures, OfTheDropSceneShowThePapersFourMoments) {
   for (const int frame : {100, 400, 600, 800}) {
     while (world.frame() < frame) world.step();
     const engine::Image now = capture.draw(world);
-    const engine::Image kept = engine::load_png(golden / ("frame_0" + std::to_string(frame) + ".png"));
+    const engine::Image kept = tests::load_png(golden / ("frame_0" + std::to_string(frame) + ".png"));
     ASSERT_EQ(now.width, kept.width);
     ASSERT_EQ(now.height, kept.height);
     const Difference d = difference(now, kept);

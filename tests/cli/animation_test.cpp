@@ -15,6 +15,7 @@
 #include "engine/image.h"
 #include "tests/cli/process.h"
 #include "tests/full_disk.h"
+#include "tests/load_png.h"
 
 namespace cli::test {
 namespace {
@@ -95,7 +96,7 @@ TEST(Animation, ShowsWhatCapturesShow) {
   ASSERT_EQ(f.pictures.size(), 16u);
   for (const auto& [name, shown] :
        {std::pair("frame_0001.png", f.pictures.front()), std::pair("frame_0031.png", f.pictures.back())}) {
-    const engine::Image capture = engine::load_png(folder.path() / name);
+    const engine::Image capture = tests::load_png(folder.path() / name);
     ASSERT_EQ(capture.rgba.size(), shown.size());
     double sum = 0;
     for (std::size_t i = 0; i < shown.size(); ++i)

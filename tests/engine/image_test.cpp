@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/load_png.h"
 #include "tests/temporary_folder.h"
 
 namespace engine {
@@ -16,20 +17,11 @@ Image test_picture(int width, int height) {
   return image;
 }
 
-std::string message_of(const auto& action) {
-  try {
-    action();
-  } catch (const ImageError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(EncodePng, KeepsAllPixels) {
   const tests::TemporaryFolder folder;
   for (const auto& [width, height] : {std::pair{37, 21}, std::pair{1, 1}, std::pair{640, 3}}) {
     const Image image = test_picture(width, height);
-    const Image read = load_png(folder.write("picture.png", encode_png(image)));
+    const Image read = tests::load_png(folder.write("picture.png", encode_png(image)));
     EXPECT_EQ(read.width, width);
     EXPECT_EQ(read.height, height);
     EXPECT_EQ(read.rgba, image.rgba);
@@ -39,15 +31,6 @@ TEST(EncodePng, KeepsAllPixels) {
 TEST(EncodePng, RefusesEmptyPictures) {
   EXPECT_THROW(encode_png(Image{}), ImageError);
   EXPECT_THROW(encode_png(Image{2, 2, {}}), ImageError);
-}
-
-TEST(LoadPng, ErrorNamesTheFile) {
-  const tests::TemporaryFolder folder;
-  folder.write("broken.png", "not a picture");
-  for (const char* name : {"broken.png", "missing.png"}) {
-    const std::string message = message_of([&] { load_png(folder.path() / name); });
-    EXPECT_NE(message.find(name), std::string::npos) << message;
-  }
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "app/session/export/exporter.h"
 
 #include <map>
-#include <optional>
 #include <utility>
 
 #include <fmt/core.h>

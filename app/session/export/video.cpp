@@ -11,10 +11,14 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <iterator>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <thread>
 #include <utility>
+
+#include <fmt/core.h>
 
 #include "app/base/usage_error.h"
 #include "app/files/output_file.h"
@@ -51,7 +55,7 @@ class FileDescriptor {
 class Ffmpeg {
  public:
   /// video: the file to write, which becomes ffmpeg's standard output. Throws UsageError if there is no ffmpeg.
-  Ffmpeg(const std::vector<std::string>& arguments, int video) {
+  Ffmpeg(std::vector<std::string> arguments, int video) {
     std::array<int, 2> pictures{}, errors{};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pictures.data()) != 0) refuse(errno);
     const FileDescriptor input(pictures[1]);
@@ -61,7 +65,7 @@ class Ffmpeg {
     errors_ = FileDescriptor(errors[0]);
     const timeval limit{timeout_seconds, 0};
     ::setsockopt(pictures[0], SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
-    if (const int error = spawn(arguments, input.number(), video, output.number())) refuse(error);
+    if (const int error = spawn(std::move(arguments), input.number(), video, output.number())) refuse(error);
   }
   ~Ffmpeg() {
     if (child_ <= 0) return;
@@ -116,15 +120,14 @@ class Ffmpeg {
     throw UsageError(std::string("ffmpeg cannot be started: ") + std::strerror(error));
   }
 
-  int spawn(const std::vector<std::string>& arguments, int input, int output, int errors) {
+  int spawn(std::vector<std::string> arguments, int input, int output, int errors) {
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
     ::posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
     ::posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
     ::posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
-    std::vector<std::string> words = arguments;
     std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
+    for (std::string& word : arguments) argv.push_back(word.data());
     argv.push_back(nullptr);
     const int error = ::posix_spawnp(&child_, argv[0], &actions, nullptr, argv.data(), environ);
     ::posix_spawn_file_actions_destroy(&actions);
@@ -167,32 +170,14 @@ class VideoWriter : public FrameWriter {
   void begin(const engine::Image& picture) {
     width_ = picture.width;
     height_ = picture.height;
-    const std::string size = std::to_string(width_) + "x" + std::to_string(height_);
-    output_.emplace(file_);
     // The codec requires even sides. The output has no name, so that ffmpeg cannot make it again after a signal has
     // removed it.
-    ffmpeg_ = std::make_unique<Ffmpeg>(std::vector<std::string>{"ffmpeg",
-                                                                "-nostdin",
-                                                                "-y",
-                                                                "-loglevel",
-                                                                "error",
-                                                                "-f",
-                                                                "rawvideo",
-                                                                "-pix_fmt",
-                                                                "rgba",
-                                                                "-s",
-                                                                size,
-                                                                "-r",
-                                                                "60",
-                                                                "-i",
-                                                                "pipe:0",
-                                                                "-vf",
-                                                                "crop=trunc(iw/2)*2:trunc(ih/2)*2",
-                                                                "-pix_fmt",
-                                                                "yuv420p",
-                                                                "-f",
-                                                                "mp4",
-                                                                "/dev/stdout"},
+    std::istringstream words(
+        fmt::format("ffmpeg -nostdin -y -loglevel error -f rawvideo -pix_fmt rgba -s {}x{} -r 60 -i pipe:0 "
+                    "-vf crop=trunc(iw/2)*2:trunc(ih/2)*2 -pix_fmt yuv420p -f mp4 /dev/stdout",
+                    width_, height_));
+    output_.emplace(file_);
+    ffmpeg_ = std::make_unique<Ffmpeg>(std::vector<std::string>{std::istream_iterator<std::string>(words), {}},
                                        output_->descriptor());
   }
 

@@ -4,8 +4,7 @@ namespace app::session {
 
 std::string LiveGhost::choose(const softbody::World& world, const std::optional<softbody::IntegratorChoice>& choice,
                               int threads) try {
-  auto ghost = choice ? std::make_unique<Ghost>(world, *choice, threads) : nullptr;
-  ghost_ = std::move(ghost);
+  ghost_ = choice ? std::make_unique<Ghost>(world, *choice, threads) : nullptr;
   distances_.clear();
   ++revision_;
   return {};

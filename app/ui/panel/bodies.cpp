@@ -26,11 +26,8 @@ void draw_drop_and_throw(Widgets& w, Session& session, UiState& ui) {
     ui.throw_body = true;
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  auto speed = static_cast<float>(session.bodies.throw_speed);
-  if (w.slider("Throw speed", speed, static_cast<float>(session::BodyControls::min_throw_speed),
-               static_cast<float>(session::BodyControls::max_throw_speed), "%.0f m/s", "How fast bodies are thrown.",
-               true))
-    session.bodies.throw_speed = static_cast<double>(speed);
+  w.slider("Throw speed", session.bodies.throw_speed, session::BodyControls::min_throw_speed,
+           session::BodyControls::max_throw_speed, "%.0f m/s", "How fast bodies are thrown.", true);
   ImGui::EndDisabled();
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cfloat>
-#include <cmath>
 
 #include <fmt/core.h>
 
@@ -28,11 +27,7 @@ bool field_with_button(Widgets& w, const char* label, std::string& value, const 
 
 /// Draws what is wrong with the field above, if anything is.
 void draw_problem(Widgets& w, const char* label, const std::string& problem) {
-  if (problem.empty()) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
-  ImGui::TextWrapped("%s", problem.c_str());
-  ImGui::PopStyleColor();
-  w.register_item(label, nullptr);
+  if (!problem.empty()) w.wrapped_text(label, problem, true);
 }
 
 void draw_open(Widgets& w, Session& session, session::Import& import) {
@@ -59,11 +54,10 @@ void draw_mesh_settings(Widgets& w, session::Import& import) {
   w.checkbox("Z is up", import.z_is_up, "In the file; else y is. It holds for the next mesh.");
   w.row_label("Weld", w.px(narrow_column));
   const double mm = 1e3 * double{import.size};  // of the mesh's size
-  auto weld = static_cast<float>(mm * import.weld);
-  if (w.slider("Weld distance", weld, static_cast<float>(mm * session::Import::min_weld),
-               static_cast<float>(mm * session::Import::max_weld), "%.4f mm",
+  double weld = mm * import.weld;
+  if (w.slider("Weld distance", weld, mm * session::Import::min_weld, mm * session::Import::max_weld, "%.4f mm",
                "Vertices of the next mesh that are no further apart become one. Raise it if seams stay open.", true))
-    import.weld = std::clamp(double{weld} / mm, session::Import::min_weld, session::Import::max_weld);
+    import.weld = std::clamp(weld / mm, session::Import::min_weld, session::Import::max_weld);
   w.row_label("Particles", w.px(narrow_column));
   bool automatic = import.resolution == 0;
   if (w.checkbox("Auto###Auto resolution", automatic,
@@ -92,8 +86,7 @@ void save(Session& session, UiState& ui) {
 void draw_save_question(Widgets& w, Session& session, UiState& ui) {
   const std::string question = ui.save_question.about(ui.save_as);
   if (question.empty()) return;
-  ImGui::TextWrapped("%s", question.c_str());
-  w.register_item("Save question", nullptr);
+  w.wrapped_text("Save question", question);
   ImGui::SetCursorPosX(w.px(narrow_column));
   if (w.button("Replace", "Writes the scene over the file.", w.px(file_button_width))) save(session, ui);
   ImGui::SameLine();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 
@@ -62,12 +61,11 @@ void draw_time_controls(Widgets& w, Session& session) {
   ImGui::SameLine(w.px(label_column + 20));
   ImGui::SetNextItemWidth(-FLT_MIN);
   ImGui::BeginDisabled(!session.simulation.clock.slow_motion);
-  float percent = static_cast<float>(session.simulation.clock.slow_factor * 100);
-  if (w.slider("Slow motion speed", percent, 100 * static_cast<float>(session::SimulationClock::min_slow_factor),
-               100 * static_cast<float>(session::SimulationClock::max_slow_factor), "%.0f %% of real time",
-               "The speed of slow motion.", true)) {
-    session.simulation.clock.slow_factor = static_cast<double>(percent) / 100;
-  }
+  double percent = 100 * session.simulation.clock.slow_factor;
+  if (w.slider("Slow motion speed", percent, 100 * session::SimulationClock::min_slow_factor,
+               100 * session::SimulationClock::max_slow_factor, "%.0f %% of real time", "The speed of slow motion.",
+               true))
+    session.simulation.clock.slow_factor = percent / 100;
   ImGui::EndDisabled();
 }
 

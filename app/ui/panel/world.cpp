@@ -12,11 +12,11 @@ namespace app::ui {
 namespace {
 
 void draw_gravity(Widgets& w, Session& session) {
-  auto strength = static_cast<float>(glm::length(session.world().scene().gravity));
+  double strength = glm::length(session.world().scene().gravity);
   w.row_label("Gravity", w.px(label_column));
   if (w.slider("Gravity", strength, 0, 30, "%.2f m/s\u00b2",
                "Acceleration in the direction of the scene. On Earth it is 9.81.", false))
-    session.settings.set_gravity(static_cast<double>(strength));
+    session.settings.set_gravity(strength);
 }
 
 /// Draws a list of `count` items (at least one) and returns the chosen index.
@@ -65,12 +65,12 @@ void draw_material(Widgets& w, Session& session, UiState& ui) {
     const softbody::Slider& s = key->slider;
     if (!s.text) continue;
     softbody::Material changed = session.world().scene().materials[ui.material];
-    auto shown = static_cast<float>(changed[*key] / s.unit);
+    double shown = changed[*key] / s.unit;
     w.row_label(s.text, w.px(label_column));
     if (!w.slider(std::string(key->name).c_str(), shown, s.least, s.most, s.format, std::string(key->summary).c_str(),
                   s.logarithmic))
       continue;
-    changed[*key] = static_cast<double>(shown) * s.unit;
+    changed[*key] = shown * s.unit;
     session.settings.set_material(ui.material, changed);
   }
 }
@@ -83,20 +83,14 @@ bool drag_position(Widgets& w, glm::dvec3& position) {
 }
 
 bool slide_radius(Widgets& w, double& radius) {
-  auto shown = static_cast<float>(radius);
   w.row_label("Radius", w.px(label_column));
-  if (!w.slider("Solid radius", shown, min_size, max_size, "%.2f m", "Radius of the solid.", true)) return false;
-  radius = static_cast<double>(shown);
-  return true;
+  return w.slider("Solid radius", radius, min_size, max_size, "%.2f m", "Radius of the solid.", true);
 }
 
 // These draw where a solid is and how large; true if that changed.
 bool draw_shape(Widgets& w, softbody::Ground& ground) {
-  auto height = static_cast<float>(ground.height);
   w.row_label("Height", w.px(label_column));
-  if (!w.slider("Ground height", height, -3, 3, "%.2f m", "Height of the ground.", false)) return false;
-  ground.height = static_cast<double>(height);
-  return true;
+  return w.slider("Ground height", ground.height, -3, 3, "%.2f m", "Height of the ground.", false);
 }
 bool draw_shape(Widgets& w, softbody::SolidSphere& s) {
   const bool moved = drag_position(w, s.centre);
@@ -123,12 +117,9 @@ bool draw_shape(Widgets& w, softbody::SolidCapsule& c) {
 template <class Solid>
 bool draw_solid(Widgets& w, Solid& solid) {
   bool changed = draw_shape(w, solid);
-  const auto slide = [&](const char* text, const char* label, double& value, float max, const char* tooltip) {
-    auto shown = static_cast<float>(value);
+  const auto slide = [&](const char* text, const char* label, double& value, double max, const char* tooltip) {
     w.row_label(text, w.px(label_column));
-    if (!w.slider(label, shown, 0, max, "%.2f", tooltip, false)) return;
-    value = static_cast<double>(shown);
-    changed = true;
+    changed |= w.slider(label, value, 0, max, "%.2f", tooltip, false);
   };
   slide("Friction", "Solid friction", solid.friction, 2, "Coefficient of friction.");
   slide("Restitution", "Solid restitution", solid.restitution, 1,

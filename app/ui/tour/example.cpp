@@ -12,7 +12,6 @@
 #include "app/compare/compare.h"
 #include "app/compare/cost_model.h"
 #include "app/ui/tour/body_subset.h"
-#include "app/ui/tour/paper_boxes.h"
 #include "collide/core/body_boxes.h"
 #include "collide/methods.h"
 #include "softbody/world/measures.h"

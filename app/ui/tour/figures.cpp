@@ -1,4 +1,4 @@
-#include "app/ui/tour/figures.h"
+// The figures of the guided tour: those of each step, and those of the whole frame.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,8 @@
 
 #include "app/base/text.h"
 #include "app/render/palette.h"
-#include "app/ui/views/bucket_view.h"
+#include "app/ui/tour/steps.h"
+#include "app/ui/views/views.h"
 
 namespace app::ui {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/ui/tour/highlights.h"
+// What each step of the guided tour highlights in the scene.
 
 #include <algorithm>
 
@@ -9,7 +9,8 @@
 #include "app/base/text.h"
 #include "app/render/overlay_shapes.h"
 #include "app/render/palette.h"
-#include "app/ui/views/bucket_view.h"
+#include "app/ui/tour/steps.h"
+#include "app/ui/views/views.h"
 
 namespace app::ui {
 namespace {

@@ -12,10 +12,6 @@ namespace app::ui {
 
 using collide::Index;
 
-glm::vec3 position(const collide::Frame& frame, Index vertex) {
-  return {frame.x[vertex], frame.y[vertex], frame.z[vertex]};
-}
-
 collide::Range boxes_of(const collide::DebugGeometry& structure, Index body) {
   const auto& boxes = structure.boxes;
   const auto first = std::ranges::lower_bound(boxes, body, {}, &collide::DebugGeometry::Box::body);

@@ -10,9 +10,6 @@
 
 namespace app::ui {
 
-/// Returns the position (m) of a vertex.
-glm::vec3 position(const collide::Frame& frame, collide::Index vertex);
-
 /// Returns the boxes of a body.
 collide::Range boxes_of(const collide::DebugGeometry& structure, collide::Index body);
 

@@ -6,9 +6,6 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
-#include "app/ui/tour/figures.h"
-#include "app/ui/tour/highlights.h"
-
 namespace app::ui {
 namespace {
 

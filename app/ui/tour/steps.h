@@ -55,6 +55,24 @@ struct TourStep {
 
 std::span<const TourStep> tour_steps();
 
+// The figures of each step.
+std::vector<TourFigure> figures_of_body(const TourContext& context);
+std::vector<TourFigure> figures_of_boxes(const TourContext& context);
+std::vector<TourFigure> figures_of_corner(const TourContext& context);  // the hash function with the corner's numbers
+std::vector<TourFigure> figures_of_bucket(const TourContext& context);
+std::vector<TourFigure> figures_of_contact(const TourContext& context);
+std::vector<TourFigure> figures_of_miss(const TourContext& context);
+/// Hashes, boxes and pair tests of the paper's method on a frame, beside the claims of §3.
+std::vector<TourFigure> figures_of_frame(const FrameWork& work);
+
+// What each step highlights in the scene.
+void highlight_body(const TourContext& context, render::Highlight& highlight);
+void highlight_boxes(const TourContext& context, render::Highlight& highlight);
+void highlight_corners(const TourContext& context, render::Highlight& highlight);
+void highlight_bucket(const TourContext& context, render::Highlight& highlight);
+void highlight_contact(const TourContext& context, render::Highlight& highlight);
+void highlight_miss(const TourContext& context, render::Highlight& highlight);
+
 /// The step that explains a missed contact.
 inline constexpr std::size_t miss_step = 5;
 

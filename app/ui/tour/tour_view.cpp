@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include "app/render/palette.h"
-#include "app/ui/tour/figures.h"
 
 namespace app::ui {
 namespace {
@@ -14,12 +13,6 @@ void draw_figure(Widgets& w, const TourFigure& figure) {
     ImGui::SameLine();
   }
   w.figure(figure.label.c_str(), figure.value, figure.tooltip.c_str());
-}
-
-void draw_wrapped(std::string_view text) {
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.data(), text.data() + text.size());
-  ImGui::PopTextWrapPos();
 }
 
 /// Draws the eight corners to choose from; `shown` is one of context.f.corners, or a corner of another box.
@@ -42,7 +35,7 @@ void draw_corners(Widgets& w, Tour& tour, const TourContext& context, const Hash
 
 void draw_step(Widgets& w, Tour& tour, const TourContext& context) {
   const TourStep& step = tour_steps()[tour.step()];
-  draw_wrapped(step.text(context));
+  w.wrapped_text("Tour text", step.text(context));
   ImGui::Spacing();
   if (step.corner) draw_corners(w, tour, context, (context.*step.corner)());
   for (const TourFigure& figure : step.figures(context)) draw_figure(w, figure);
@@ -61,8 +54,7 @@ void draw_lack(Widgets& w, Session& session, Tour& tour) {
     text += " Nothing moves, and no body is still to come.";
   else if (tour.has_given_up(session))
     text += " This did not change in 20 seconds of simulated time.";
-  draw_wrapped(text);
-  w.register_item("Tour lack", nullptr);
+  w.wrapped_text("Tour lack", text);
   ImGui::BeginDisabled(at_rest);
   if (w.button(fmt::format("{}###Run ahead", goal.button).c_str(),
                "Lets the world run, several frames per picture, and pauses it there. It gives up after 20 seconds of "
@@ -75,15 +67,10 @@ void draw_lack(Widgets& w, Session& session, Tour& tour) {
 /// Draws all that is between the title and the buttons.
 void draw_content(Widgets& w, Session& session, Tour& tour) {
   const auto context = tour.context(session);
-  if (const TourGoal* goal = tour.running_to(session)) {
-    draw_wrapped(fmt::format("{} (frame {}).", goal->running, grouped(session.world().frame())));
-    w.register_item("Tour runs ahead", nullptr);
-    return;
-  }
-  if (!context) {
-    draw_wrapped(tour.problem());
-    w.register_item("Tour problem", nullptr);
-  }
+  if (const TourGoal* goal = tour.running_to(session))
+    return w.wrapped_text("Tour runs ahead",
+                          fmt::format("{} (frame {}).", goal->running, grouped(session.world().frame())));
+  if (!context) w.wrapped_text("Tour problem", tour.problem());
   if (!context || !tour_steps()[tour.step()].goal.example_has(context->f)) draw_lack(w, session, tour);
   if (context) draw_step(w, tour, *context);
 }
@@ -116,7 +103,7 @@ void draw_tour(Widgets& w, Session& session, Tour& tour, render::Overlays& shown
   ImGui::PopStyleVar(2);
   const TourStep& step = tour_steps()[tour.step()];
   ImGui::TextDisabled("Tour %zu of %zu", tour.step() + 1, tour_steps().size());
-  draw_wrapped(step.title);
+  w.wrapped_text("Tour title", std::string(step.title));
   ImGui::Separator();
   const float buttons = ImGui::GetFrameHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
   ImGui::BeginChild(fmt::format("Step {}", tour.step()).c_str(), {0, -buttons});  // each scrolls on its own

@@ -1,4 +1,4 @@
-#include "app/ui/views/compare_view.h"
+#include "app/ui/views/views.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,6 @@
 #include <fmt/core.h>
 
 #include "app/render/palette.h"
-#include "app/ui/views/method_choice.h"
 #include "app/ui/widgets/method_mark.h"
 
 namespace app::ui {
@@ -28,8 +27,7 @@ constexpr std::array<Column, column_count> columns{{
     {"Method", 220, false, nullptr},
     {"Time", 112, true,
      "Time to find all contacts from scratch on one core: median of the last 15 measurements (§3). While the frame "
-     "stays "
-     "the same, caches are warm. The panel's Detect is one search as the program runs."},
+     "stays the same, caches are warm. The panel's Detect is one search as the program runs."},
     {"Recall", 96, true,
      "Share of the true contacts that the method found. 1: none missed. The dot is the method's status light."},
     {"Contacts", 72, true, "Number of pairs of vertices found closer than the tolerance (§2.3, §2.4)."},

@@ -1,7 +1,5 @@
 #include "app/ui/views/coverage_light.h"
 
-#include <algorithm>
-
 #include <fmt/core.h>
 #include <glm/common.hpp>
 
@@ -87,9 +85,8 @@ void draw_coverage_light(Widgets& w, const Session& session, bool& explained) {
   for (const collide::Coverage each :
        {collide::Coverage::exact, collide::Coverage::covered, collide::Coverage::exceeded})
     draw_meaning(w, each, each == now);
-  ImGui::TextWrapped(
-      "%s", box_against_cell(session.inspector.paper_geometry(), session.world().collision().cell_size).c_str());
-  w.register_item("Coverage explained", nullptr);
+  w.wrapped_text("Coverage explained",
+                 box_against_cell(session.inspector.paper_geometry(), session.world().collision().cell_size));
   ImGui::Separator();
 }
 

@@ -1,26 +1,13 @@
-#include "app/ui/views/import_report.h"
+#include "app/ui/views/views.h"
 
 #include <algorithm>
 
-#include "app/render/palette.h"
-
 namespace app::ui {
-
 namespace {
-
-void draw_file_report(Widgets& w, const session::Import::FileReport& report) {
-  if (report.refused) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
-  for (const std::string& line : report.lines) {
-    ImGui::TextWrapped("%s", line.c_str());
-    w.register_item("Import report", nullptr);
-  }
-  if (report.refused) ImGui::PopStyleColor();
-}
 
 /// Draws the question whether files are frames to play or bodies to import.
 void draw_question(Widgets& w, Session& session, session::Import& import) {
-  ImGui::TextWrapped("%s", import.question().c_str());
-  w.register_item("Import question", nullptr);
+  w.wrapped_text("Import question", import.question());
   const bool play = w.button("Play",
                              "The frames run in place of the scene, and nothing is simulated. Undo (Ctrl+Z) "
                              "brings the scene back.",
@@ -43,13 +30,12 @@ void draw_import_report(Widgets& w, Session& session, session::Import& import, c
   ImGui::SetNextWindowSize({width, 0});
   ImGui::Begin("Import", nullptr, frameless_window & ~ImGuiWindowFlags_NoScrollbar);
   for (const session::Import::FileReport& report : import.report()) {
-    draw_file_report(w, report);
+    for (const std::string& line : report.lines) w.wrapped_text("Import report", line, report.refused);
     if (&report != &import.report().back()) ImGui::Separator();
   }
   if (asks) draw_question(w, session, import);
   if (import.busy()) {
-    ImGui::TextWrapped("%s", import.progress().c_str());
-    w.register_item("Import progress", nullptr);
+    w.wrapped_text("Import progress", import.progress());
     if (w.button("Cancel###Cancel import", "Reads no further, and forgets the files that wait.", w.px(80)))
       import.cancel();
   }

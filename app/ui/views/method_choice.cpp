@@ -1,10 +1,9 @@
-#include "app/ui/views/method_choice.h"
+#include "app/ui/views/views.h"
 
 #include <algorithm>
 
 #include <fmt/core.h>
 
-#include "app/ui/views/status.h"
 #include "app/ui/widgets/method_mark.h"
 
 namespace app::ui {

@@ -99,16 +99,8 @@ float draw_notices(Widgets& w, const Session& session, const std::string& no_roo
   ImGui::SetNextWindowPos({area.min.x + margin, area.min.y + margin});
   ImGui::SetNextWindowSize({box_width(w, area), 0});
   ImGui::Begin("Notices", nullptr, frameless_window | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
-  if (!no_room_message.empty()) {
-    ImGui::TextWrapped("%s", no_room_message.c_str());
-    w.register_item("No room", nullptr);
-  }
-  if (!notice.text().empty()) {
-    if (notice.is_error()) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
-    ImGui::TextWrapped("%s", notice.text().c_str());
-    if (notice.is_error()) ImGui::PopStyleColor();
-    w.register_item("Notice", nullptr);
-  }
+  if (!no_room_message.empty()) w.wrapped_text("No room", no_room_message);
+  if (!notice.text().empty()) w.wrapped_text("Notice", notice.text(), notice.is_error());
   const float end = ImGui::GetWindowPos().y + ImGui::GetWindowHeight();
   ImGui::End();
   return end;

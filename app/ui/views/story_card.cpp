@@ -94,8 +94,7 @@ float StoryCard::draw(Widgets& w, const Session& session, const ScreenRect& area
   if (const auto exact = exact_method(session)) draw_method(w, session.comparison, *exact, "");
   // The sentence has the same height whatever its length, so that the button does not move.
   const float top = ImGui::GetCursorPosY(), lines = 2 * ImGui::GetTextLineHeight();
-  ImGui::TextWrapped("%s", sentence(session).c_str());
-  w.register_item("Story sentence", nullptr);
+  w.wrapped_text("Story sentence", sentence(session));
   ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), top + lines + ImGui::GetStyle().ItemSpacing.y));
   const bool may_miss = !session.world().all_at_rest() ||
                         (session.comparison.paper_row() && !session.comparison.paper_row()->missed.empty());

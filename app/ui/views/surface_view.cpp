@@ -1,4 +1,4 @@
-#include "app/ui/views/surface_view.h"
+#include "app/ui/views/views.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 #include "app/base/text.h"
-#include "app/ui/views/method_choice.h"
+#include "app/ui/views/views.h"
 #include "app/ui/widgets/method_mark.h"
 
 namespace app::ui {

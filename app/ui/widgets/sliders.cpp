@@ -130,15 +130,19 @@ bool Widgets::drag_or_type(const Number<Value>& n, const Show& show) {
   return changed;
 }
 
-template <class Value, class Show>
-bool Widgets::slide(const Number<Value>& n, const Show& show) {
+template <class Value>
+bool Widgets::slide(const Number<Value>& n, bool logarithmic, const char* shown_format, const char* tooltip) {
   const Value now = n.value;
   const bool double_clicked = opens_field() && input_.pressed == n.label;
   if (double_clicked) n.value = static_cast<Value>(input_.value_before);
   const bool changed = [&] {
     const HiddenGrab hide;
     const OpenByDoubleClick opens;
-    return drag_or_type(n, [&](const char* id) { return show(id, double_clicked); });
+    return drag_or_type(n, [&](const char* id) {
+      return ImGui::SliderScalar(id, imgui_type<Value>, &n.value, &n.min, &n.max,
+                                 double_clicked ? n.format : shown_format,
+                                 clamped | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
+    });
   }();
   if (double_clicked) {
     if (!ImGui::IsItemActive()) n.value = now;  // the second click missed the slider
@@ -147,41 +151,38 @@ bool Widgets::slide(const Number<Value>& n, const Show& show) {
     input_.pressed = n.label;
     input_.value_before = static_cast<double>(now);
   }
+  const auto min = static_cast<double>(n.min), max = static_cast<double>(n.max);
+  // A logarithmic slider from 0 begins at the smallest number that ImGui shows.
+  const double begin = logarithmic ? std::max(min, std::pow(0.1, ImParseFormatPrecision(n.format, 3))) : min;
+  const double steps = std::is_integral_v<Value> && !logarithmic ? max - min : 0;
+  draw_grab(relative_position(static_cast<double>(n.value), begin, max, logarithmic), static_cast<float>(steps),
+            px(slider_bar));
+  register_number(n.label, tooltip);
   return changed || n.value != now;
 }
 
 bool Widgets::slider(const char* label, int& value, int min, int max, const char* format, const char* tooltip) {
-  const bool changed = slide<int>({label, value, min, max, format}, [&](const char* id, bool) {
-    return ImGui::SliderInt(id, &value, min, max, format, clamped);
-  });
-  draw_grab(relative_position(value, min, max, false), static_cast<float>(max - min), px(slider_bar));
-  register_number(label, tooltip);
-  return changed;
+  return slide<int>({label, value, min, max, format}, false, format, tooltip);
 }
 
 bool Widgets::slider(const char* label, float& value, float min, float max, const char* format, const char* tooltip,
                      bool logarithmic) {
-  const ImGuiSliderFlags flags = clamped | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-  const bool changed = slide<float>({label, value, min, max, format}, [&](const char* id, bool) {
-    return ImGui::SliderFloat(id, &value, min, max, format, flags);
-  });
-  // A logarithmic slider from 0 begins at the smallest number that ImGui shows.
-  const double begin = logarithmic ? std::max(double{min}, std::pow(0.1, ImParseFormatPrecision(format, 3))) : min;
-  draw_grab(relative_position(double{value}, begin, double{max}, logarithmic), 0, px(slider_bar));
-  register_number(label, tooltip);
+  return slide<float>({label, value, min, max, format}, logarithmic, format, tooltip);
+}
+
+bool Widgets::slider(const char* label, double& value, double min, double max, const char* format, const char* tooltip,
+                     bool logarithmic) {
+  auto shown = static_cast<float>(value);
+  const bool changed =
+      slider(label, shown, static_cast<float>(min), static_cast<float>(max), format, tooltip, logarithmic);
+  if (changed) value = static_cast<double>(shown);
   return changed;
 }
 
 bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
                      const char* tooltip) {
   assert(min > 0);
-  const bool changed = slide<std::uint32_t>({label, value, min, max, "%u"}, [&](const char* id, bool typed) {
-    return ImGui::SliderScalar(id, ImGuiDataType_U32, &value, &min, &max, typed ? "%u" : "",
-                               clamped | ImGuiSliderFlags_Logarithmic);
-  });
-  draw_grab(relative_position(value, min, max, true), 0, px(slider_bar));
-  register_number(label, tooltip);
-  return changed;
+  return slide<std::uint32_t>({label, value, min, max, "%u"}, true, "", tooltip);
 }
 
 bool Widgets::drag(const char* label, glm::dvec3& value, float min, float max, const char* tooltip) {

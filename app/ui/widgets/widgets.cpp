@@ -8,6 +8,8 @@
 
 #include <fmt/core.h>
 
+#include "app/render/palette.h"
+
 namespace app::ui {
 namespace {
 
@@ -223,6 +225,13 @@ void Widgets::text_line(const std::string& text) {
     draw_text_in_line(text, 0.0f);
 }
 void Widgets::right_text(const std::string& text) { draw_text_in_line(text, 1.0f); }
+
+void Widgets::wrapped_text(const char* label, const std::string& text, bool problem) {
+  if (problem) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
+  ImGui::TextWrapped("%s", text.c_str());
+  if (problem) ImGui::PopStyleColor();
+  register_item(label, nullptr);
+}
 
 void Widgets::figure(const char* label, const std::string& value_text, const char* tooltip) {
   ImGui::BeginGroup();

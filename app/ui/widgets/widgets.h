@@ -98,6 +98,8 @@ class Widgets {
   bool slider(const char* label, int& value, int min, int max, const char* format, const char* tooltip);
   bool slider(const char* label, float& value, float min, float max, const char* format, const char* tooltip,
               bool logarithmic);
+  bool slider(const char* label, double& value, double min, double max, const char* format, const char* tooltip,
+              bool logarithmic);
   /// A logarithmic slider for whole numbers; min > 0.
   bool slider(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max, const char* tooltip);
   /// Three numbers within the limits, each to drag or to type.
@@ -116,6 +118,8 @@ class Widgets {
   /// text_line() is flush left and wraps text that is too long; right_text() is flush right.
   void text_line(const std::string& text);
   void right_text(const std::string& text);
+  /// Draws text that wraps, in red if it tells of a problem. Has no tooltip.
+  void wrapped_text(const char* label, const std::string& text, bool problem = false);
   /// Draws a line with a grey label and its value at the right.
   void figure(const char* label, const std::string& value, const char* tooltip);
   /// Draws a colour swatch in the middle of a line.
@@ -164,9 +168,9 @@ class Widgets {
   /// which drops what it cannot read, draws type().
   template <class Value, class Show>
   bool drag_or_type(const Number<Value>& number, const Show& show);
-  /// Draws a slider by show(id, opens_field) and drag_or_type(). `opens_field`: the user is about to type.
-  template <class Value, class Show>
-  bool slide(const Number<Value>& number, const Show& show);
+  /// Draws a slider by drag_or_type(). shown_format: of the value, while the user is not about to type.
+  template <class Value>
+  bool slide(const Number<Value>& number, bool logarithmic, const char* shown_format, const char* tooltip);
 
   float scale_, usual_alpha_;
   InputState& input_;
