@@ -71,7 +71,7 @@ detection() {
   picture detection/cost-bodies.png cost-bodies.png
 }
 contact() {
-  report contact --threads 1
+  report contact --threads "${THREADS:-1}"
   publish contact.csv "$program" "$command" <"$work/contact/contact.csv"
   table "$work/contact/contact.md" "All scenes" 2 | publish contact-scenes.csv "$program" "$command"
 }
@@ -85,7 +85,7 @@ solver() {
   picture solver/solver-free-1e3.png error-time-free-flight.png
 }
 stability() {
-  report stability
+  report stability --threads "${THREADS:-1}"
   awk -F, 'NR == 1 || $3 == "auto" || $3 == "implicit"' "$work/stability/stability.csv" |
     publish stability.csv "$program" "$command"
   table "$work/stability/stability.md" "Cells that pass" | publish stability-cells.csv "$program" "$command"

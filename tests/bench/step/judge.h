@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/compare/world_oracle.h"
+#include "softbody/world/world.h"
 
 namespace bench {
 
