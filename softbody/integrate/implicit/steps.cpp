@@ -47,10 +47,9 @@ void add_impulses(const ImplicitStep& step, const ImplicitWork& work, std::size_
     sum.add(own, step.h * push * c.normal);
     // Within the step, the spin takes the particle along its circle.
     const glm::dvec3 free = step.frames.free_displacement(own, read(work.x, c.at), read(work.v, c.at));
-    result.restitution[lane] = std::max(result.restitution[lane], float(c.restitution));
     result.returned[lane] +=
-        float(law::returned(step.h * push, glm::dot(free / step.h - step.h * step.gravity, c.normal),
-                            glm::dot(read(work.end_v, c.at), c.normal), c.restitution));
+        float(law::bounce_energy(step.h * push, glm::dot(free / step.h - step.h * step.gravity, c.normal),
+                                 glm::dot(read(work.end_v, c.at), c.normal), c.restitution));
     result.energy[lane] += float(push * c.out());
   }
 }
