@@ -71,7 +71,9 @@ TEST(Rebound, TakesBackWhatContactGave) {
     Impact impact;
     rebound(impact, {0, 6 * mass, 0}, 4, {0, -6, 0}, glm::dvec3(0.0), mass, dt);
     rebound(impact, {0, mass, 0}, -gave, glm::dvec3(0.0), {0, 1, 0}, mass, dt);
-    return rebound(impact, glm::dvec3(0.0), 0, {0, 1, 0}, {0, 1, 0}, mass, dt);
+    const glm::dvec3 change = rebound(impact, glm::dvec3(0.0), 0, {0, 1, 0}, {0, 1, 0}, mass, dt);
+    EXPECT_EQ(impact.speed, 0) << "it is over";
+    return change;
   };
   EXPECT_NEAR(out(1).y, std::sqrt(1 + 2 * (4 - 1) / mass) - 1, 1e-12);
   EXPECT_EQ(out(5), glm::dvec3(0.0)) << "more than it took";
