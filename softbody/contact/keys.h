@@ -9,15 +9,16 @@ namespace softbody::contact {
 
 inline constexpr auto rebound_speed =
     Key("rebound_speed", "m/s", 0, {0, 1e6},
-        "Largest speed at which solids throw a body back without restitution, which returns what this takes. 0: no "
-        "limit.",
+        "Without restitution, solids throw a body back hardly faster than this. 0: no limit. Restitution gives back "
+        "what this takes.",
         {"Rebound", "%.1f m/s", 0, 10}, {.place = 21});
 inline constexpr auto friction = Key("friction", "", 0.5, {0, 10}, "Coefficient of friction against other bodies.",
                                      {"Friction", "%.2f", 0, 2}, {.place = 23});
-inline constexpr auto restitution = Key("restitution", "", 0, {0, 1},
-                                        "Bounce off solids and other bodies; the larger one counts. 0: what contact "
-                                        "takes of an impact is lost. 1: nothing is.",
-                                        {"Restitution", "%.2f", 0, 1}, {.place = 24});
+inline constexpr auto restitution =
+    Key("restitution", "", 0, {0, 1},
+        "Bounce off solids and other bodies. The larger restitution of the two sides counts. Its square is the share "
+        "of the energy taken by contact in an impact that contact gives back.",
+        {"Restitution", "%.2f", 0, 1}, {.place = 24});
 inline constexpr auto rolling_resistance =
     Key("rolling_resistance", "", 0.02, {0, 10},
         "Coefficient of rolling resistance on solids: the torque over the radius times the normal force.",

@@ -47,7 +47,7 @@ HWY_INLINE V min_speed(V gap, T inverse_h) {
 /// Returns what an impulse (N s) that changes a speed from `before`, in a step, to `after` (m/s) takes of the energy,
 /// and gives back when the two sides part.
 template <class V, class T>
-HWY_INLINE V returned(V impulse, V before, V after, T restitution) {
+HWY_INLINE V bounce_energy(V impulse, V before, V after, T restitution) {
   return -T(0.5) * restitution * restitution * impulse * (before + after);
 }
 

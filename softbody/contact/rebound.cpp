@@ -12,8 +12,9 @@
 namespace softbody {
 
 glm::dvec3 rebound(Impact& impact, const glm::dvec3& impulse, double returned, const glm::dvec3& before,
-                   const glm::dvec3& after, double mass) {
-  assert(mass > 0);
+                   const glm::dvec3& after, double mass, double seconds) {
+  constexpr double longest_gap = 0.05;  // s; a body swings, so that contact may miss it for a while
+  assert(mass > 0 && seconds >= 0);
   impact.given = 0;
   const double push = glm::length(impulse);
   const glm::dvec3 normal = push > 0 ? impulse / push : glm::dvec3(0.0);
@@ -22,12 +23,15 @@ glm::dvec3 rebound(Impact& impact, const glm::dvec3& impulse, double returned, c
     impact.speed = std::max(impact.speed, float(approach));
   }
   if (impact.speed <= 0) return glm::dvec3(0.0);
-  impact.energy += std::max(0.0, returned) * normal;
+  impact.energy += returned * normal;
+  if (glm::dot(impact.energy, normal) < 0) impact.energy = glm::dvec3(0.0);  // it pushes out more than it took
   const double energy = glm::length(impact.energy);
   const glm::dvec3 way = energy > 0 ? impact.energy / energy : normal;
   const double parting = glm::dot(after, way), came = double(impact.speed);
   const double last = double(std::exchange(impact.parting, float(parting)));
-  const double little = 0.02 * came;  // the speed of what is pressed flat grows by less, and so it parts
+  const double little = 0.02 * came;  // what grows by less in a frame does so in a rebound without end, too
+  impact.apart = push > 0 ? 0 : impact.apart + float(seconds);
+  if (parting < -little && impact.apart > longest_gap) impact = {};  // it has come past, and meets something else next
   if (parting < -little || (push > 0 && parting > last + little)) return glm::dvec3(0.0);
   // No faster than it came.
   const double speed = std::min(std::sqrt(parting * parting + 2 * energy / mass), std::max(parting, came));
@@ -45,7 +49,7 @@ void Rebounds::add(const Pair& done) {
   found->returned += done.returned;
 }
 
-double Rebounds::give_back(State& state) {
+double Rebounds::give_back(State& state, double seconds) {
   const auto inverse_mass = [&](BodyId id) {
     return state.body(id).moves() ? 1 / state.model(id).material[Material::mass] : 0;
   };
@@ -66,7 +70,7 @@ double Rebounds::give_back(State& state) {
     const double mass = 1 / (a + b);
     const glm::dvec3 impulse = std::exchange(p.impulse, glm::dvec3(0.0)), after = velocity(p.a) - velocity(p.b);
     const glm::dvec3 change =
-        rebound(p.impact, impulse, std::exchange(p.returned, 0.0), after - impulse / mass, after, mass);
+        rebound(p.impact, impulse, std::exchange(p.returned, 0.0), after - impulse / mass, after, mass, seconds);
     given += double(std::exchange(p.impact.given, 0.0f));
     if (change == glm::dvec3(0.0)) continue;
     for (const auto& [id, share] : {std::pair(p.a, mass * a), std::pair(p.b, -mass * b)})

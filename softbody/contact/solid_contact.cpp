@@ -109,7 +109,6 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
   s.impulse = impulse(b);
   s.returned = returned(b);
   s.energy = energy(b);
-  if (has_restitution_) s.before = field(std::as_const(before_), b.base);
   if (!has_features_) return;
   const std::vector<SolidCore> cores = cores_of(solid);
   for (int l = 0; l < b.used; ++l) {
@@ -134,7 +133,10 @@ void SolidContact::end_frame() {
   for (const Batch& b : state_.batches()) {
     const OfBatch& own = of_batch_[b.index];
     for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
-      pushes_[b.body[l]] = {glm::dvec3(own.impulse[l]), double(own.restitution[l]), double(own.returned[l])};
+      float most = 0;
+      for (const SolidArguments& s : own.near)
+        if (s.near >> l & 1u) most = std::max(most, s.restitution);
+      pushes_[b.body[l]] = {glm::dvec3(own.impulse[l]), double(most), double(own.returned[l])};
       state_.ledger.book(WorkBy::solids, double(own.energy[l]));
       if (b.moves[l] != 0) state_.memory(b.body[l]).may_lie_in_solid = own.eased >> l & 1u;
     }
@@ -171,12 +173,12 @@ bool SolidContact::apply_to_particles(const Batch& b, float h, bool again) {
     for (SolidArguments& s : own.near) {
       s.h = h;
       s.slack = pass || again ? slack : 0;
+      if (has_restitution_) s.before = field(std::as_const(pass || again ? state_.v : before_), b.base);
       const unsigned now = act_by_solid(b.width, std::size_t(b.used), s, field(std::as_const(state_.x), b.base),
                                         field(state_.v, b.base));
       more = more || (acted & now) || (pass && now);
       acted |= now;
       own.pushed |= now;
-      own.note_restitution(s.restitution, now);
     }
     if (!more) break;
   }

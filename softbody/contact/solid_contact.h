@@ -17,8 +17,8 @@ namespace softbody {
 /// What solids did to a body in a frame.
 struct SolidPush {
   glm::dvec3 impulse{0.0};  // N s, along their normals
-  double restitution = 0;   // the largest of those that pushed
-  double returned = 0;      // J, that it gives back when the body leaves them
+  double restitution = 0;   // the largest of those that it came near
+  double returned = 0;      // J, that restitution gives back when the body leaves them
 };
 
 class SolidContact {
@@ -59,9 +59,7 @@ class SolidContact {
   void book(BodyId body, std::span<const ContactRow> rows);
   /// Returns where the solids' impulses along their normals (N s) are summed for each lane of a batch.
   Field<float> impulse(const Batch& batch);
-  /// Returns where the largest restitution of the solids that push each lane is noted, and the energy (J) summed that
-  /// it gives back.
-  float* restitution(const Batch& batch) { return of_batch_[batch.index].restitution.data(); }
+  /// Returns where the energy (J) is summed that restitution gives back to each lane.
   float* returned(const Batch& batch) { return of_batch_[batch.index].returned.data(); }
   /// Returns where the energy (J) is summed that they give to each lane by pushing out.
   float* energy(const Batch& batch) { return of_batch_[batch.index].energy.data(); }
@@ -84,21 +82,15 @@ class SolidContact {
  private:
   struct OfBatch {
     std::vector<SolidArguments> near;
-    std::vector<SolidFeature> features;      // of the bodies, that may meet the solids between vertices
-    std::vector<ContactRow> rows;            // of these, in the substep at hand
-    LaneVector impulse{};                    // N s, along the normals
-    std::array<float, lanes> restitution{};  // the largest of those that pushed
-    std::array<float, lanes> returned{};     // J, that it gives back
-    std::array<float, lanes> energy{};       // J, given by pushing out
-    unsigned pushed = 0, eased = 0;          // bits: lanes
+    std::vector<SolidFeature> features;   // of the bodies, that may meet the solids between vertices
+    std::vector<ContactRow> rows;         // of these, in the substep at hand
+    LaneVector impulse{};                 // N s, along the normals
+    std::array<float, lanes> returned{};  // J, that restitution gives back
+    std::array<float, lanes> energy{};    // J, given by pushing out
+    unsigned pushed = 0, eased = 0;       // bits: lanes
 
-    void note_restitution(float value, unsigned of_lanes) {
-      for (std::size_t l = 0; value > 0 && l < lanes; ++l)
-        if (of_lanes >> l & 1u) restitution[l] = std::max(restitution[l], value);
-    }
     void book(const ContactRow& row, std::size_t lane) {
       softbody::add(field(impulse), lane, row.normal_impulse * row.normal);
-      restitution[lane] = std::max(restitution[lane], row.restitution);
       returned[lane] += row.returned;
       energy[lane] += row.energy;
     }

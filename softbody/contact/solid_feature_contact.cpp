@@ -172,7 +172,8 @@ void SolidContact::add_row(const Batch& b, SolidFeature& f, float h) {
   row.friction = s.friction;
   row.target = law::min_speed(surface->distance, 1 / h);
   row.push = std::max(0.0f, row.target);
-  row.before = s.restitution > 0 ? glm::dot(relative_velocity(row, s.before), row.normal) : 0;
+  row.before =
+      s.restitution > 0 ? glm::dot(relative_velocity(row, field(std::as_const(before_), b.base)), row.normal) : 0;
   row.restitution = s.restitution;
   row.feature = std::uint32_t(&f - own.features.data());
   own.rows.push_back(row);

@@ -28,7 +28,7 @@ HWY_INLINE V respond(const SolidArguments& s, V moves, V gap, Vec<V> n, Vec<V> b
   if (!any_above(change, zero)) return change;
   v = v + change * n - law::within_cone(v - normal_speed * n, s.friction * change);
   energy += change * larger(out, zero);
-  if (s.restitution > 0) returned += law::returned(change, dot(before, n), normal_speed + change, s.restitution);
+  if (s.restitution > 0) returned += law::bounce_energy(change, dot(before, n), normal_speed + change, s.restitution);
   return change;
 }
 

@@ -30,7 +30,7 @@ void solve_row(ContactRow& row, Field<float> v) {
   row.friction_impulse = friction_impulse;
   const float after = speed + push / row.mass;
   row.energy = normal_impulse * std::clamp(after, 0.0f, row.push);
-  row.returned = law::returned(normal_impulse, row.before, after, row.restitution);
+  row.returned = law::bounce_energy(normal_impulse, row.before, after, row.restitution);
 }
 
 /// Two bodies far inside each other move apart along the line of their centres, each as a whole: their shapes, momentum

@@ -58,6 +58,8 @@ class Motion {
   void drift(const Batch& batch, float h);  // x += h v
   /// Changes the velocities so that in a step of h from here surfaces do not pass through each other, nor particles
   /// into solids. The velocities of all batches must be there. Needs a barrier after it.
+  /// Tells contacts that what has acted until now is no impact of theirs.
+  void note_velocities(const Batch& batch) { parts_.solids.note_velocities(batch); }
   void contacts(const Worker& worker, float h) { parts_.contacts.apply(worker, h); }
   /// Does the same after advance_velocities() with Volumes::implicit_, so that the pressure is the one at the end.
   void contacts_under_pressure(const Worker& worker, float h);

@@ -65,11 +65,12 @@ void Resistance::apply(const BatchView& view, std::span<const SolidPush> pushes,
           n * out * std::min(1.0, law::damper(normal, m[contact::rebound_speed]) / m[Material::mass]);
       velocity -= less;
       after -= less;
-      returned += law::returned(-m[Material::mass] * glm::dot(less, n), out, glm::dot(after, n), pushes[l].restitution);
+      returned +=
+          law::bounce_energy(-m[Material::mass] * glm::dot(less, n), out, glm::dot(after, n), pushes[l].restitution);
     }
     if (restitution_)
       velocity += rebound(impacts[l], pushes[l].impulse, returned,
-                          motion.velocity - pushes[l].impulse / m[Material::mass], after, m[Material::mass]);
+                          motion.velocity - pushes[l].impulse / m[Material::mass], after, m[Material::mass], seconds);
     change.set(l, 1 - share, velocity, spin, motion.centre);
   }
   kernels.change_rigidly(used, count, change, view.x, view.v);

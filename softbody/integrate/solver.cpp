@@ -45,6 +45,7 @@ void Solver::set_plan(const Plan& plan) {
   contacts_.set_plan(plan);
   solids_.set_parts(plan.has(Stage::solid_features), plan.has(Stage::restitution));
   if (!plan.has(stage_of<PenaltyContact>)) penalty_.pairs.clear();
+  if (!plan.has(Stage::restitution)) rebounds_ = {};
 }
 
 void Solver::remove(BodyId body) {
@@ -145,7 +146,7 @@ FrameResult Solver::advance(double seconds, const std::function<void()>& after_s
     frame.left = 0;
   }
   solids_.end_frame();
-  state_.ledger.book(WorkBy::surfaces, rebounds_.give_back(state_));
+  state_.ledger.book(WorkBy::surfaces, rebounds_.give_back(state_, seconds));
   state_.ledger.book(WorkBy::penalty, held - penalty_energy());
   return {frame.substeps, frame.needed, seconds - frame.left};
 }

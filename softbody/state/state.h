@@ -45,6 +45,7 @@ struct Impact {
   glm::dvec3 energy{0.0};  // J along the contact's normals, that restitution has to give back
   float speed = 0;         // m/s, the largest with which they came together; 0: it is over, or was slow
   float parting = 0;       // m/s, of the last frame
+  float apart = 0;         // s, without contact
   float given = 0;         // J, that it gave back in the last frame
 };
 

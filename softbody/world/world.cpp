@@ -224,7 +224,9 @@ void World::set_particles(BodyId body, std::span<const Particle> particles) {
   Parts& s = *parts_;
   assert(particles.size() == s.particles.bodies.size(body));
   s.book_change([&] { s.solver.state().set_particles(body, particles); });
-  s.solver.state().memory(body).may_lie_in_solid = true;
+  BodyMemory& memory = s.solver.state().memory(body);
+  memory.may_lie_in_solid = true;
+  memory.impact = {};
   s.wake_all();
   s.update_positions();
   s.detect();

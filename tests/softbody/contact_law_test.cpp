@@ -44,7 +44,7 @@ TEST(ContactLaw, ReturnsAShareOfTheKineticEnergyThatAnImpulseTakes) {
   for (const double e : {0.0, 0.5, 1.0})
     for (const double before : {-3.0, -1.0, 0.0})
       for (const double after : {-1.0, 0.0, 2.0})
-        EXPECT_NEAR(law::returned(mass * (after - before), before, after, e),
+        EXPECT_NEAR(law::bounce_energy(mass * (after - before), before, after, e),
                     e * e * mass / 2 * (before * before - after * after), 1e-15);
 }
 
@@ -78,7 +78,8 @@ TEST(ContactLaw, IsTheSameInFloatAndDouble) {
     const float g = 0.002f * float(3 - i), s = 0.3f * float(i - 3), limit = 0.25f * float(i % 4);
     EXPECT_FLOAT_EQ(law::min_move(g, step), float(law::min_move(double(g), double(step))));
     EXPECT_FLOAT_EQ(law::min_speed(g, 1 / step), float(law::min_speed(double(g), 1 / double(step))));
-    EXPECT_FLOAT_EQ(law::returned(step, s, g, e), float(law::returned(double(step), double(s), double(g), double(e))));
+    EXPECT_FLOAT_EQ(law::bounce_energy(step, s, g, e),
+                    float(law::bounce_energy(double(step), double(s), double(g), double(e))));
     const glm::vec3 drag(s, g, i == 3 ? 0 : 0.2f), one = law::within_cone(drag, limit);
     const body::Vec<float> same = law::within_cone(body::Vec<float>{drag.x, drag.y, drag.z}, limit);
     const glm::dvec3 exact = law::within_cone(glm::dvec3(drag), double(limit));

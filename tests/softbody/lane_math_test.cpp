@@ -38,7 +38,7 @@ HWY_INLINE void compute(V a, V b, const Add& add) {
     add(narrowed(widened(finite)));
   else
     add(finite);
-  add(law::min_move(a, 0.003f)), add(law::min_speed(a, 300.0f)), add(law::returned(a, b, step, 0.7f));
+  add(law::min_move(a, 0.003f)), add(law::min_speed(a, 300.0f)), add(law::bounce_energy(a, b, step, 0.7f));
   const Vec<V> held = law::within_cone(Vec<V>{a, b, step}, larger(b, zero));
   add(held.x), add(held.y), add(held.z);
 }

@@ -12,7 +12,7 @@
 namespace softbody::test {
 namespace {
 
-constexpr double mass = 2;
+constexpr double mass = 2, dt = 0.02;
 
 /// A body that comes down at `speed` and is stopped and thrown up by the contact, in three frames.
 struct Bounce {
@@ -24,7 +24,7 @@ struct Bounce {
     out += frame(parting, 0, 0);
   }
   double frame(double velocity, double gained, double returned) {
-    return rebound(impact, {0, mass * gained, 0}, returned, {0, velocity - gained, 0}, {0, velocity, 0}, mass).y;
+    return rebound(impact, {0, mass * gained, 0}, returned, {0, velocity - gained, 0}, {0, velocity, 0}, mass, dt).y;
   }
 };
 
@@ -45,8 +45,8 @@ TEST(Rebound, LeavesNoFasterThanItCame) {
 TEST(Rebound, GivesNothingBackOfSlowImpacts) {
   Impact impact;
   const double speed = 0.99 * law::impact_speed;
-  EXPECT_EQ(rebound(impact, {0, mass * speed, 0}, 1, {0, -speed, 0}, glm::dvec3(0.0), mass), glm::dvec3(0.0));
-  EXPECT_EQ(rebound(impact, glm::dvec3(0.0), 0, glm::dvec3(0.0), {0, 0.1, 0}, mass), glm::dvec3(0.0));
+  EXPECT_EQ(rebound(impact, {0, mass * speed, 0}, 1, {0, -speed, 0}, glm::dvec3(0.0), mass, dt), glm::dvec3(0.0));
+  EXPECT_EQ(rebound(impact, glm::dvec3(0.0), 0, glm::dvec3(0.0), {0, 0.1, 0}, mass, dt), glm::dvec3(0.0));
 }
 
 /// It does so though it does not leave what it lies on.
@@ -55,10 +55,34 @@ TEST(Rebound, ThrowsBackWhatIsStoppedFlat) {
   EXPECT_NEAR(flat.out, 3, 1e-12);
 }
 
+/// Its end hit a ledge; the solid that it falls on gives nothing.
+TEST(Rebound, IsOverWhenContactEndsThoughTheBodyStillComes) {
+  Impact impact;
+  rebound(impact, {0, mass, 0}, 5, {0, -4, 0}, {0, -3, 0}, mass, dt);
+  for (double gap = 0; gap <= 0.06; gap += dt)
+    EXPECT_EQ(rebound(impact, glm::dvec3(0.0), 0, {0, -3.2, 0}, {0, -3.2, 0}, mass, dt), glm::dvec3(0.0));
+  EXPECT_EQ(impact.speed, 0);
+  rebound(impact, {0, 4 * mass, 0}, 0, {0, -4, 0}, glm::dvec3(0.0), mass, dt);
+  EXPECT_EQ(rebound(impact, glm::dvec3(0.0), 0, {0, 1, 0}, {0, 1, 0}, mass, dt), glm::dvec3(0.0));
+}
+
+TEST(Rebound, TakesBackWhatContactGave) {
+  const auto out = [](double gave) {
+    Impact impact;
+    rebound(impact, {0, 6 * mass, 0}, 4, {0, -6, 0}, glm::dvec3(0.0), mass, dt);
+    rebound(impact, {0, mass, 0}, -gave, glm::dvec3(0.0), {0, 1, 0}, mass, dt);
+    const glm::dvec3 change = rebound(impact, glm::dvec3(0.0), 0, {0, 1, 0}, {0, 1, 0}, mass, dt);
+    EXPECT_EQ(impact.speed, 0) << "it is over";
+    return change;
+  };
+  EXPECT_NEAR(out(1).y, std::sqrt(1 + 2 * (4 - 1) / mass) - 1, 1e-12);
+  EXPECT_EQ(out(5), glm::dvec3(0.0)) << "more than it took";
+}
+
 TEST(Rebound, GoesAlongTheNormalsOfTheImpact) {
   Impact impact;
-  rebound(impact, mass * glm::dvec3(3, 4, 0), 4, {-3, -4, 1}, {0, 0, 1}, mass);
-  const glm::dvec3 change = rebound(impact, glm::dvec3(0.0), 0, {0, 0, 1}, {0, 0, 1}, mass);
+  rebound(impact, mass * glm::dvec3(3, 4, 0), 4, {-3, -4, 1}, {0, 0, 1}, mass, dt);
+  const glm::dvec3 change = rebound(impact, glm::dvec3(0.0), 0, {0, 0, 1}, {0, 0, 1}, mass, dt);
   EXPECT_NEAR(glm::distance(change, 2.0 * glm::dvec3(0.6, 0.8, 0)), 0, 1e-12);
 }
 
@@ -72,7 +96,7 @@ TEST(Rebounds, GiveBothBodiesOppositeImpulses) {
   Rebounds rebounds;
   const auto frame = [&](double impulse, double returned) {
     if (impulse > 0) rebounds.add({0, 1, {-impulse, 0, 0}, returned});
-    return rebounds.give_back(state);
+    return rebounds.give_back(state, dt);
   };
   const auto of = [&](BodyId id) { return state.particle(id, 7).velocity; };
   const double m = state.model(0).material[Material::mass], reduced = 3 * m / (3 + m), energy = 2;

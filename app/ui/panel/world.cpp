@@ -123,7 +123,8 @@ bool draw_solid(Widgets& w, Solid& solid) {
   };
   slide("Friction", "Solid friction", solid.friction, 2, "Coefficient of friction.");
   slide("Restitution", "Solid restitution", solid.restitution, 1,
-        "Bounce of bodies off the solid. 0: what contact takes of an impact is lost. 1: nothing is.");
+        "Bounce of bodies off the solid. At 0 contact keeps the energy that it takes in an impact, at 1 it gives all "
+        "back.");
   return changed;
 }
 

@@ -31,7 +31,7 @@ glm::dvec3 stop_at(std::span<const PlaneContact> planes, std::size_t lane, doubl
     }
   }
   // Between planes that face each other the passes do not converge.
-  if (const double length = glm::length(shift); length > max_shift) shift *= max_shift / length;
+  if (const double length = glm::length(shift); !stands && length > max_shift) shift *= max_shift / length;
   return shift;
 }
 

@@ -45,12 +45,11 @@ void add_impulses(const ImplicitStep& step, const ImplicitWork& work, std::size_
     const double push = glm::dot(c.force, c.normal);
     if (push == 0) continue;
     sum.add(own, step.h * push * c.normal);
-    // Within the step, the spin takes the particle along its circle.
-    const glm::dvec3 free = step.frames.free_displacement(own, read(work.x, c.at), read(work.v, c.at));
-    result.restitution[lane] = std::max(result.restitution[lane], float(c.restitution));
-    result.returned[lane] +=
-        float(law::returned(step.h * push, glm::dot(free / step.h - step.h * step.gravity, c.normal),
-                            glm::dot(read(work.end_v, c.at), c.normal), c.restitution));
+    // At the end of the step: until then the spin takes the particle along its circle.
+    const glm::dvec3 whole = step.frames.start(own).velocity, v = read(work.v, c.at);
+    const double before = glm::dot(whole + step.frames.leave(own, v - whole), c.normal);
+    const double after = glm::dot(read(work.end_v, c.at), c.normal);
+    result.returned[lane] += float(law::bounce_energy(step.h * push, before, after, c.restitution));
     result.energy[lane] += float(push * c.out());
   }
 }

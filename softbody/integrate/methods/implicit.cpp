@@ -24,7 +24,6 @@ void Motion::solve_implicit(const Worker& worker, const Batch& b, Quantity mean,
                           {.mean = field(array(mean)),
                            .rest = field(array(rest)),
                            .impulse = parts_.solids.impulse(b),
-                           .restitution = parts_.solids.restitution(b),
                            .returned = parts_.solids.returned(b),
                            .energy = parts_.solids.energy(b)},
                           double(h));
@@ -37,6 +36,7 @@ void implicit_step(Motion& motion, const Worker& worker, const Substep& substep)
   worker.barrier();  // no thread still reads the velocities for penalty contacts
   for (const Batch* batch : worker.batches()) {
     motion.copy(*batch, mean, velocities);
+    motion.note_velocities(*batch);
     motion.pull(*batch, substep.h);
   }
   motion.contacts(worker, substep.h);

@@ -1,0 +1,192 @@
+// Whole bodies that bounce and come to rest, with every integrator and by both kinds of contact.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "softbody/integrate/integrators.h"
+#include "softbody/world/energy_watch.h"
+#include "tests/softbody/helpers.h"
+#include "tests/softbody/obj_lines.h"
+
+namespace softbody::test {
+namespace {
+
+constexpr double radius = 0.5, g = 9.81;
+constexpr std::array both{ContactSurface::vertices, ContactSurface::surfaces};
+
+/// Smooth ground or a smooth ball below y = 0.
+Scene solid(bool flat, double restitution) {
+  Scene scene;
+  if (flat)
+    scene.ground = Ground{0, 0, restitution};
+  else
+    scene.spheres = {{.centre = {0, -1, 0}, .radius = 1, .friction = 0, .restitution = restitution}};
+  return scene;
+}
+
+/// A coarse ball that comes down on something at `speed`.
+Scene falling_ball(const Material& material, Scene onto, double speed) {
+  Scene scene = lone_body(material, {0, -speed, 0});
+  scene.gravity = {0, -g, 0};
+  scene.bodies[0].mesh.subdivisions = 1;
+  scene.bodies[0].position = {0, radius + 0.05, 0};
+  scene.ground = std::move(onto.ground), scene.spheres = std::move(onto.spheres);
+  return scene;
+}
+
+/// How high the centre of a world's first body comes after it has hit something, until it falls again, and the energy
+/// that comes from nowhere until then.
+struct Rise {
+  double height = 0;  // m
+  double gain = 0;    // J
+};
+Rise rise(World& world, int frames) {
+  Rise found;
+  EnergyWatch watch;
+  const double start = measure(world).energy;
+  bool has_hit = false;
+  for (int i = 0; i < frames; ++i) {
+    world.step();
+    const auto change = watch.look(world, measure_bodies(world));
+    if (change && change->from_nowhere()) found.gain += change->gain;
+    found.gain = std::max(found.gain, measure(world).energy - start);
+    const Motion m = motion(world, 0);
+    has_hit = has_hit || m.velocity.y > 0;
+    if (has_hit) found.height = std::max(found.height, m.centre.y);
+    if (has_hit && m.centre.y < found.height - 0.02 && m.velocity.y < -0.2) break;
+  }
+  return found;
+}
+
+class BounceBy : public testing::TestWithParam<Integrator> {};
+
+TEST_P(BounceBy, IsHigherTheMoreRestitutionThereIs) {
+  if (GetParam().key == "explicit-euler") GTEST_SKIP() << "it needs very many substeps";
+  struct Case {
+    bool flat;
+    ContactSurface by;
+    double speed;  // m/s
+    bool of_solid;
+    double more;  // m, least gain of height from restitution 0 to 1
+  };
+  Material material;  // as it is if a scene says nothing
+  for (Material base : {material, damped(gas_ball())})
+    for (const auto& [flat, by, speed, of_solid, more] :
+         {Case{true, ContactSurface::vertices, 7, true, 0.2}, Case{false, ContactSurface::surfaces, 7, false, 0.2},
+          Case{true, ContactSurface::surfaces, 3, false, 0.03}, Case{false, ContactSurface::vertices, 3, true, 0.03}}) {
+      SCOPED_TRACE(testing::Message() << base.name << (flat ? ", flat, " : ", round, ") << speed << " m/s");
+      Rise without;
+      double before = 0;
+      for (const double e : {0.0, 0.5, 1.0}) {
+        base[contact::restitution] = of_solid ? 0 : e;
+        Scene scene = falling_ball(base, solid(flat, of_solid ? e : 0), speed);
+        scene.contact_surface = by;
+        World world(std::move(scene), {.integrator = {std::string(GetParam().key), std::nullopt}});
+        const Rise with = rise(world, 120);
+        if (e == 0) without = with;
+        EXPECT_GT(with.height, before - 0.02) << "m, restitution " << e;
+        EXPECT_LT(with.gain, without.gain + 0.2) << "J, restitution " << e;
+        before = with.height;
+      }
+      EXPECT_GT(before, without.height + more) << "m";
+      // By implicit steps a coarse ball gains 1 J, without any restitution, where it hits a round solid.
+      EXPECT_LT(without.gain, GetParam().implicit ? 1.1 : 0.2) << "J";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, BounceBy, testing::ValuesIn(integrators().begin(), integrators().end()),
+                         [](const auto& i) {
+                           std::string name(i.param.key);
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+/// By implicit steps, a ball that bounced off ground of restitution 0.8 gained energy.
+TEST(ImplicitBounce, IsNeverHigherThanTheOneBefore) {
+  Material rubber = damped(gas_ball());
+  rubber[contact::rebound_speed] = 6;
+  Scene scene = falling_ball(rubber, solid(true, 0.8), 0);
+  scene.ground->friction = 0.6;
+  scene.bodies[0].position.y = 3;
+  World world(std::move(scene), {.integrator = {"implicit", std::nullopt}});
+  for (double before = 3, peak; before > radius + 0.1; before = peak) {
+    const Rise next = rise(world, 200);
+    peak = next.height;
+    ASSERT_LT(peak, before + 0.01);
+    ASSERT_LT(next.gain, 0.05) << "J";
+  }
+}
+
+/// Balls of one mass that meet head-on swap their velocities if contact takes nothing.
+TEST(Bounce, OfTwoBodiesKeepsTheirMomentumAndNearlySwapsTheirVelocities) {
+  Material material = gas_ball();
+  for (const Key* damping : {&StructuralSprings::damping_ratio, &BendSprings::damping_ratio}) material[*damping] = 0;
+  for (const ContactSurface by : both) {
+    double before = -1;
+    for (const double e : {0.0, 0.5, 1.0}) {
+      SCOPED_TRACE(testing::Message() << int(by) << ", restitution " << e);
+      material[contact::restitution] = e;
+      Scene scene = lone_body(material, {3, 0, 0});
+      add_body(scene, {1.3, 0, 0}, {-1, 0, 0});
+      for (BodySource& body : scene.bodies) body.mesh.subdivisions = 1;
+      scene.contact_surface = by;
+      World world(std::move(scene), {});
+      const double energy = measure(world).energy;
+      run(world, 90);
+      const glm::dvec3 a = motion(world, 0).velocity, b = motion(world, 1).velocity;
+      EXPECT_LT(glm::distance(a + b, glm::dvec3(2, 0, 0)), 1e-3);
+      EXPECT_GE(b.x - a.x, before - 0.02);
+      EXPECT_LE(b.x - a.x, 4.001);
+      EXPECT_LE(measure(world).energy, energy + 0.1);
+      before = b.x - a.x;
+    }
+    EXPECT_GT(before, 3.2) << "m/s; they come together with 4";
+  }
+}
+
+/// A box of so many quads along each axis, closed.
+std::string box(const glm::ivec3& quads, const glm::dvec3& size) {
+  std::map<std::array<int, 3>, int> numbers;
+  std::string vertices, faces;
+  const auto corner = [&](const glm::ivec3& at) {
+    const auto [found, added] = numbers.try_emplace({at.x, at.y, at.z}, int(numbers.size()) + 1);
+    if (added) vertices += vertex((glm::dvec3(at) / glm::dvec3(quads) - 0.5) * size);
+    return found->second;
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    for (const bool far : {false, true}) {
+      const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+      for (int a = 0; a < quads[j]; ++a)
+        for (int b = 0; b < quads[k]; ++b) {
+          const auto at = [&](int on_j, int on_k) {
+            glm::ivec3 place(0);
+            place[axis] = far ? quads[axis] : 0, place[j] = a + on_j, place[k] = b + on_k;
+            return corner(place);
+          };
+          faces +=
+              far ? face({at(0, 0), at(1, 0), at(1, 1), at(0, 1)}) : face({at(0, 0), at(0, 1), at(1, 1), at(1, 0)});
+        }
+    }
+  return vertices + faces;
+}
+
+/// With a material that says nothing: a cube, a needle, and a plate that falls on an edge.
+TEST(Rest, ComesToEveryBodyOfAFile) {
+  const TemporaryFolder folder;
+  folder.write("cube.obj", box({4, 4, 4}, {0.6, 0.6, 0.6}));
+  folder.write("needle.obj", box({1, 10, 1}, {0.08, 1, 0.08}));
+  folder.write("plate.obj", box({6, 1, 6}, {1, 0.1, 1}));
+  for (const char* mesh : {"cube", "needle", "plate"}) {
+    const std::string text = std::string("[ground]\n[[material]]\n[[body]]\nmesh = {kind = \"file\", path = \"") +
+                             mesh + ".obj\"}\nposition = [0, 1.2, 0]\n";
+    World world(load_scene(folder.write("rest.toml", text)), {});
+    for (int i = 0; i < 1200 && !world.all_at_rest(); ++i) world.step();
+    EXPECT_TRUE(world.all_at_rest()) << mesh << ": " << measure(world).max_speed << " m/s";
+  }
+}
+
+}  // namespace
+}  // namespace softbody::test
