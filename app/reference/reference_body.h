@@ -1,7 +1,7 @@
 #pragma once
 // One soft body in plain double precision, with which the reports compare the solvers. It has forces and an integrator
-// of its own. From the solvers it takes a scene's data (springs, faces, numbers of the gas law), the geometry of solids,
-// and the bounds by which it chooses its step.
+// of its own. From the solvers it takes a scene's data (springs, faces, numbers of the gas law), the geometry of
+// solids, and the bounds by which it chooses its step.
 
 #include <string>
 #include <vector>
