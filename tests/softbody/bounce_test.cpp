@@ -64,7 +64,6 @@ Rise rise(World& world, int frames) {
 class BounceBy : public testing::TestWithParam<Integrator> {};
 
 TEST_P(BounceBy, IsHigherTheMoreRestitutionThereIs) {
-  if (GetParam().key == "explicit-euler") GTEST_SKIP() << "it needs very many substeps";
   struct Case {
     bool flat;
     ContactSurface by;
@@ -97,12 +96,18 @@ TEST_P(BounceBy, IsHigherTheMoreRestitutionThereIs) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, BounceBy, testing::ValuesIn(integrators().begin(), integrators().end()),
-                         [](const auto& i) {
-                           std::string name(i.param.key);
-                           std::erase(name, '-');
-                           return name;
-                         });
+/// All but explicit Euler, which needs very many substeps.
+std::vector<Integrator> bouncing_integrators() {
+  std::vector<Integrator> all(integrators().begin(), integrators().end());
+  std::erase_if(all, [](const Integrator& i) { return i.key == "explicit-euler"; });
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, BounceBy, testing::ValuesIn(bouncing_integrators()), [](const auto& i) {
+  std::string name(i.param.key);
+  std::erase(name, '-');
+  return name;
+});
 
 /// By implicit steps, a ball that bounced off ground of restitution 0.8 gained energy.
 TEST(ImplicitBounce, IsNeverHigherThanTheOneBefore) {
