@@ -16,7 +16,7 @@ struct Row {
 };
 
 /// The first six colours are Okabe and Ito's. The others are as far from all as colours can be for eyes of any kind.
-constexpr std::array rows{
+constexpr std::array styles{
     Row{"brute-force", {rgb(153, 153, 153), Marker::plus, true}},
     Row{"grid-hash", {rgb(213, 94, 0), Marker::square, true}},
     Row{"bounding-box", {rgb(230, 159, 0), Marker::triangle, false}},
@@ -39,11 +39,11 @@ constexpr std::array further_colours{rgb(0, 0, 0), rgb(170, 0, 85), rgb(85, 102,
 }  // namespace
 
 MethodStyle style(const collide::Method& method) {
-  const auto row_of = [](const collide::Method& each) { return std::ranges::find(rows, each.key, &Row::key); };
-  if (const auto row = row_of(method); row != rows.end()) return row->style;
+  const auto row_of = [](const collide::Method& each) { return std::ranges::find(styles, each.key, &Row::key); };
+  if (const auto row = row_of(method); row != styles.end()) return row->style;
   const auto number =
       static_cast<std::size_t>(std::count_if(collide::method_table().data(), &method,
-                                             [&](const collide::Method& each) { return row_of(each) == rows.end(); }));
+                                             [&](const collide::Method& each) { return row_of(each) == styles.end(); }));
   return {further_colours[number % further_colours.size()], further_markers[number % further_markers.size()], true};
 }
 

@@ -32,9 +32,9 @@ void RestingContacts::observe(const Frame& frame, const Settings& settings, std:
     for (auto* coordinate : {&x_, &y_, &z_}) coordinate->resize(frame.x.size());
     return;
   }
-  constexpr double body_ns = 20, vertex_ns = 0.5;  // of work
-  const int parts = workers.threads_for(body_ns * static_cast<double>(bounds.size()) +
-                                        vertex_ns * static_cast<double>(frame.x.size()));
+  constexpr double copied_body_ns = 20, copied_vertex_ns = 0.5;  // of work
+  const int parts = workers.threads_for(copied_body_ns * static_cast<double>(bounds.size()) +
+                                        copied_vertex_ns * static_cast<double>(frame.x.size()));
   workers.run(parts, [&](int number) {
     const Part part = part_of(bounds.size(), number, parts);
     for (auto body = static_cast<Index>(part.begin); body < part.end; ++body) {

@@ -36,7 +36,8 @@ double move_rigidly(const ImplicitStep& step, ImplicitWork& work, std::size_t la
   glm::dvec3 shift = stop_at(work.planes, lane, h, meant, aside);
   if (const double stopped = glm::distance(shift, meant); stopped > 0) {
     const glm::dvec3 normal = (shift - meant) / stopped, slip = shift - glm::dot(shift, normal) * normal;
-    shift -= law::within_cone(slip, friction_of(work, lane) * stopped);
+    const glm::dvec3 slower = shift - law::within_cone(slip, friction_of(work, lane) * stopped);
+    shift = stop_at(work.planes, lane, h, slower, aside);  // again: the other way may lead into another plane
   }
   // Sums of squared speeds.
   double gain = -2 * glm::dot(step.gravity, shift) * double(particles), before = 0, spinning = 0;
