@@ -92,7 +92,8 @@ FileReader::Answer FileReader::answer(const Question& question, const std::stop_
     if (const auto* frames = std::get_if<FramesToRead>(&question.file)) {
       files::Opened opened = files::open_recording(frames->files);
       for (const int number : {1, opened.recording->frame_count() - 1}) opened.recording->frame(number);
-      return world_of(frames->files.front(), opened.scene.look_at, std::move(opened), frames->threads);
+      std::string look_at = opened.scene.look_at;
+      return world_of(frames->files.front(), std::move(look_at), std::move(opened), frames->threads);
     }
     const auto& [path, threads, presets] = std::get<SceneToRead>(question.file);
     return world_of(path, "scene " + path.filename().string(), softbody::load_scene(path, presets), threads);
