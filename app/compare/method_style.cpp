@@ -42,8 +42,9 @@ MethodStyle style(const collide::Method& method) {
   const auto row_of = [](const collide::Method& each) { return std::ranges::find(styles, each.key, &Row::key); };
   if (const auto row = row_of(method); row != styles.end()) return row->style;
   const auto number =
-      static_cast<std::size_t>(std::count_if(collide::method_table().data(), &method,
-                                             [&](const collide::Method& each) { return row_of(each) == styles.end(); }));
+      static_cast<std::size_t>(std::count_if(collide::method_table().data(), &method, [&](const collide::Method& each) {
+        return row_of(each) == styles.end();
+      }));
   return {further_colours[number % further_colours.size()], further_markers[number % further_markers.size()], true};
 }
 
