@@ -168,7 +168,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
     for (const collide::surface::SurfacePair& p : candidates.search().pairs()) join(p.a), join(p.b);
     frame.bound.passing = std::max(frame.bound.passing, double(candidates.substep_rate()));
     const double without = plan.substeps;
-    plan = steps_.plan(frame.bound, frame.left);
+    plan = steps_.plan(frame.bound, frame.left, !candidates.empty());
     surfaces_decide = plan.substeps > without;
   }
   frame.needed = frame.substeps == 0 ? plan.needed : std::min(frame.needed, plan.needed);

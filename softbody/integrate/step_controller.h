@@ -83,8 +83,8 @@ class StepController {
   /// frame's start, measured for bounds_of().
   void begin_frame(const FrameConditions& conditions, const StepBound& bound);
   /// Plans into how many substeps the last `left` seconds of the frame are divided, for this bound. Unless the number
-  /// is fixed it is on a ladder, so that substeps have few lengths: see on_ladder().
-  const StepPlan& plan(const StepBound& bound, double left);
+  /// is fixed it is on a ladder, so that substeps have few lengths: see on_ladder(). surfaces_near: some may touch.
+  const StepPlan& plan(const StepBound& bound, double left, bool surfaces_near = false);
   /// Returns the last plan. Before the first one of a frame it has its integrator only.
   const StepPlan& plan() const { return plan_; }
 

@@ -28,7 +28,7 @@ LaneMask attempt(LaneMask (*advance)(const ImplicitStep&, ImplicitWork&, LaneMas
       EXPECT_EQ(rig.work.end_v[i], untouched);
     }
   for (std::size_t i = 0; i < forces.size(); ++i)
-    if (!tried[rig.work.planes[i].at % implicit_lanes]) {
+    if (!tried[rig.work.planes[i].point.lane()]) {
       EXPECT_EQ(rig.work.planes[i].force, forces[i]);
     }
   return solved;
@@ -38,7 +38,7 @@ LaneMask attempt(LaneMask (*advance)(const ImplicitStep&, ImplicitWork&, LaneMas
 glm::dvec3 impulse(const ImplicitRig& rig, std::size_t lane) {
   glm::dvec3 sum(0.0);
   for (const PlaneContact& c : rig.work.planes)
-    if (c.at % implicit_lanes == lane) sum += rig.h * c.force;
+    if (c.point.lane() == lane) sum += rig.h * c.force;
   return sum;
 }
 

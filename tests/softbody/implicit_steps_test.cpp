@@ -59,6 +59,7 @@ struct BatchRig {
             base,
             gravity,
             solids,
+            {},
             penalty,
             ends,
             [](BodyId id) { return id < 2; }};
@@ -126,8 +127,8 @@ TEST(FindPlanes, AsksForWhatTheLawOfContactAsksFor) {
   for (const PlaneContact& c : work.planes) {
     EXPECT_EQ(c.normal, glm::dvec3(0, 1, 0));
     EXPECT_EQ(c.force, glm::dvec3(0.0));
-    least_gap[c.at % implicit_lanes] = std::min(least_gap[c.at % implicit_lanes], -c.min_displacement);
-    most_out[c.at % implicit_lanes] = std::max(most_out[c.at % implicit_lanes], c.out());
+    least_gap[c.point.lane()] = std::min(least_gap[c.point.lane()], -c.min_displacement);
+    most_out[c.point.lane()] = std::max(most_out[c.point.lane()], c.out());
   }
   EXPECT_NEAR(least_gap[0], 0.03, 1e-6);
   EXPECT_NEAR(least_gap[1], 0.01, 1e-6);

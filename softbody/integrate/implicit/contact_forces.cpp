@@ -24,7 +24,7 @@ constexpr std::size_t max_active = 300;       // their compliances among one ano
 /// A contact that presses, or that is passed.
 struct ActiveContact {
   PlaneContact* contact;
-  glm::dvec3 displacement;  // m, of the particle in this step
+  glm::dvec3 displacement;  // m, of its point in this step
   glm::dvec3 before;        // N, the force before the sweeps
   glm::dvec3 change{0.0};   // N, of the force in a sweep
   glm::dvec3 search{0.0};   // N
@@ -132,7 +132,7 @@ class ForceSweeps {
 std::vector<ActiveContact> active_contacts(const ImplicitProblem& p, std::span<PlaneContact> contacts, const Lanes& x) {
   std::vector<ActiveContact> active;
   for (PlaneContact& c : contacts) {
-    const glm::dvec3 displacement = p.displacement(x, c.at);
+    const glm::dvec3 displacement = p.displacement(x, c.point);
     if (c.force != glm::dvec3(0.0) || glm::dot(displacement, c.normal) < c.min_displacement)
       active.push_back({&c, displacement, c.force});
   }
@@ -158,15 +158,20 @@ glm::dvec3 ContactForces::force(const ImplicitProblem& p, const PlaneContact& c,
 double ContactForces::update(const ImplicitProblem& p, std::span<PlaneContact> contacts, const Lanes& x,
                              const glm::dmat3& rotation, Lanes& changes) {
   const double none_found = springs_lead_ ? 0 : std::numeric_limits<double>::infinity();
-  double& moves_left = moves_left_[contacts.front().at % implicit_lanes];
+  double& moves_left = moves_left_[contacts.front().point.lane()];
   std::vector<ActiveContact> active = active_contacts(p, contacts, x);
   if (active.size() > max_active || moves_left <= 0) return none_found;
   ForceSweeps sweeps(active);
   const glm::dmat3 back = glm::transpose(rotation);
-  const auto particle = [&](std::size_t i) { return Index(active[i].contact->at / implicit_lanes); };
+  const auto compliance = [&](const BodyPoint& moved, const BodyPoint& pushed) {
+    return moved.mean([&](std::size_t i) {
+      return pushed.mean(
+          [&](std::size_t j) { return p.matrix.compliance(Index(i / implicit_lanes), Index(j / implicit_lanes)); });
+    });
+  };
   for (std::size_t i = 0; i < active.size(); ++i)
     for (std::size_t j = 0; j < active.size(); ++j)
-      sweeps.set_compliance(i, j, rotation * p.matrix.compliance(particle(j), particle(i)) * back);
+      sweeps.set_compliance(i, j, rotation * compliance(active[j].contact->point, active[i].contact->point) * back);
   const double moves_before = moves_left;
   const auto [most, last] = sweeps.run(1e-9 * p.model.radius, moves_left);
   work_ += (moves_before - moves_left) * work_of_a_move;
@@ -174,7 +179,7 @@ double ContactForces::update(const ImplicitProblem& p, std::span<PlaneContact> c
   const bool trusted = springs_lead_ ? most <= p.model.radius : last <= held_within * p.model.radius;
   for (const ActiveContact& a : active) {
     if (!trusted) a.contact->force = a.before;
-    add(changes, a.contact->at, a.contact->force - a.before);
+    a.contact->point.add_to(changes, a.contact->force - a.before);
   }
   return trusted ? most : none_found;
 }

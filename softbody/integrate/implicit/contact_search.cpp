@@ -21,19 +21,32 @@ LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, LaneM
                      ImplicitWork& work) {
   LaneMask in_contact;
   work.planes.clear();
+  const auto add = [&](const PlaneContact& c) {
+    const glm::dvec3 meant = c.point.mean([&](std::size_t at) {
+      return frames.free_displacement(c.point.lane(), read(work.x, at), read(work.v, at));
+    });
+    if (glm::dot(meant, c.normal) < c.min_displacement) in_contact.set(c.point.lane());
+    work.planes.push_back(c);
+  };
   for (std::size_t lane = 0; lane < implicit_lanes; ++lane) {
     if (!moving[lane]) continue;
     const std::size_t own = b.first_lane + lane;  // in the batch
     for (const SolidArguments& s : b.near_solids) {
       if (!(s.near >> own & 1u)) continue;
       for (std::size_t at = lane; at < work.x.size() / 3; at += implicit_lanes) {
-        const glm::dvec3 x = read(work.x, at), v = read(work.v, at);
-        const SurfaceAt<double> surface = surface_from(s, own, x);
+        const SurfaceAt<double> surface = surface_from(s, own, read(work.x, at));
         const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
-        const double out = law::min_move(surface.distance, h);
-        if (glm::dot(frames.free_displacement(lane, x, v), normal) < out) in_contact.set(lane);
-        work.planes.push_back({at, double(s.friction), double(s.restitution), normal, out});
+        add({{{at}}, double(s.friction), double(s.restitution), normal, law::min_move(surface.distance, h)});
       }
+    }
+    for (const ContactRow& row : b.features) {
+      if (row.slot[0] % std::size_t(b.width) != own) continue;
+      BodyPoint point;
+      for (std::size_t k = 0; k < 3; ++k) {
+        point.at[k] = row.slot[k] / std::size_t(b.width) * implicit_lanes + lane;
+        point.weight[k] = double(row.weight[k]);
+      }
+      add({point, double(row.friction), double(row.restitution), glm::dvec3(row.normal), double(row.target) * h});
     }
   }
   return in_contact;
