@@ -117,7 +117,7 @@ void SolidContact::find_features(const Batch& b, int lane, std::span<const Solid
   }
 }
 
-std::span<ContactRow> SolidContact::feature_rows(const Batch& b, float h) {
+std::span<ContactRow> SolidContact::find_feature_rows(const Batch& b, float h) {
   if (!meets_features(b)) return {};
   OfBatch& own = of_batch_[b.index];
   own.rows.clear();
@@ -133,7 +133,7 @@ std::span<ContactRow> SolidContact::feature_rows(const Batch& b, float h) {
 void SolidContact::apply_to_features(const Batch& b, float h) {
   constexpr int passes = 3;
   OfBatch& own = of_batch_[b.index];
-  const std::span<ContactRow> rows = feature_rows(b, h);
+  const std::span<ContactRow> rows = find_feature_rows(b, h);
   const Field<float> v = field(state_.v, b.base);
   const auto acted = [](const ContactRow& row) { return row.normal_impulse > 0; };
   for (int pass = 0; pass < passes; ++pass) {

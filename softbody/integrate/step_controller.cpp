@@ -97,13 +97,13 @@ void StepController::choose(const StepBound& b, const FrameConditions& c) {
   }
 }
 
-const StepPlan& StepController::plan(const StepBound& b, double left, bool surfaces_near) {
+const StepPlan& StepController::plan(const StepBound& b, double left) {
   const Integrator& integrator = *plan_.integrator;
   const bool any_step = integrator.stable_at_any_step();
   const double needed = seconds_ * std::max({1 / longest_step, b.passing, stable_rate(b, integrator)});
   plan_.needed = int(std::ceil(std::min(needed, max_needed) * nearly));
-  const double own = std::max(integrator.substeps_per_step / seconds_,
-                              surfaces_near && integrator.implicit ? contact_rate : 0);
+  const double own =
+      std::max(integrator.substeps_per_step / seconds_, integrator.implicit && b.surfaces_near ? contact_rate : 0);
   const double rate =
       std::max(own, any_step ? std::max(implicit_rate(b), stable_rate(b, integrator)) : explicit_rate(b));
   double count = left / seconds_;

@@ -14,12 +14,13 @@ namespace softbody {
 
 /// What bodies ask of their steps as they are now: the lowest rates (1/s) at which steps ...
 struct StepBound {
-  double stable = 0;         // ... are stable, but for breathing, of explicit integrators; 0 if all are
-  double breathing = 0;      // ... are stable, if gas resists changes of the volume explicitly
-  double deformation = 0;    // ... keep up with the body that changes its shape fastest
-  double passing = 0;        // ... keep up with the fastest body near a solid, and with surfaces that pass each other
-  double fastest = 0;        // and how many times its radius the fastest body goes in a second
-  double volume_change = 0;  // and the largest share by which the volume of a body differs from the start's
+  double stable = 0;           // ... are stable, but for breathing, of explicit integrators; 0 if all are
+  double breathing = 0;        // ... are stable, if gas resists changes of the volume explicitly
+  double deformation = 0;      // ... keep up with the body that changes its shape fastest
+  double passing = 0;          // ... keep up with the fastest body near a solid, and with surfaces that pass each other
+  double fastest = 0;          // and how many times its radius the fastest body goes in a second
+  double volume_change = 0;    // and the largest share by which the volume of a body differs from the start's
+  bool surfaces_near = false;  // some may touch each other before the bound is measured again
 };
 
 /// Returns the lowest rate (1/s) at which the integrator's steps are stable.
@@ -83,8 +84,8 @@ class StepController {
   /// frame's start, measured for bounds_of().
   void begin_frame(const FrameConditions& conditions, const StepBound& bound);
   /// Plans into how many substeps the last `left` seconds of the frame are divided, for this bound. Unless the number
-  /// is fixed it is on a ladder, so that substeps have few lengths: see on_ladder(). surfaces_near: some may touch.
-  const StepPlan& plan(const StepBound& bound, double left, bool surfaces_near = false);
+  /// is fixed it is on a ladder, so that substeps have few lengths: see on_ladder().
+  const StepPlan& plan(const StepBound& bound, double left);
   /// Returns the last plan. Before the first one of a frame it has its integrator only.
   const StepPlan& plan() const { return plan_; }
 

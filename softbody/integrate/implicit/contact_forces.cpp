@@ -30,7 +30,7 @@ struct ActiveContact {
   glm::dvec3 search{0.0};   // N
 };
 
-/// The forces between some particles of one body and their planes, by projected Gauss-Seidel. Most of its time is
+/// The forces between some points of one body and their planes, by projected Gauss-Seidel. Most of its time is
 /// add().
 class ForceSweeps {
  public:
@@ -39,18 +39,18 @@ class ForceSweeps {
     for (std::size_t k = 0; k < 3; ++k)
       for (const ActiveContact& a : active) moved_[k].push_back(a.displacement[int(k)]);
   }
-  /// Sets how far (m/N) the particle of contact j moves under a force on the one of contact i.
+  /// Sets how far (m/N) the point of contact j moves under a force on the one of contact i.
   void set_compliance(std::size_t i, std::size_t j, const glm::dmat3& block) {
     for (std::size_t k = 0; k < 9; ++k) compliance_[(9 * i + k) * n_ + j] = block[int(k / 3)][int(k % 3)];
   }
 
-  /// How far (m) a force's change has moved its own particle: in any sweep, and in the last one.
+  /// How far (m) a force's change has moved its own point: in any sweep, and in the last one.
   struct Moved {
     double most, last;
   };
-  /// Sweeps until no force's change moves its particle by more than `enough` m, or a window of sweeps does not halve
+  /// Sweeps until no force's change moves its point by more than `enough` m, or a window of sweeps does not halve
   /// these moves, or more than `moves` contacts have been moved by contacts, which it counts down: there may be no such
-  /// forces where a crushed body is pressed together. As few particles of a stiff body move together, plain sweeps
+  /// forces where a crushed body is pressed together. As few points of a stiff body move together, plain sweeps
   /// would hardly converge: they are the gradient of a nonlinear conjugate gradient method (Silcowitz, Niebe and
   /// Erleben 2010).
   Moved run(double enough, double& moves) {
@@ -74,7 +74,7 @@ class ForceSweeps {
   }
 
  private:
-  /// Brings each contact's force up to date in turn. Returns how far (m) a change has moved its own particle at most.
+  /// Brings each contact's force up to date in turn. Returns how far (m) a change has moved its own point at most.
   double sweep() {
     double most = 0;
     for (std::size_t i = 0; i < active_.size(); ++i) {
@@ -105,7 +105,7 @@ class ForceSweeps {
     }
   }
 
-  /// Adds to a force, and moves all particles by that.
+  /// Adds to a force, and moves all points by that.
   void add(std::size_t i, const glm::dvec3& force) {
     active_[i].contact->force += force;
     const double* columns = &compliance_[9 * i * n_];

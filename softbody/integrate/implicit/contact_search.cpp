@@ -1,5 +1,9 @@
 #include "softbody/integrate/implicit/contact_search.h"
 
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/law.h"
@@ -15,16 +19,40 @@ SurfaceAt<double> surface_from(const SolidArguments& s, std::size_t lane, const 
   return std::visit([&](const auto& shape) { return body::surface_at(shape, d); }, s.shape);
 }
 
+/// Returns the point that a row keeps off a solid, in a lane of a step.
+BodyPoint point_of(const ContactRow& row, int width, std::size_t lane) {
+  BodyPoint point;
+  for (std::size_t k = 0; k < 3; ++k) {
+    point.at[k] = row.slot[k] / std::size_t(width) * implicit_lanes + lane;
+    point.weight[k] = double(row.weight[k]);
+    assert(point.weight[k] == 0 || row.slot[k] % std::size_t(width) == row.slot[0] % std::size_t(width));
+  }
+  return point;
+}
+
+/// Returns true for contacts of one point with one solid, which faces that share an edge have in common. The search for
+/// forces converges slowly where two differ by rounding.
+bool is_same(const PlaneContact& a, const PlaneContact& b) {
+  constexpr double rounding = 1e-5;
+  const auto weight_in = [](const BodyPoint& point, std::size_t at) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += point.at[k] == at ? point.weight[k] : 0;
+    return sum;
+  };
+  double apart = glm::distance(a.normal, b.normal);
+  for (const std::size_t at : a.point.at) apart += std::abs(weight_in(a.point, at) - weight_in(b.point, at));
+  return apart < rounding;
+}
+
 }  // namespace
 
 LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, LaneMask moving, double h,
                      ImplicitWork& work) {
   LaneMask in_contact;
   work.planes.clear();
-  const auto add = [&](const PlaneContact& c) {
-    const glm::dvec3 meant = c.point.mean([&](std::size_t at) {
-      return frames.free_displacement(c.point.lane(), read(work.x, at), read(work.v, at));
-    });
+  const auto add_plane = [&](const PlaneContact& c) {
+    const glm::dvec3 meant = c.point.mean(
+        [&](std::size_t at) { return frames.free_displacement(c.point.lane(), read(work.x, at), read(work.v, at)); });
     if (glm::dot(meant, c.normal) < c.min_displacement) in_contact.set(c.point.lane());
     work.planes.push_back(c);
   };
@@ -36,17 +64,17 @@ LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, LaneM
       for (std::size_t at = lane; at < work.x.size() / 3; at += implicit_lanes) {
         const SurfaceAt<double> surface = surface_from(s, own, read(work.x, at));
         const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
-        add({{{at}}, double(s.friction), double(s.restitution), normal, law::min_move(surface.distance, h)});
+        add_plane({{{at}}, double(s.friction), double(s.restitution), normal, law::min_move(surface.distance, h)});
       }
     }
+    const std::size_t first = work.planes.size();
     for (const ContactRow& row : b.features) {
       if (row.slot[0] % std::size_t(b.width) != own) continue;
-      BodyPoint point;
-      for (std::size_t k = 0; k < 3; ++k) {
-        point.at[k] = row.slot[k] / std::size_t(b.width) * implicit_lanes + lane;
-        point.weight[k] = double(row.weight[k]);
-      }
-      add({point, double(row.friction), double(row.restitution), glm::dvec3(row.normal), double(row.target) * h});
+      const PlaneContact c{point_of(row, b.width, lane), double(row.friction), double(row.restitution),
+                           glm::dvec3(row.normal), double(row.target) * h};
+      if (std::ranges::none_of(std::span(work.planes).subspan(first),
+                               [&](const PlaneContact& other) { return is_same(c, other); }))
+        add_plane(c);
     }
   }
   return in_contact;

@@ -28,7 +28,7 @@ void clear_planes(ImplicitWork& work, LaneMask which, double h) {
       const double by = missing(work, c);
       if (!which[c.point.lane()] || !(by > 0)) continue;
       any = true;
-      const glm::dvec3 move = by / c.point.mobility() * c.normal;
+      const glm::dvec3 move = by / c.point.square_of_weights() * c.normal;
       c.point.add_to(work.end_x, move);
       c.point.add_to(work.end_v, move / h);
     }

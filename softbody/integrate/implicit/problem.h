@@ -33,7 +33,7 @@ struct BodyPoint {
     return sum;
   }
   /// Returns how far the point moves if each corner moves by its weight.
-  double mobility() const { return weight[0] * weight[0] + weight[1] * weight[1] + weight[2] * weight[2]; }
+  double square_of_weights() const { return weight[0] * weight[0] + weight[1] * weight[1] + weight[2] * weight[2]; }
   /// Adds a value to each corner, times its weight.
   void add_to(Lanes& sums, const glm::dvec3& value) const {
     for (std::size_t k = 0; k < 3; ++k)

@@ -79,7 +79,9 @@ void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g
 void ImplicitSolver::add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f) {
   constexpr double work_of_a_force = 1.0 / 32;  // of an iteration for one particle in all lanes, about
   work_ += double(p.planes.size() + p.penalty_pairs.size()) * work_of_a_force;
-  for (const PlaneContact& c : p.planes) c.point.add_to(f, contact_.force(p, c, p.displacement(x, c.point)));
+  for (const PlaneContact& c : p.planes)  // most of them are far off
+    if (contact_.springs_lead() || c.force != glm::dvec3(0.0))
+      c.point.add_to(f, contact_.force(p, c, p.displacement(x, c.point)));
   for (const LinearPenaltyPair& s : p.penalty_pairs) add(f, s.at, s.force_after(p.displacement(x, s.at)));
 }
 
@@ -116,7 +118,7 @@ bool ImplicitSolver::minimise(const ImplicitProblem& p, int iterations) {
 }
 
 /// Brings the contact forces of the lanes up to date with the positions, and these with the forces' changes. Returns
-/// how far (m) these have moved a particle at most, or infinity where no forces are found.
+/// how far (m) these have moved a point at most, or infinity where no forces are found.
 PerLane ImplicitSolver::update_contact_forces(const ImplicitProblem& p, LaneMask which) {
   PerLane moved{}, once;
   push_.assign(push_.size(), 0.0);
