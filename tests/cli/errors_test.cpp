@@ -91,6 +91,7 @@ const Bad bad_lines[]{
     {"primes_nothing", drop({"--primes", ""}), {"--primes"}},
     {"tolerance_zero", drop({"--tolerance", "0"}), {"tolerance"}},
     {"tolerance_negative", drop({"--tolerance", "-0.1"}), {"tolerance"}},
+    {"tolerance_with_a_comma", drop({"--tolerance", "0,1"}), {"--tolerance = 0,1: is no number"}},
     {"tolerance_nan", drop({"--tolerance", "nan"}), {"tolerance"}},
     {"tolerance_infinite", drop({"--tolerance", "inf"}), {"tolerance"}},
     {"tolerance_below_scene_files",

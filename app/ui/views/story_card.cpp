@@ -79,7 +79,7 @@ std::string StoryCard::sentence(const Session& session) const {
                        last_->coverage == collide::Coverage::exceeded
                            ? "some in cells that the corners of boxes skipped"
                            : "across a face of the grid");
-  if (session.world().all_at_rest()) return "No contact of this frame lies across a face of the grid.";
+  if (session.world().all_at_rest()) return "The boxes of each contact of this frame share a bucket.";
   return "Both look for all vertices that come closer than the tolerance. Watch what happens where bodies touch across "
          "a face of the grid.";
 }
