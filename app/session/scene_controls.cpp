@@ -54,8 +54,7 @@ void SceneControls::choose(const std::string& key_or_path) {
 void SceneControls::enter(ShownWorld world, softbody::Scene scene, const std::string& key_or_path) {
   files::protect_inputs(scene);
   SceneFile file(key_or_path, scene);
-  SolidList solids = list_solids(scene);
-  simulation_.enter(std::move(world), {std::move(scene), std::move(file), std::move(solids)}, "choice of scene");
+  simulation_.enter(std::move(world), {std::move(scene), std::move(file)}, "choice of scene");
 }
 
 softbody::Scene SceneControls::with_added_bodies() const {

@@ -22,11 +22,10 @@ void SettingControls::set_material(std::size_t index, const softbody::Material& 
 }
 
 void SettingControls::set_solids(const SolidList& solids) {
-  softbody::Scene scene = simulation_.world().scene();
-  put_solids(solids, scene);
+  softbody::Scene scene;
+  scene.solids = solids;
   simulation_.keep_drag();
-  if (!simulation_.change([&](World& world) { world.set_solids(scene); })) return;
-  simulation_.loaded.solids = solids;
+  simulation_.change([&](World& world) { world.set_solids(scene); });
 }
 
 void SettingControls::restore_world() {
@@ -34,7 +33,6 @@ void SettingControls::restore_world() {
   simulation_.change([&](World& world) {
     world.set_gravity(scene.gravity);
     world.set_solids(scene);
-    simulation_.loaded.solids = list_solids(scene);
     for (std::size_t i = 0; i < world.scene().materials.size(); ++i) world.set_material(i, scene.materials[i]);
   });
 }

@@ -3,6 +3,7 @@
 
 #include "app/compare/method_style.h"
 #include "app/session/simulation.h"
+#include "app/session/solid_list.h"
 
 namespace app::session {
 
@@ -14,7 +15,7 @@ class SettingControls {
   /// In m/s^2, along the gravity of the scene; downwards if it has none.
   void set_gravity(double strength);
   void set_material(std::size_t index, const softbody::Material& material);
-  const SolidList& solids() const { return simulation_.loaded.solids; }
+  const SolidList& solids() const { return simulation_.world().scene().solids; }
   void set_solids(const SolidList& solids);
   /// From here to Simulation::end_drag(), undo() takes all that set_solids() does as one change: `solid` is moved.
   void begin_drag(std::size_t solid);

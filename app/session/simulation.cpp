@@ -16,7 +16,7 @@ namespace {
 void keep_settings(World& world, const softbody::Scene& in_use, bool with_solids) {
   const softbody::Scene& now = world.scene();
   if (now.gravity != in_use.gravity) world.set_gravity(in_use.gravity);
-  if (with_solids && list_solids(now) != list_solids(in_use)) world.set_solids(in_use);
+  if (with_solids && now.solids != in_use.solids) world.set_solids(in_use);
   for (std::size_t i = 0; i < std::min(now.materials.size(), in_use.materials.size()); ++i)
     if (!(now.materials[i] == in_use.materials[i])) world.set_material(i, in_use.materials[i]);
 }
@@ -54,7 +54,7 @@ ShownWorld bring_back(const decltype(KeptWorld::world)& kept, int threads) {
 Simulation::Simulation(files::Opened opened, int threads, std::string scene_name, SimulationObserver* observer)
     : observer_(observer ? *observer : none_), threads_(threads), shown_(show_in_window(opened, threads)) {
   const softbody::Scene& scene = opened.scene;
-  loaded = {scene, SceneFile(scene_name.empty() ? scene.key : scene_name, scene), list_solids(scene)};
+  loaded = {scene, SceneFile(scene_name.empty() ? scene.key : scene_name, scene)};
   if (simulated()) stability_.restart(*simulated());
   before_last_step_.copy(world());
 }
@@ -277,7 +277,6 @@ void Simulation::go(Way way) {
   } else {
     // The worlds in between are gone again, so this one is the snapshot's.
     const bool of_solids = there.change.of == Change::Of::solids;
-    if (!of_solids) there.loaded.solids = std::move(loaded.solids);  // those in use stay
     arrive();
     notice.clear();
     attempt([&] { restore(solver(), std::get<0>(there.world), of_solids); });
@@ -319,7 +318,7 @@ softbody::Scene scene_in_use(const Simulation& simulation) {
   const softbody::Scene& now = world.scene();
   scene.gravity = now.gravity;
   std::ranges::copy(now.materials, scene.materials.begin());
-  put_solids(simulation.loaded.solids, scene);
+  scene.solids = now.solids;
   scene.method = world.method().key;
   scene.contact_surface = now.contact_surface;
   scene.collision = world.collision();

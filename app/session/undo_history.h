@@ -9,7 +9,6 @@
 
 #include "app/session/player.h"
 #include "app/session/scene_file.h"
-#include "app/session/solid_list.h"
 #include "softbody/world/snapshot.h"
 
 namespace app::session {
@@ -17,8 +16,7 @@ namespace app::session {
 /// The scene as it was loaded, with the materials that added bodies brought.
 struct LoadedScene {
   softbody::Scene scene;
-  SceneFile file;    // where the scene came from, or was saved to last
-  SolidList solids;  // in use, also those that are switched off
+  SceneFile file;  // where the scene came from, or was saved to last
 };
 
 /// A change that can be undone.

@@ -9,9 +9,6 @@ namespace {
 
 constexpr float max_click_length = 5;  // pixels: a longer way of the mouse is a drag
 
-softbody::SolidPlane traceable(const softbody::Ground& ground) { return softbody::as_plane(ground); }
-const auto& traceable(const auto& solid) { return solid; }
-
 struct SolidUnder {
   std::size_t index;  // of SettingControls::solids()
   double distance;    // m
@@ -22,13 +19,10 @@ std::optional<SolidUnder> pick_solid(const engine::Ray& ray, const session::Soli
   constexpr double max_distance = 1000;  // m
   SolidUnder nearest{solids.size(), max_distance};
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    if (!solids[i].on) continue;
-    const double distance =
-        std::visit([&](const auto& solid) { return render::entry_distance(ray, traceable(solid), nearest.distance); },
-                   solids[i].solid);
+    const double distance = render::entry_distance(ray, solids[i], nearest.distance);
     if (distance < nearest.distance) nearest = {i, distance};
   }
-  if (nearest.index == solids.size() || !session::moved(solids[nearest.index].solid, {})) return std::nullopt;
+  if (nearest.index == solids.size() || solids[nearest.index].traits().half_space) return std::nullopt;
   return nearest;
 }
 
@@ -97,7 +91,7 @@ void SceneMouse::press(const MouseInput& in, Session& session, engine::Camera& c
     if (const auto solid = pick_solid(ray, session.settings.solids())) {
       drag_ = Drag::solid;
       pressed_solid_ = solid->index;
-      held_solid_ = {solid->index, session.settings.solids()[solid->index].solid,
+      held_solid_ = {solid->index, session.settings.solids()[solid->index],
                      glm::dvec3(ray.origin) + solid->distance * glm::dvec3(ray.direction),
                      session.simulation.world_number()};
       session.settings.begin_drag(solid->index);
@@ -136,7 +130,7 @@ void SceneMouse::drag_solid(const engine::Ray& ray, Session& session, const engi
   if (session.simulation.world_number() != held_solid_->world_number) return;  // the solids may be others
   session::SolidList solids = session.settings.solids();
   const glm::dvec3 way = on_facing_plane(ray, camera, held_solid_->point) - held_solid_->point;
-  solids[held_solid_->index].solid = *session::moved(held_solid_->solid, way);
+  solids[held_solid_->index] = session::moved(held_solid_->solid, way);
   if (solids != session.settings.solids()) session.settings.set_solids(solids);
 }
 

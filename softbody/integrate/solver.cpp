@@ -9,7 +9,6 @@
 #include "softbody/forces/body_measures.h"
 #include "softbody/integrate/force_stage.h"
 #include "softbody/integrate/implicit/steps.h"
-#include "softbody/scene/solids.h"
 
 namespace softbody {
 namespace {
@@ -69,15 +68,6 @@ void Solver::join(BodyId body) {
   joined_[state_.body(body).batch] = true;
 }
 
-/// Finds which solids are near which bodies.
-void Solver::add_solids(std::span<const Extent> extents, double seconds) {
-  for (std::size_t i = 0; i < extents.size(); ++i)
-    for_each_solid(scene_, [&](const auto& solid) {
-      solids_.add(*crew_.moving()[i], extents[i], solid, scene_.gravity, seconds,
-                  [&](const PlacedBox& box) { return way_out(scene_, solid, box); });
-    });
-}
-
 Solver::Frame Solver::begin_frame(double seconds) {
   contacts_.begin_frame();
   const bool press = contacts_.surfaces().presses();  // in the last frame; a search forgets it
@@ -96,7 +86,8 @@ Solver::Frame Solver::begin_frame(double seconds) {
   const std::vector<const Batch*>& moving = crew_.moving();
   std::vector<Extent> extents(moving.size());
   crew_.for_each(moving.size(), [&](std::size_t i) { extents[i] = state_.extent(*moving[i], state_.x, state_.v); });
-  add_solids(extents, seconds);
+  for (std::size_t i = 0; i < moving.size(); ++i)
+    solids_.add(*moving[i], extents[i], scene_.solids, scene_.gravity, seconds);
   if (std::ranges::any_of(moving, [&](const Batch* b) { return solids_.pushed(*b) != 0; }))  // eased out
     penalty_.gather(field(std::as_const(state_.x)), field(std::as_const(state_.v)));
   const StepBound bound = bounds_.measure(steps_.bounds_of());

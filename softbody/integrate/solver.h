@@ -96,7 +96,6 @@ class Solver {
   void mark_pushed(BodyId body) { pushed_[state_.body(body).batch] |= 1u << state_.body(body).lane; }
   void join(BodyId body);
   double penalty_energy();
-  void add_solids(std::span<const Extent> extents, double seconds);
   void finish(const Batch& batch, double seconds);
   Frame begin_frame(double seconds);
   void take_substeps(Frame& frame, const std::function<void()>& after_substep);

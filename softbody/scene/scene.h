@@ -86,11 +86,7 @@ struct Scene {
   bool default_cell_size = true;
   std::vector<Material> materials;
   std::vector<BodySource> bodies;
-  std::vector<SolidSphere> spheres;
-  std::vector<SolidPlane> planes;
-  std::vector<SolidBox> boxes;
-  std::vector<SolidCapsule> capsules;
-  std::optional<Ground> ground;
+  std::vector<Solid> solids;  // a step handles them in this order
   std::optional<Dropper> dropper;
   SleepRule sleep;
   View view;

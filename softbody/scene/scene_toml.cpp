@@ -7,20 +7,17 @@
 #include <span>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "softbody/forces/material_keys.h"
 #include "softbody/mesh/file_mesh.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/scene/limits.h"
 #include "softbody/scene/scene.h"
+#include "softbody/scene/solid_toml.h"
 #include "softbody/scene/toml_table.h"
 
 namespace softbody {
 namespace {
-
-constexpr double tiny = 1e-9;  // smallest allowed value of what must be greater than zero: lengths, masses ...
 
 double read_value(Table& table, const Key& key, double value) {
   const std::string name(key.own_name());
@@ -118,100 +115,6 @@ void read_collision(Table table, Scene& scene) {
   table.close();
 }
 
-constexpr double max_coordinate = 1e6;  // m, of positions
-
-/// Reads the keys that all solids have in common.
-template <class Solid>
-void read_surface(Table& table, Solid& solid) {
-  solid.friction = table.number("friction", solid.friction, 0, 10);
-  solid.restitution = table.number("restitution", solid.restitution, 0, 1);
-  table.close();
-}
-
-constexpr double unit_error = 1e-14;  // of the square of a length that was made 1, at most
-
-/// Reads a direction of any length but zero and returns its unit vector. A unit vector is returned unchanged, to the
-/// bit, so that saved scenes are equal.
-glm::dvec3 read_direction(Table& table, const std::string& key, const glm::dvec3& fallback) {
-  const glm::dvec3 v = table.vector(key, fallback, -max_coordinate, max_coordinate);
-  if (glm::length(v) < tiny) table.fail(key, "must have a length, e.g. [0, 1, 0]");
-  return std::abs(glm::dot(v, v) - 1) < unit_error ? v : glm::normalize(v);
-}
-
-/// Reads a rotation as a matrix, column by column. Saved scenes use this form, since it is exact.
-glm::dmat3 read_axes(Table table) {
-  const glm::dmat3 axes = table.matrix("axes");
-  table.close();
-  const glm::dmat3 error = glm::transpose(axes) * axes - glm::dmat3(1.0);
-  for (int k = 0; k < 3; ++k)
-    if (glm::length(error[k]) > 1e-9 || glm::determinant(axes) < 0)
-      table.fail("axes", "must be three directions of length 1, each at right angles to the others, right-handed");
-  return axes;
-}
-
-/// Returns the matrix that rotates by `degrees` about `axis`, counter-clockwise as seen from its tip (Rodrigues). Sine
-/// and cosine are rounded, so that quarter turns are exact and processors agree in the last digits.
-glm::dmat3 read_rotation(Table table) {
-  if (table.has("axes")) return read_axes(std::move(table));
-  const glm::dvec3 axis = read_direction(table, "axis", {0, 1, 0});
-  const double angle = glm::radians(table.number("degrees", 0, -360, 360));
-  table.close();
-  constexpr double digits = 1e12;
-  const double s = std::round(std::sin(angle) * digits) / digits, c = std::round(std::cos(angle) * digits) / digits;
-  glm::dmat3 columns;
-  for (int k = 0; k < 3; ++k) {
-    glm::dvec3 e(0.0);
-    e[k] = 1;
-    columns[k] = c * e + s * glm::cross(axis, e) + (1 - c) * glm::dot(axis, e) * axis;
-  }
-  return columns;
-}
-
-void read_sphere(Table& t, SolidSphere& s) {
-  s.centre = t.vector("centre", s.centre, -max_coordinate, max_coordinate);
-  s.radius = t.number("radius", s.radius, tiny, max_coordinate);
-}
-
-void read_plane(Table& t, SolidPlane& p) {
-  p.point = t.vector("point", p.point, -max_coordinate, max_coordinate);
-  p.normal = read_direction(t, "normal", p.normal);
-}
-
-void read_box(Table& t, SolidBox& b) {
-  b.centre = t.vector("centre", b.centre, -max_coordinate, max_coordinate);
-  b.half_size = 0.5 * t.vector("size", 2.0 * b.half_size, tiny, max_coordinate);
-  b.axes = read_rotation(t.child("rotation"));
-}
-
-void read_capsule(Table& t, SolidCapsule& c) {
-  c.from = t.vector("from", c.from, -max_coordinate, max_coordinate);
-  c.to = t.vector("to", c.to, -max_coordinate, max_coordinate);
-  c.radius = t.number("radius", c.radius, tiny, max_coordinate);
-}
-
-/// Reads the solids of [[key]].
-template <class Solid>
-std::vector<Solid> read_list(Table& root, const std::string& key, void (*read)(Table&, Solid&)) {
-  std::vector<Solid> list;
-  for (Table& t : root.children(key)) {
-    read(t, list.emplace_back());
-    read_surface(t, list.back());
-  }
-  return list;
-}
-
-void read_solids(Table& root, Scene& scene) {
-  scene.spheres = read_list(root, "solid_sphere", read_sphere);
-  scene.planes = read_list(root, "solid_plane", read_plane);
-  scene.boxes = read_list(root, "solid_box", read_box);
-  scene.capsules = read_list(root, "solid_capsule", read_capsule);
-  if (!root.has("ground")) return;
-  Table t = root.child("ground");
-  Ground& ground = scene.ground.emplace();
-  ground.height = t.number("height", ground.height, -max_coordinate, max_coordinate);
-  read_surface(t, ground);
-}
-
 /// Adds `number` copies of the body in layers upwards; the body's position is the centre of the bottom layer. Adds one
 /// body if the table is empty. particles: the number of particles of the scene so far, checked before any allocation.
 void add_lattice(const Table& owner, Table table, const BodySource& body, std::vector<BodySource>& bodies,
@@ -292,7 +195,7 @@ void read_bodies(Table& root, Scene& scene, const std::filesystem::path& presets
 void read_view(Table& root, Scene& scene) {
   Table t = root.child("view");
   scene.view.target = t.vector("target", scene.view.target, -1e6, 1e6);
-  scene.view.distance = t.number("distance", scene.view.distance, tiny, 1e6);
+  scene.view.distance = t.number("distance", scene.view.distance, 1e-9, 1e6);
   scene.view.azimuth = t.number("azimuth", scene.view.azimuth, -360, 360);
   scene.view.elevation = t.number("elevation", scene.view.elevation, -89, 89);
   t.close();
@@ -309,7 +212,7 @@ Scene read_scene(Table root, const std::filesystem::path& file, const std::files
   scene.look_at = root.text("look_at", "");
   scene.gravity = root.vector("gravity", scene.gravity, -max_gravity, max_gravity);
   read_collision(root.child("collision"), scene);
-  read_solids(root, scene);
+  scene.solids = read_solids(root);
   read_bodies(root, scene, presets);
   Table sleep = root.child("sleep");
   scene.sleep.speed = sleep.number("speed", scene.sleep.speed, 0, 1e3);

@@ -5,8 +5,7 @@
 #include <algorithm>
 
 #include "softbody/forces/material_keys.h"
-#include "softbody/scene/toml_table.h"
-#include "softbody/scene/toml_text.h"
+#include "softbody/scene/solid_toml.h"
 
 namespace softbody {
 namespace fs = std::filesystem;
@@ -44,34 +43,6 @@ void write_material(TomlLines& out, const Material& m) {
     for (; key != keys.end() && (*key)->table() == name; ++key) add(inside, **key);
     out.add(name, inside);
   }
-}
-
-template <class Solid>
-void write_surface(TomlLines& out, const Solid& solid) {
-  out.add("friction", solid.friction).add("restitution", solid.restitution);
-}
-
-void write_solids(TomlLines& out, const Scene& scene) {
-  for (const SolidSphere& s : scene.spheres) {
-    out.heading("[[solid_sphere]]").add("centre", s.centre).add("radius", s.radius);
-    write_surface(out, s);
-  }
-  for (const SolidPlane& p : scene.planes) {
-    out.heading("[[solid_plane]]").add("point", p.point).add("normal", p.normal);
-    write_surface(out, p);
-  }
-  for (const SolidBox& b : scene.boxes) {
-    out.heading("[[solid_box]]").add("centre", b.centre).add("size", 2.0 * b.half_size);
-    if (b.axes != glm::dmat3(1.0)) out.add("rotation", TomlInline().add("axes", b.axes));
-    write_surface(out, b);
-  }
-  for (const SolidCapsule& c : scene.capsules) {
-    out.heading("[[solid_capsule]]").add("from", c.from).add("to", c.to).add("radius", c.radius);
-    write_surface(out, c);
-  }
-  if (!scene.ground) return;
-  out.heading("[ground]").add("height", scene.ground->height);
-  write_surface(out, *scene.ground);
 }
 
 /// Returns a path relative to the scene file's folder, with the links in both paths resolved.
@@ -137,7 +108,7 @@ std::string scene_toml(const Scene& scene, const fs::path& folder) {
   out.add("name", scene.name).add("look_at", scene.look_at).add("gravity", scene.gravity);
   write_collision(out, scene);
   for (const Material& m : scene.materials) write_material(out, m);
-  write_solids(out, scene);
+  write_solids(out, scene.solids);
   out.heading("[sleep]").add("speed", scene.sleep.speed).add("frames", scene.sleep.frames);
   write_bodies(out, scene, folder);
   write_view(out, scene);

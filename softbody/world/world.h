@@ -80,7 +80,7 @@ class World : public BodiesInMotion {
   /// Changes a material of the scene. If `index` is the number of materials, adds one for later bodies; its name must
   /// then be new. Bodies keep their positions, and new bodies start in the same shape as before the change.
   void set_material(std::size_t index, const Material& material);
-  void set_solids(const Scene& from);  // copies the solids of that scene, the ground included
+  void set_solids(const Scene& from);  // copies the solids of that scene
   void set_contact_surface(ContactSurface surface);
   /// Throws SceneError as the constructor does. The choice's key must be known.
   void set_integrator(const IntegratorChoice& choice);

@@ -224,12 +224,7 @@ void World::set_material(std::size_t index, const Material& material) {
 }
 
 void World::set_solids(const Scene& from) {
-  Scene& to = parts_->scene;
-  to.spheres = from.spheres;
-  to.planes = from.planes;
-  to.boxes = from.boxes;
-  to.capsules = from.capsules;
-  to.ground = from.ground;
+  parts_->scene.solids = from.solids;
   for (BodyId b = 0; b < parts_->particles.bodies.count(); ++b)
     parts_->solver.state().memory(b).may_lie_in_solid = true;
   parts_->update_plan();

@@ -141,11 +141,12 @@ class Watched {
 TEST(BlowUpMonitor, AcceptsABodyPushedOutOfASolid) {
   softbody::Scene scene = touching_pair();
   scene.bodies.resize(1);
-  scene.ground.reset();
+  remove_solids<softbody::Ground>(scene);
   Watched watched(scene);
   for (int i = 0; i < 4; ++i) watched.look();
   const double start = softbody::measure(watched.world).energy;
-  scene.spheres.push_back({.centre = watched.world.body(0).origin - glm::dvec3(0.1, 0.3, 0), .radius = 1});
+  add_solid(scene,
+            {softbody::SolidSphere{.centre = watched.world.body(0).origin - glm::dvec3(0.1, 0.3, 0), .radius = 1}});
   watched.world.set_solids(scene);
   for (int frame = 0; frame < 5 || softbody::measure(watched.world).deepest_penetration > 0; ++frame) {
     ASSERT_LT(frame, 600);
@@ -158,8 +159,8 @@ TEST(BlowUpMonitor, AcceptsABodyPushedOutOfASolid) {
 TEST(BlowUpMonitor, AcceptsOverlappingSurfacesThatSeparate) {
   softbody::Scene scene = touching_pair();
   scene.gravity = glm::dvec3(0.0);
-  scene.spheres.clear();
-  scene.ground.reset();
+  remove_solids<softbody::SolidSphere>(scene);
+  remove_solids<softbody::Ground>(scene);
   scene.bodies.resize(24, scene.bodies[0]);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) scene.bodies[b].position = {0.4 * double(b), 0, 0};
   scene.contact_surface = softbody::ContactSurface::surfaces;

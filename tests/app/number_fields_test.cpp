@@ -51,9 +51,12 @@ struct Field {
 const std::vector<Field>& real_fields() {
   static const std::vector<Field> fields{
       {"World", "Gravity", [](PanelRig& r) { return glm::length(r.session.world().scene().gravity); }},
-      {"World", "Solid position", [](PanelRig& r) { return r.session.world().scene().spheres.at(0).centre.y; }},
-      {"World", "Solid radius", [](PanelRig& r) { return r.session.world().scene().spheres.at(0).radius; }},
-      {"World", "Solid restitution", [](PanelRig& r) { return r.session.world().scene().spheres.at(0).restitution; }},
+      {"World", "Solid position",
+       [](PanelRig& r) { return shape_of<softbody::SolidSphere>(r.session.world().scene()).centre.y; }},
+      {"World", "Solid radius",
+       [](PanelRig& r) { return shape_of<softbody::SolidSphere>(r.session.world().scene()).radius; }},
+      {"World", "Solid restitution",
+       [](PanelRig& r) { return solid_of<softbody::SolidSphere>(r.session.world().scene()).restitution; }},
       {"World", "mass",
        [](PanelRig& r) { return r.session.world().scene().materials.at(0)[softbody::Material::mass]; }},
       {"Detection", "Cell size", [](PanelRig& r) { return double{r.session.world().collision().cell_size.x}; }},

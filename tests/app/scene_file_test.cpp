@@ -120,12 +120,16 @@ TEST(SaveScene, WritesTheSettingsInUse) {
   collide::Settings settings = session.world().collision();
   settings = {.tolerance = 0.07f, .self_collision = false, .levels = 6, .buckets = 101, .cell_size = glm::vec3(0.4f)};
   session.settings.set_collision(settings, false);
+  session::SolidList solids = session.settings.solids();
+  solids[0].enabled = false;
+  session.settings.set_solids(solids);
   ASSERT_EQ(session.scenes.save(folder.path() / "a.toml", {.distance = 3}), "");
   const softbody::Scene saved = softbody::load_scene(folder.path() / "a.toml");
   EXPECT_EQ(saved.method, "multi-level-sb");
   EXPECT_EQ(saved.contact_surface, softbody::ContactSurface::surfaces);
   EXPECT_TRUE(saved.collision == settings);
   EXPECT_FALSE(saved.default_cell_size);
+  EXPECT_TRUE(saved.solids == solids) << "also that which is not enabled";
   EXPECT_EQ(saved.view.distance, 3);
   EXPECT_EQ(saved.bodies.size(), 2u);
 }

@@ -87,7 +87,7 @@ TEST(Pick, IgnoresBodiesBehindASolid) {
   ASSERT_TRUE(render::pick(ray, bare, {.now = bare.positions()}));
   for (const double z : {5.0, -5.0}) {
     softbody::Scene solids;
-    solids.spheres.push_back({.centre = {-0.5, 3, z}, .radius = 1});
+    add_solid(solids, {softbody::SolidSphere{.centre = {-0.5, 3, z}, .radius = 1}});
     bare.set_solids(solids);
     EXPECT_EQ(render::pick(ray, bare, {.now = bare.positions()}).has_value(), z < 0);
   }
@@ -206,16 +206,16 @@ TEST_F(SceneMouseTest, ChangesNothingByAClickOnABody) {
 class SolidDrag : public SceneMouseTest {
  protected:
   SolidDrag() {
-    softbody::Scene scene;
-    scene.spheres.push_back({.centre = {-1.5, 1.5, 0}, .radius = 0.4});
-    scene.boxes.push_back({.centre = {0, 1.5, 0}, .half_size = glm::dvec3(0.3)});
-    scene.capsules.push_back({.from = {1.5, 1.4, 0}, .to = {1.5, 1.7, 0}, .radius = 0.2});
-    scene.ground = softbody::Ground{.height = 0};
-    session.settings.set_solids(session::list_solids(scene));
+    session.settings.set_solids({{softbody::SolidSphere{.centre = {-1.5, 1.5, 0}, .radius = 0.4}},
+                                 {softbody::SolidBox{.centre = {0, 1.5, 0}, .half_size = glm::dvec3(0.3)}},
+                                 {softbody::SolidCapsule{.from = {1.5, 1.4, 0}, .to = {1.5, 1.7, 0}, .radius = 0.2}},
+                                 {softbody::Ground{}}});
   }
   glm::dvec3 place(std::size_t index) const {
     const softbody::Scene& scene = session.world().scene();
-    return index == 0 ? scene.spheres[0].centre : index == 1 ? scene.boxes[0].centre : scene.capsules[0].from;
+    return index == 0   ? shape_of<softbody::SolidSphere>(scene).centre
+           : index == 1 ? shape_of<softbody::SolidBox>(scene).centre
+                        : shape_of<softbody::SolidCapsule>(scene).from;
   }
   const std::array<glm::vec3, 3> middles{glm::vec3(-1.5, 1.5, 0), {0, 1.5, 0}, {1.5, 1.55, 0}};
 };
@@ -284,7 +284,7 @@ TEST_F(SolidDrag, LeavesTheGroundAndSolidsThatAreSwitchedOff) {
   };
   expect_orbit({0, 0, 1});
   session::SolidList solids = session.settings.solids();
-  solids[0].on = false;
+  solids[0].enabled = false;
   session.settings.set_solids(solids);
   expect_orbit(middles[0]);
 }
@@ -294,7 +294,7 @@ TEST_F(SolidDrag, TakesWhatIsInFront) {
   session::SolidList solids = session.settings.solids();
   const glm::dvec3 eye(camera.eye()), body = centre(session.world(), 1);
   const auto press_with_sphere_at = [&](double share) {
-    std::get<softbody::SolidSphere>(solids[0].solid) = {.centre = eye + share * (body - eye), .radius = 0.3};
+    std::get<softbody::SolidSphere>(solids[0].shape) = {.centre = eye + share * (body - eye), .radius = 0.3};
     session.settings.set_solids(solids);
     button(0, true);
     const bool solid = mouse.take_pressed_solid().has_value();

@@ -250,7 +250,7 @@ TEST(SimulationUndo, RevertsSeveralResetsAndKeepsTheirSolids) {
   std::vector<std::uint64_t> hashes;
   for (int i = 0; i < 3; ++i) {
     session::SolidList solids = controls.solids();
-    solids[0].on = i % 2;
+    solids[0].enabled = i % 2;
     controls.set_solids(solids);
     for (int k = 0; k < 5 + i; ++k) simulation.advance(tick);
     hashes.push_back(simulation.simulated()->state_hash());
@@ -259,7 +259,7 @@ TEST(SimulationUndo, RevertsSeveralResetsAndKeepsTheirSolids) {
   for (int i = 2; i >= 0; --i) {
     simulation.undo();
     EXPECT_EQ(simulation.simulated()->state_hash(), hashes[static_cast<std::size_t>(i)]);
-    EXPECT_EQ(controls.solids()[0].on, i % 2);
+    EXPECT_EQ(controls.solids()[0].enabled, i % 2);
   }
   simulation.undo();
   EXPECT_EQ(simulation.notice.text(), "Nothing to undo");
@@ -277,7 +277,7 @@ TEST(SimulationUndo, BringsBackTheSettingsOfAWorldThatWasLeftForAnotherScene) {
   }
   softbody::Scene other = touching_pair();
   other.bodies.resize(1);
-  simulation.enter(session::make_window_world(other, {}, 1), {other, session::SceneFile("other", other), {}},
+  simulation.enter(session::make_window_world(other, {}, 1), {other, session::SceneFile("other", other)},
                    "choice of scene");
   run(simulation, 5);
   ASSERT_EQ(simulation.world().bodies().count(), 1u);
@@ -434,25 +434,25 @@ TEST(SimulationUndo, TakesADragOfASolidAsOneChangeAndRestoresIt) {
   controls.begin_drag(0);
   EXPECT_FALSE(simulation.can_undo());
   for (int i = 0; i < 5; ++i) {
-    solids[0].solid = *session::moved(solids[0].solid, {0.1, 0, 0});
+    solids[0] = session::moved(solids[0], {0.1, 0, 0});
     controls.set_solids(solids);
     run(simulation, 1);
   }
   simulation.end_drag();
   controls.set_gravity(3);
-  EXPECT_NEAR(simulation.world().scene().spheres[0].centre.x, 0.5, 1e-12);
+  EXPECT_NEAR(shape_of<softbody::SolidSphere>(simulation.world().scene()).centre.x, 0.5, 1e-12);
   simulation.undo();
   EXPECT_EQ(simulation.notice.text(), "Undone: move of Sphere");
   EXPECT_FALSE(simulation.can_undo());
   EXPECT_EQ(simulation.simulated()->state_hash(), before);
   EXPECT_TRUE(controls.solids() == at_first);
-  EXPECT_EQ(simulation.world().scene().spheres[0].centre, glm::dvec3(0.0));
+  EXPECT_EQ(shape_of<softbody::SolidSphere>(simulation.world().scene()).centre, glm::dvec3(0.0));
   EXPECT_DOUBLE_EQ(glm::length(simulation.world().scene().gravity), 3) << "settings in use stay";
   simulation.redo();
-  EXPECT_NEAR(simulation.world().scene().spheres[0].centre.x, 0.5, 1e-12);
+  EXPECT_NEAR(shape_of<softbody::SolidSphere>(simulation.world().scene()).centre.x, 0.5, 1e-12);
   EXPECT_TRUE(controls.solids() == solids);
   simulation.reset();
-  EXPECT_NEAR(simulation.world().scene().spheres[0].centre.x, 0.5, 1e-12) << "a reset keeps it";
+  EXPECT_NEAR(shape_of<softbody::SolidSphere>(simulation.world().scene()).centre.x, 0.5, 1e-12) << "a reset keeps it";
   controls.set_solids(at_first);
   bodies.drop();
   simulation.undo();

@@ -14,9 +14,7 @@ session::KeptWorld kept(int frame) {
   const softbody::Scene scene = touching_pair();
   softbody::World world(scene, {});
   while (world.frame() < frame) world.step();
-  return {world.snapshot(),
-          {scene, session::SceneFile("pair", scene), session::list_solids(scene)},
-          {session::Change::Of::bodies, "change"}};
+  return {world.snapshot(), {scene, session::SceneFile("pair", scene)}, {session::Change::Of::bodies, "change"}};
 }
 
 const softbody::Snapshot& snapshot_of(const session::KeptWorld& kept) {

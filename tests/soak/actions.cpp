@@ -115,8 +115,8 @@ void material(DemoRig& demo, Dice& dice) {
 void solids(DemoRig& demo, Dice& dice) {
   app::session::SolidList list = demo.session.settings.solids();
   if (list.empty()) return;
-  app::session::SolidEntry& one = list[dice.pick(list.size())];
-  one.on = !one.on;
+  bool& enabled = list[dice.pick(list.size())].enabled;
+  enabled = !enabled;
   demo.session.settings.set_solids(list);
 }
 

@@ -206,7 +206,7 @@ Scene large_bodies(ContactSurface surface, int subdivisions = 4) {
   scene.contact_surface = surface;
   scene.collision.self_collision = true;
   scene.gravity = {0, -9.81, 0};
-  scene.ground = Ground{};
+  set_solid(scene, {Ground{}});
   scene.bodies[0].position = {0, 0.51, 0};
   add_body(scene, {0.1, 1.515, 0}, {0, -3, 0});
   scene.bodies[1].material = 1;

@@ -99,21 +99,21 @@ const Case cases[]{
     {"ASolidIsMovedOntoABall", WorkBy::solids, [] { return ball(); },
      [](World& w) {
        Scene with = w.scene();
-       with.ground = Ground{0.03 - radius(), 0};
+       set_solid(with, {Ground{0.03 - radius()}, 0});
        once(w, 3, [&] { w.set_solids(with); });
      },
      0.5},
     {"ASphereIsMovedOntoAFace", WorkBy::solids, [] { return by_surfaces(ball()); },
      [](World& w) {
        Scene with = w.scene();
-       with.spheres = {{.centre = {0.05, -0.07 - radius(), 0.03}, .radius = 0.1, .friction = 0}};
+       set_solid(with, {.shape = SolidSphere{.centre = {0.05, -0.07 - radius(), 0.03}, .radius = 0.1}, .friction = 0});
        once(w, 3, [&] { w.set_solids(with); });
      },
      0.5},
     {"ABallStartsInASolid", WorkBy::easing,
      [] {
        Scene s = ball(down);
-       s.spheres = {{.centre = {-0.3, -0.2, 0}}};
+       set_solid(s, {SolidSphere{.centre = {-0.3, -0.2, 0}}});
        return s;
      },
      [](World&) {}, 0.1},

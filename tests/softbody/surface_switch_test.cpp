@@ -14,7 +14,7 @@ namespace {
 Scene crowd() {
   Scene scene = ball_in_space(rubber(), {4, 0, 0});
   scene.gravity = {0, -9.81, 0};
-  scene.ground = Ground{-0.8, 0.5};
+  set_solid(scene, {Ground{-0.8}, 0.5});
   add_body(scene, {1.2, 0.3, 0}, {-4, 0, 0});
   add_body(scene, {0.5, 1.2, 0.2}, {0, -4, 0});
   add_body(scene, {0.6, 2.3, 0.1}, {0, -8, 0});
@@ -33,7 +33,7 @@ Scene sheets() {
   Scene scene = ball_in_space(rubber());
   scene.collision.self_collision = false;
   scene.gravity = {0, -9.81, 0};
-  scene.ground = Ground{};
+  set_solid(scene, {Ground{}});
   scene.bodies.clear();
   for (int i = 0; i < 5; ++i) {
     add_body(scene, {0.03 * i, 0.01 + 0.008 * i, 0.02 * i}, glm::dvec3(0.0));

@@ -16,7 +16,7 @@ namespace {
 Scene pile(int number) {
   Scene scene = test::drop_scene();
   scene.bodies.clear();
-  scene.spheres.clear();
+  tests::remove_solids<SolidSphere>(scene);
   scene.dropper.reset();
   scene.captions.clear();
   for (int i = 0; i < number; ++i) {
@@ -306,16 +306,15 @@ TEST(Changes, SolidsMoveComeAndGo) {
   ASSERT_TRUE(world.all_at_rest());
   const double low = test::motion(world, 0).centre.y;
   Scene solids = world.scene();
-  solids.ground->height = 0.2;
+  tests::shape_of<Ground>(solids).height = 0.2;
   world.set_solids(solids);
   test::run(world, 200);
   EXPECT_NEAR(test::motion(world, 0).centre.y, low + 0.2, 0.02);
   EXPECT_LT(measure(world).max_speed, 0.1);  // lifted, not thrown
-  solids.ground.reset();
-  solids.spheres.push_back({.centre = {9, 0, 0}});
+  tests::remove_solids<Ground>(solids);
+  tests::add_solid(solids, {SolidSphere{.centre = {9, 0, 0}}});
   world.set_solids(solids);
-  EXPECT_FALSE(world.plan().has(Stage::ground));
-  EXPECT_TRUE(world.plan().has(Stage::solid_spheres));
+  EXPECT_EQ(world.plan().shapes, std::vector{&SolidSphere::traits});
   test::run(world, 60);
   EXPECT_LT(test::motion(world, 0).centre.y, low - 4);
 }
@@ -370,7 +369,7 @@ std::uint64_t hash_after_much(int threads) {
   world.set_material(0, material);
   world.set_gravity({1, -5, 0});
   test::run(world, 20);
-  solids.spheres.push_back({.centre = {0, 0.5, 0}, .radius = 0.6});
+  tests::add_solid(solids, {SolidSphere{.centre = {0, 0.5, 0}, .radius = 0.6}});
   world.set_solids(solids);
   test::run(world, 20);
   return world.state_hash();

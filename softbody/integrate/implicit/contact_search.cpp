@@ -6,17 +6,6 @@
 #include "softbody/contact/solid_shapes.h"
 
 namespace softbody {
-namespace {
-
-/// Returns the surface of a solid as seen from x, in the frame of the body in a lane.
-SurfaceAt<double> surface_from(const SolidArguments& s, std::size_t lane, const glm::dvec3& x) {
-  const glm::dvec3 from = x - glm::dvec3(s.place[lane]);
-  const body::Vec<double> d{from.x, from.y, from.z};
-  return std::visit([&](const auto& shape) { return body::surface_at(shape, d); }, s.shape);
-}
-
-}  // namespace
-
 LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, LaneMask moving, double h,
                      ImplicitWork& work) {
   LaneMask in_contact;
@@ -28,7 +17,8 @@ LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, LaneM
       if (!(s.near >> own & 1u)) continue;
       for (std::size_t at = lane; at < work.x.size() / 3; at += implicit_lanes) {
         const glm::dvec3 x = read(work.x, at), v = read(work.v, at);
-        const SurfaceAt<double> surface = surface_from(s, own, x);
+        const glm::dvec3 d = x - glm::dvec3(s.place[own]);
+        const SurfaceAt<double> surface = body::surface_at(s.shape, body::Vec<double>{d.x, d.y, d.z});
         const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
         const double out = law::min_move(surface.distance, h);
         if (glm::dot(frames.free_displacement(lane, x, v), normal) < out) in_contact.set(lane);
