@@ -40,7 +40,7 @@ softbody::Solid moved(softbody::Solid solid, const glm::dvec3& by) {
 
 std::string solid_name(const SolidList& solids, std::size_t index) {
   assert(index < solids.size());
-  const std::string name(solids[index].traits().name);
+  std::string name(solids[index].traits().name);
   const auto same = [&](const softbody::Solid& one) { return one.traits().name == name; };
   if (std::ranges::count_if(solids, same) == 1) return name;
   return name + ' ' + std::to_string(std::count_if(&solids[0], &solids[index] + 1, same));

@@ -138,9 +138,12 @@ const SolidArguments& SolidContact::add(const Batch& b, const Solid& solid, unsi
   s.restitution = float(law::common_restitution(solid.restitution, b.model->material[contact::restitution]));
   for (int l = 0; l < b.used; ++l) {
     const glm::dvec3 origin = state_.body(b.body[std::size_t(l)]).origin;
-    const auto [shape, place] = placed<float>(solid, thickness, origin);
-    s.shape = shape;
-    s.place.set(std::size_t(l), glm::vec3(place - origin));
+    const auto put = [&](const auto& one) {
+      const auto [shape, place] = placed<float>(one, thickness, origin);
+      s.shape = shape;
+      s.place.set(std::size_t(l), glm::vec3(place - origin));
+    };
+    std::visit(put, solid.shape);
   }
   s.near = lanes_near;
   s.moves = b.moves.data();

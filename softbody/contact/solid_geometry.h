@@ -38,34 +38,27 @@ using SolidShape = std::variant<SphereShape<Real>, PlaneShape<Real>, BoxShape<Re
 
 /// What the kernels see of a solid that particles keep `thickness` m away from: its shape, grown by as much, and the
 /// place that it is seen from. A plane's is the foot of `near` on it: numbers stay small near a body.
-template <class Real>
-struct PlacedShape {
-  SolidShape<Real> shape;
+template <class Shape>
+struct Placed {
+  Shape shape;
   glm::dvec3 place;
 };
 template <class Real>
-PlacedShape<Real> placed(const SolidSphere& s, double thickness, const glm::dvec3&) {
-  return {SphereShape<Real>{Real(s.radius + thickness)}, s.centre};
+Placed<SphereShape<Real>> placed(const SolidSphere& s, double thickness, const glm::dvec3&) {
+  return {{Real(s.radius + thickness)}, s.centre};
 }
 template <class Real>
-PlacedShape<Real> placed(const SolidPlane& p, double thickness, const glm::dvec3& near) {
-  return {PlaneShape<Real>{glm::vec<3, Real>(p.normal)},
-          near + (glm::dot(p.point - near, p.normal) + thickness) * p.normal};
+Placed<PlaneShape<Real>> placed(const SolidPlane& p, double thickness, const glm::dvec3& near) {
+  return {{glm::vec<3, Real>(p.normal)}, near + (glm::dot(p.point - near, p.normal) + thickness) * p.normal};
 }
 template <class Real>
-PlacedShape<Real> placed(const SolidBox& b, double thickness, const glm::dvec3&) {
+Placed<BoxShape<Real>> placed(const SolidBox& b, double thickness, const glm::dvec3&) {
   using Vector = glm::vec<3, Real>;
-  return {
-      BoxShape<Real>{{Vector(b.axes[0]), Vector(b.axes[1]), Vector(b.axes[2])}, Vector(b.half_size), Real(thickness)},
-      b.centre};
+  return {{{Vector(b.axes[0]), Vector(b.axes[1]), Vector(b.axes[2])}, Vector(b.half_size), Real(thickness)}, b.centre};
 }
 template <class Real>
-PlacedShape<Real> placed(const SolidCapsule& c, double thickness, const glm::dvec3&) {
-  return {CapsuleShape<Real>{glm::vec<3, Real>(c.to - c.from), Real(c.radius + thickness)}, c.from};
-}
-template <class Real>
-PlacedShape<Real> placed(const Solid& solid, double thickness, const glm::dvec3& near) {
-  return std::visit([&](const auto& shape) { return placed<Real>(shape, thickness, near); }, solid.shape);
+Placed<CapsuleShape<Real>> placed(const SolidCapsule& c, double thickness, const glm::dvec3&) {
+  return {{glm::vec<3, Real>(c.to - c.from), Real(c.radius + thickness)}, c.from};
 }
 
 /// A point of a solid, which meets faces of bodies between their vertices, or a line segment, which meets edges.

@@ -10,10 +10,14 @@ namespace softbody {
 
 SolidSurface surface_at(const Solid& solid, const glm::dvec3& point) {
   if (!solid.enabled) return {std::numeric_limits<double>::infinity(), {0, 1, 0}};
-  const auto [shape, place] = placed<double>(solid, 0, point);
-  const glm::dvec3 d = point - place;
-  const SurfaceAt<double> s = body::surface_at(shape, body::Vec<double>{d.x, d.y, d.z});
-  return {s.distance, {s.normal.x, s.normal.y, s.normal.z}};
+  return std::visit(
+      [&](const auto& one) {
+        const auto [shape, place] = placed<double>(one, 0, point);
+        const glm::dvec3 d = point - place;
+        const SurfaceAt<double> s = body::surface_at(shape, body::Vec<double>{d.x, d.y, d.z});
+        return SolidSurface{s.distance, {s.normal.x, s.normal.y, s.normal.z}};
+      },
+      solid.shape);
 }
 
 double gap_before(const Solid& solid, const PlacedBox& box) {
