@@ -341,10 +341,10 @@ void simulate(const Options& options) {
     world.step();
     pictures.take(world);
     obj_sequence.take(world);
+    const std::vector<softbody::BodyMeasures> bodies = softbody::measure_bodies(world);
+    if (!blow_up && (blow_up = monitor.check(world, bodies)))
+      warn(warnings, fmt::format("frame {}: {}; see --integrator and --substeps", blow_up->frame, blow_up->what));
     if (world.frame() % stride == 0 || world.frame() == options.frames) {
-      const std::vector<softbody::BodyMeasures> bodies = softbody::measure_bodies(world);
-      if (!blow_up && (blow_up = monitor.check(world, bodies)))
-        warn(warnings, fmt::format("frame {}: {}; see --integrator and --substeps", blow_up->frame, blow_up->what));
       FrameRow row = measure_row(world, bodies);
       if (options.oracle)
         row.oracle =

@@ -18,13 +18,14 @@ trap 'rm -rf "$work"' EXIT
 # publish FILE BINARY COMMAND: writes the CSV on standard input to a file, below lines that say where it comes from.
 publish() {
   local compiler
+  cat >"$work/figures"
   compiler=$(grep -aoE 'clang version [0-9.]+' "$2" || grep -aoE 'GCC: \([^)]*\) [0-9.]+' "$2" || echo unknown)
   {
     echo "# command: $3"
     echo "# processor: $(sed -n '/^model name/{s/^[^:]*: //p;q}' /proc/cpuinfo), $(nproc) threads"
     echo "# compiler: ${compiler%%$'\n'*}"
     echo "# date: $(date +%F), after $SECONDS s"
-    cat
+    cat "$work/figures"
   } >"$work/published"
   mv "$work/published" "$results/$1"
   echo "$results/$1"

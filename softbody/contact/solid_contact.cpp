@@ -182,7 +182,7 @@ Field<float> SolidContact::impulse(const Batch& b) { return field(of_batch_[b.in
 
 /// Particles first, then what lies between them, which may push particles back.
 void SolidContact::apply(const Batch& b, float h) {
-  if (apply_to_particles(b, h, false) && has_features_) apply_to_features(b, h);
+  if (apply_to_particles(b, h, false)) apply_to_features(b, h);
 }
 
 /// Applies each solid in turn. Where two act on one body the later may push a particle into the earlier, as in a

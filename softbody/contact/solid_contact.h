@@ -60,6 +60,9 @@ class SolidContact {
   bool meets_features(const Batch& batch) const {
     return batch.index < of_batch_.size() && !of_batch_[batch.index].features.empty();
   }
+  /// Finds which of these faces and edges are near a solid in a substep of h (s) from here on. Returns a row for each,
+  /// with slots that count from the batch's first one; valid until the next call or apply() for this batch.
+  std::span<ContactRow> find_feature_rows(const Batch& batch, float h);
   /// Adds a row for each particle of a body that a solid may stop in this substep if it comes `travel` (m) nearer.
   void add_particle_rows(BodyId body, float travel, std::vector<ContactRow>& rows) const;
   /// Books the impulses of these rows as those of the solids. Threads may call it at once for different bodies.

@@ -121,24 +121,31 @@ void SolidContact::find_features(const Batch& b, const Extent& e, int lane, cons
   }
 }
 
-/// Solves the rows of the features that may meet a solid in turn with the particles, a few times: what one pushes too
-/// far because of another is taken back.
-void SolidContact::apply_to_features(const Batch& b, float h) {
-  constexpr int passes = 3;
+std::span<ContactRow> SolidContact::find_feature_rows(const Batch& b, float h) {
+  if (!meets_features(b)) return {};
   OfBatch& own = of_batch_[b.index];
   own.rows.clear();
   for (SolidFeature& f : own.features) {
     f.free_travel -= f.speed * h;
     if (f.free_travel <= 0) add_row(b, f, h);
   }
+  return own.rows;
+}
+
+/// Solves the rows of the features that may meet a solid in turn with the particles, a few times: what one pushes too
+/// far because of another is taken back.
+void SolidContact::apply_to_features(const Batch& b, float h) {
+  constexpr int passes = 3;
+  OfBatch& own = of_batch_[b.index];
+  const std::span<ContactRow> rows = find_feature_rows(b, h);
   const Field<float> v = field(state_.v, b.base);
   const auto acted = [](const ContactRow& row) { return row.normal_impulse > 0; };
   for (int pass = 0; pass < passes; ++pass) {
-    for (ContactRow& row : own.rows) solve_row(row, v);
-    if (!std::ranges::any_of(own.rows, acted)) return;
+    for (ContactRow& row : rows) solve_row(row, v);
+    if (!std::ranges::any_of(rows, acted)) return;
     apply_to_particles(b, h, true);
   }
-  for (const ContactRow& row : own.rows) {
+  for (const ContactRow& row : rows) {
     if (!acted(row)) continue;
     const int lane = own.features[row.feature].lane;
     own.book(row, std::size_t(lane));

@@ -151,6 +151,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
     frame.bound = bounds_.measure(steps_.bounds_of());
     steps_.spend(work::bound * double(frame.particles));
   }
+  frame.bound.surfaces_near = !candidates.empty();
   StepPlan plan = steps_.plan(frame.bound, frame.left);
   bool surfaces_decide = false;
   if (surfaces) {
@@ -159,6 +160,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
     for (const collide::surface::SurfacePair& p : candidates.search().pairs()) join(p.a), join(p.b);
     frame.bound.passing = std::max(frame.bound.passing, double(candidates.substep_rate()));
     const double without = plan.substeps;
+    frame.bound.surfaces_near = !candidates.empty();
     plan = steps_.plan(frame.bound, frame.left);
     surfaces_decide = plan.substeps > without;
   }

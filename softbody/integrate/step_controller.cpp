@@ -12,6 +12,9 @@ constexpr double longest_step =
 /// less than a hundredth of its radius after half a second, see `report solver`. Bodies that are stable in longer steps
 /// take these.
 constexpr double accurate_rate = 480;
+/// 1/s, of implicit steps where surfaces of bodies may touch. Contact of these acts after the solve, so that it strains
+/// springs and gas that do not resist until the next step: the energy of that grows with the square of the step.
+constexpr double contact_rate = 480;
 /// Share by which volumes may change. Beyond it, breathing feeds other motion, so that it must not be damped away.
 constexpr double quiet_breathing = 0.02;
 constexpr double max_count = 1e30;   // substeps of a frame: such short ones move nothing, but stay finite
@@ -99,7 +102,8 @@ const StepPlan& StepController::plan(const StepBound& b, double left) {
   const bool any_step = integrator.stable_at_any_step();
   const double needed = seconds_ * std::max({1 / longest_step, b.passing, stable_rate(b, integrator)});
   plan_.needed = int(std::ceil(std::min(needed, max_needed) * nearly));
-  const double own = integrator.substeps_per_step / seconds_;
+  const double own =
+      std::max(integrator.substeps_per_step / seconds_, integrator.implicit && b.surfaces_near ? contact_rate : 0);
   const double rate =
       std::max(own, any_step ? std::max(implicit_rate(b), stable_rate(b, integrator)) : explicit_rate(b));
   double count = left / seconds_;

@@ -14,12 +14,13 @@ namespace softbody {
 
 /// What bodies ask of their steps as they are now: the lowest rates (1/s) at which steps ...
 struct StepBound {
-  double stable = 0;         // ... are stable, but for breathing, of explicit integrators; 0 if all are
-  double breathing = 0;      // ... are stable, if gas resists changes of the volume explicitly
-  double deformation = 0;    // ... keep up with the body that changes its shape fastest
-  double passing = 0;        // ... keep up with the fastest body near a solid, and with surfaces that pass each other
-  double fastest = 0;        // and how many times its radius the fastest body goes in a second
-  double volume_change = 0;  // and the largest share by which the volume of a body differs from the start's
+  double stable = 0;           // ... are stable, but for breathing, of explicit integrators; 0 if all are
+  double breathing = 0;        // ... are stable, if gas resists changes of the volume explicitly
+  double deformation = 0;      // ... keep up with the body that changes its shape fastest
+  double passing = 0;          // ... keep up with the fastest body near a solid, and with surfaces that pass each other
+  double fastest = 0;          // and how many times its radius the fastest body goes in a second
+  double volume_change = 0;    // and the largest share by which the volume of a body differs from the start's
+  bool surfaces_near = false;  // some may touch each other before the bound is measured again
 };
 
 /// Returns the lowest rate (1/s) at which the integrator's steps are stable.

@@ -162,6 +162,7 @@ TEST(Results, SayWhereTheyComeFrom) {
     const std::string text = read(entry.path().c_str());
     for (const char* line : {"# command: ", "# processor: ", "# compiler: ", "# date: "})
       EXPECT_NE(text.find(line), std::string::npos) << entry.path() << ": " << line;
+    EXPECT_EQ(text.find("not recorded"), std::string::npos) << entry.path() << ": see app/report/results.sh";
     ++files;
   }
   EXPECT_GT(files, 0u);

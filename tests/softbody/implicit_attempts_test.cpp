@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "collide/surface/surface.h"
 #include "softbody/integrate/implicit/planes.h"
 #include "tests/softbody/implicit_rig.h"
 
@@ -28,7 +29,7 @@ LaneMask attempt(LaneMask (*advance)(const ImplicitStep&, ImplicitWork&, LaneMas
       EXPECT_EQ(rig.work.end_v[i], untouched);
     }
   for (std::size_t i = 0; i < forces.size(); ++i)
-    if (!tried[rig.work.planes[i].at % implicit_lanes]) {
+    if (!tried[rig.work.planes[i].point.lane()]) {
       EXPECT_EQ(rig.work.planes[i].force, forces[i]);
     }
   return solved;
@@ -38,7 +39,7 @@ LaneMask attempt(LaneMask (*advance)(const ImplicitStep&, ImplicitWork&, LaneMas
 glm::dvec3 impulse(const ImplicitRig& rig, std::size_t lane) {
   glm::dvec3 sum(0.0);
   for (const PlaneContact& c : rig.work.planes)
-    if (c.at % implicit_lanes == lane) sum += rig.h * c.force;
+    if (c.point.lane() == lane) sum += rig.h * c.force;
   return sum;
 }
 
@@ -146,6 +147,26 @@ TEST(FirstOrderStep, StopsAtPlanes) {
       rig.model->material[Material::mass] * (rig.end(1).velocity - rig.start(1).velocity - rig.h * rig.gravity);
   EXPECT_LT(glm::distance(gained, given), 1e-4 * given.y) << gained.y << " " << given.y;
   EXPECT_EQ(rig.gain(1, true), 0);
+}
+
+/// A point of a face, whose corners share the force by their weights.
+TEST(FirstOrderStep, KeepsAPointOfAFaceInFrontOfItsPlane) {
+  ImplicitRig rig(1e5);
+  const auto face = rig.model->surface->triangles()[0];
+  PlaneContact c = plane(0, 1, glm::normalize(glm::dvec3(1, 2, -1)), 1e-3);
+  c.point.weight = {0.5, 0.3, 0.2};
+  for (std::size_t k = 0; k < 3; ++k) c.point.at[k] = face[k] * implicit_lanes + 1;
+  rig.work.planes = {c};
+  ASSERT_EQ(attempt(first_order_step, rig, mask({1})), mask({1}));
+  const glm::dvec3 moved =
+      c.point.mean([&](std::size_t at) { return read(rig.work.end_x, at) - read(rig.work.x, at); });
+  EXPECT_NEAR(glm::dot(moved, c.normal), c.min_displacement, 1e-7);
+  const glm::dvec3 gained = rig.model->material[Material::mass] * rig.end(1).velocity, given = impulse(rig, 1);
+  EXPECT_GT(glm::dot(given, c.normal), 1e-3) << "N s";
+  EXPECT_LT(glm::distance(gained, given), 1e-4 * glm::length(given));
+  const glm::dvec3 lever = c.point.mean([&](std::size_t at) { return read(rig.work.end_x, at); }) - rig.end(1).centre;
+  EXPECT_LT(glm::distance(rig.model->particle_mass * rig.end(1).momentum, glm::cross(lever, given)),
+            1e-2 * glm::length(given));
 }
 
 /// Coulomb's law: a body that slides is slowed by the coefficient times the normal force.

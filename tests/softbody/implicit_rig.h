@@ -20,7 +20,7 @@ inline void put(Lanes& f, std::size_t particle, std::size_t lane, const glm::dve
 /// Returns a smooth plane that throws nothing back.
 inline PlaneContact plane(std::size_t particle, std::size_t lane, const glm::dvec3& normal, double min_displacement,
                           const glm::dvec3& force = glm::dvec3(0.0)) {
-  return {.at = particle * implicit_lanes + lane,
+  return {.point = {{particle * implicit_lanes + lane}},
           .friction = 0,
           .restitution = 0,
           .normal = normal,

@@ -33,6 +33,7 @@ struct BatchRig {
     for (std::size_t lane = 0; lane < implicit_lanes; ++lane) start(lane, glm::dvec3(0.0));
     moves = {};
   }
+  std::vector<ContactRow> features;
   std::size_t particles() const { return model->mesh.vertices.size(); }
   /// Starts a ball in a lane, that moves.
   void start(std::size_t lane, const glm::dvec3& velocity) {
@@ -49,19 +50,8 @@ struct BatchRig {
     solids[0].place.y[lane] = float(lowest - gap);
   }
   ImplicitBatch batch(std::span<const PenaltyEnd> ends = {}) const {
-    return {model,
-            lanes,
-            0,
-            implicit_lanes,
-            moves,
-            x.field(),
-            v.field(),
-            base,
-            gravity,
-            solids,
-            penalty,
-            ends,
-            [](BodyId id) { return id < 2; }};
+    return {model, lanes,   0,      implicit_lanes, moves,   x.field(), v.field(),
+            base,  gravity, solids, features,       penalty, ends,      [](BodyId id) { return id < 2; }};
   }
   ImplicitResult result() {
     return {mean.field(), rest.field(), {impulse.x, impulse.y, impulse.z}, returned.data(), given.data()};
@@ -108,6 +98,35 @@ TEST(ImplicitMatrices, KeepTheLastOnesOfEachModel) {
   EXPECT_EQ(&matrices.at(*other, 1e-2), of_other);
 }
 
+TEST(FindPlanes, TakesPointsOfFacesAndEdgesOnce) {
+  BatchRig rig;
+  const auto row = [](std::size_t lane, std::array<std::uint32_t, 3> particles, std::array<float, 3> weights) {
+    ContactRow r{};
+    for (std::size_t k = 0; k < 3; ++k)
+      r.slot[k] = std::uint32_t(particles[k] * lanes + lane), r.weight[k] = weights[k];
+    r.normal = {0, 1, 0}, r.target = -2, r.friction = 0.25f;
+    return r;
+  };
+  // Two faces meet the solid in a point of the edge between them, the second as it is rounded there.
+  rig.features = {row(2, {4, 5, 6}, {0.25f, 0, 0.75f}), row(2, {6, 4, 7}, {0.7500001f, 0.2499999f, 0}),
+                  row(2, {4, 5, 6}, {0.25f, 0.25f, 0.5f}), row(1, {4, 5, 6}, {0.25f, 0, 0.75f}),
+                  row(3, {4, 5, 6}, {0.25f, 0, 0.75f})};
+  ImplicitWork work = rig.work();
+  const LaneMask moving = mask({1, 2});
+  const ImplicitFrames frames(work.x, work.v, moving, rig.h, rig.gravity);
+  find_planes(rig.batch(), frames, moving, rig.h, work);
+  std::erase_if(work.planes, [](const PlaneContact& c) { return c.point.weight[0] == 1; });
+  ASSERT_EQ(work.planes.size(), 3u) << "one in lane 1, and two in lane 2";
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PlaneContact& c = work.planes[i];
+    EXPECT_EQ(c.point.lane(), i == 0 ? 1u : 2u);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(c.point.at[k], (4 + k) * implicit_lanes + c.point.lane());
+    EXPECT_EQ(c.point.weight[2], i == 2 ? 0.5 : 0.75);
+    EXPECT_EQ(c.friction, 0.25);
+    EXPECT_NEAR(c.min_displacement, -2 * rig.h, 1e-12);
+  }
+}
+
 /// Gaps in front of a particle may close, and overlaps are pushed out as the law of contact has it.
 TEST(FindPlanes, AsksForWhatTheLawOfContactAsksFor) {
   BatchRig rig;
@@ -126,8 +145,8 @@ TEST(FindPlanes, AsksForWhatTheLawOfContactAsksFor) {
   for (const PlaneContact& c : work.planes) {
     EXPECT_EQ(c.normal, glm::dvec3(0, 1, 0));
     EXPECT_EQ(c.force, glm::dvec3(0.0));
-    least_gap[c.at % implicit_lanes] = std::min(least_gap[c.at % implicit_lanes], -c.min_displacement);
-    most_out[c.at % implicit_lanes] = std::max(most_out[c.at % implicit_lanes], c.out());
+    least_gap[c.point.lane()] = std::min(least_gap[c.point.lane()], -c.min_displacement);
+    most_out[c.point.lane()] = std::max(most_out[c.point.lane()], c.out());
   }
   EXPECT_NEAR(least_gap[0], 0.03, 1e-6);
   EXPECT_NEAR(least_gap[1], 0.01, 1e-6);

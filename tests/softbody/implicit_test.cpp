@@ -132,7 +132,7 @@ TEST(ImplicitSolver, IsDoneWithACrushedBodySoon) {
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < 3; ++k) work.x[(k * n + i) * implicit_lanes] = matrix.shape()[i][int(k)];
   for (std::size_t i = 0; i < std::min(n, max_contacts / 2); ++i)
-    for (const double side : {1.0, -1.0}) work.planes.push_back({i * implicit_lanes, 0.5, 0, {side, 0, 0}, r});
+    for (const double side : {1.0, -1.0}) work.planes.push_back({{{i * implicit_lanes}}, 0.5, 0, {side, 0, 0}, r});
   work.local_v.resize(work.x.size());
   const Lanes& end = work.solver.solve({*p, matrix, h, work.moves.data(), &work.x, &work.local_v, &work.a,
                                         &work.frame_displacement, h, work.planes, work.penalty_pairs});

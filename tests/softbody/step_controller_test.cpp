@@ -41,6 +41,15 @@ TEST(StepController, DividesAFrameIntoStableSubsteps) {
   }
 }
 
+/// Contact of surfaces acts after an implicit solve.
+TEST(StepController, TakesShortImplicitStepsWhereSurfacesMayTouch) {
+  const StepBound bound{.surfaces_near = true};
+  EXPECT_EQ(first_substeps("implicit", bound), 8);
+  EXPECT_EQ(first_substeps("implicit", {}), 1);
+  for (const char* other : {"semi-implicit-euler", "imex-euler", "xpbd"})
+    EXPECT_EQ(first_substeps(other, bound), first_substeps(other, {})) << other;
+}
+
 TEST(StepController, TakesFewLengths) {
   for (const Integrator& i : integrators()) {
     std::set<int> taken;

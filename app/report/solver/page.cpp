@@ -196,7 +196,7 @@ void add_stiffness(Page& page, const SolverResults& r) {
   page.text("## Stiffness against resolution");
   page.text(
       "Bodies of one shape and material in meshes from coarse to fine. Sag: how much lower a body is at rest on the "
-      "ground than in free flight. Period: of its slowest swing in free flight, after it was stretched by 3 %.");
+      "ground than in free flight. Period: of its strongest swing in free flight, after it was stretched by 3 %.");
   page.table(table);
 }
 

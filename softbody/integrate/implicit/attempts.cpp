@@ -16,7 +16,7 @@ namespace {
 double friction_of(const ImplicitWork& work, std::size_t lane) {
   double most = 0;
   for (const PlaneContact& c : work.planes)
-    if (c.at % implicit_lanes == lane) most = std::max(most, c.friction);
+    if (c.point.lane() == lane) most = std::max(most, c.friction);
   return most;
 }
 
@@ -102,7 +102,7 @@ LaneMask first_order_step(const ImplicitStep& step, ImplicitWork& work, LaneMask
   std::vector<PlaneContact> planes;
   std::vector<LinearPenaltyPair> pairs;
   for (const PlaneContact& c : work.planes)
-    if (tried[c.at % implicit_lanes]) planes.push_back(frames.enter(c));
+    if (tried[c.point.lane()]) planes.push_back(frames.enter(c));
   for (const LinearPenaltyPair& s : work.penalty_pairs)
     if (tried[s.at % implicit_lanes]) pairs.push_back(frames.enter(s));
   problem.planes = planes, problem.penalty_pairs = pairs;
@@ -112,7 +112,7 @@ LaneMask first_order_step(const ImplicitStep& step, ImplicitWork& work, LaneMask
   LaneMask pushed;  // by solids
   auto solved_plane = planes.begin();
   for (PlaneContact& c : work.planes) {
-    const std::size_t lane = c.at % implicit_lanes;
+    const std::size_t lane = c.point.lane();
     if (!tried[lane]) continue;
     c.force = frames.leave(lane, solved_plane++->force);
     if (c.force != glm::dvec3(0.0)) pushed.set(lane);
@@ -132,7 +132,7 @@ LaneMask rigid_fallback_step(const ImplicitStep& step, ImplicitWork& work, LaneM
   for (std::size_t l = 0; l < implicit_lanes; ++l)
     if (tried[l]) move_without_gain(step, work, l);
   for (PlaneContact& c : work.planes)
-    if (tried[c.at % implicit_lanes]) c.force = glm::dvec3(0.0);
+    if (tried[c.point.lane()]) c.force = glm::dvec3(0.0);
   return tried;
 }
 

@@ -45,7 +45,7 @@ double contact_work(const ImplicitWork& work, std::size_t lane) {
   const LaneView x{work.x, lane}, end_x{work.end_x, lane};
   double sum = 0;
   for (const PlaneContact& c : work.planes)  // they push out, and friction takes
-    if (c.at % implicit_lanes == lane) sum += glm::dot(c.force, c.normal) * c.out();
+    if (c.point.lane() == lane) sum += glm::dot(c.force, c.normal) * c.out();
   for (const LinearPenaltyPair& s : work.penalty_pairs) {
     if (s.at % implicit_lanes != lane) continue;
     const glm::dvec3 moved = end_x(s.at / implicit_lanes) - x(s.at / implicit_lanes);
@@ -89,7 +89,7 @@ bool satisfies_momentum_balance(const BodyModel& p, const ImplicitWork& work, st
   for (std::size_t at = lane; at < work.x.size() / 3; at += implicit_lanes)
     gained += p.particle_mass * (read(work.end_v, at) - read(work.v, at) - h * gravity);
   for (const PlaneContact& c : work.planes)
-    if (c.at % implicit_lanes == lane) given += h * c.force;
+    if (c.point.lane() == lane) given += h * c.force;
   for (const LinearPenaltyPair& s : work.penalty_pairs)
     if (s.at % implicit_lanes == lane) given += h * s.force_after(read(work.end_x, s.at) - read(work.x, s.at));
   const Lanes external = external_forces(p, work, h);

@@ -24,13 +24,13 @@ constexpr std::size_t max_active = 300;       // their compliances among one ano
 /// A contact that presses, or that is passed.
 struct ActiveContact {
   PlaneContact* contact;
-  glm::dvec3 displacement;  // m, of the particle in this step
+  glm::dvec3 displacement;  // m, of its point in this step
   glm::dvec3 before;        // N, the force before the sweeps
   glm::dvec3 change{0.0};   // N, of the force in a sweep
   glm::dvec3 search{0.0};   // N
 };
 
-/// The forces between some particles of one body and their planes, by projected Gauss-Seidel. Most of its time is
+/// The forces between some points of one body and their planes, by projected Gauss-Seidel. Most of its time is
 /// add().
 class ForceSweeps {
  public:
@@ -39,18 +39,18 @@ class ForceSweeps {
     for (std::size_t k = 0; k < 3; ++k)
       for (const ActiveContact& a : active) moved_[k].push_back(a.displacement[int(k)]);
   }
-  /// Sets how far (m/N) the particle of contact j moves under a force on the one of contact i.
+  /// Sets how far (m/N) the point of contact j moves under a force on the one of contact i.
   void set_compliance(std::size_t i, std::size_t j, const glm::dmat3& block) {
     for (std::size_t k = 0; k < 9; ++k) compliance_[(9 * i + k) * n_ + j] = block[int(k / 3)][int(k % 3)];
   }
 
-  /// How far (m) a force's change has moved its own particle: in any sweep, and in the last one.
+  /// How far (m) a force's change has moved its own point: in any sweep, and in the last one.
   struct Moved {
     double most, last;
   };
-  /// Sweeps until no force's change moves its particle by more than `enough` m, or a window of sweeps does not halve
+  /// Sweeps until no force's change moves its point by more than `enough` m, or a window of sweeps does not halve
   /// these moves, or more than `moves` contacts have been moved by contacts, which it counts down: there may be no such
-  /// forces where a crushed body is pressed together. As few particles of a stiff body move together, plain sweeps
+  /// forces where a crushed body is pressed together. As few points of a stiff body move together, plain sweeps
   /// would hardly converge: they are the gradient of a nonlinear conjugate gradient method (Silcowitz, Niebe and
   /// Erleben 2010).
   Moved run(double enough, double& moves) {
@@ -74,7 +74,7 @@ class ForceSweeps {
   }
 
  private:
-  /// Brings each contact's force up to date in turn. Returns how far (m) a change has moved its own particle at most.
+  /// Brings each contact's force up to date in turn. Returns how far (m) a change has moved its own point at most.
   double sweep() {
     double most = 0;
     for (std::size_t i = 0; i < active_.size(); ++i) {
@@ -105,7 +105,7 @@ class ForceSweeps {
     }
   }
 
-  /// Adds to a force, and moves all particles by that.
+  /// Adds to a force, and moves all points by that.
   void add(std::size_t i, const glm::dvec3& force) {
     active_[i].contact->force += force;
     const double* columns = &compliance_[9 * i * n_];
@@ -132,7 +132,7 @@ class ForceSweeps {
 std::vector<ActiveContact> active_contacts(const ImplicitProblem& p, std::span<PlaneContact> contacts, const Lanes& x) {
   std::vector<ActiveContact> active;
   for (PlaneContact& c : contacts) {
-    const glm::dvec3 displacement = p.displacement(x, c.at);
+    const glm::dvec3 displacement = p.displacement(x, c.point);
     if (c.force != glm::dvec3(0.0) || glm::dot(displacement, c.normal) < c.min_displacement)
       active.push_back({&c, displacement, c.force});
   }
@@ -158,15 +158,20 @@ glm::dvec3 ContactForces::force(const ImplicitProblem& p, const PlaneContact& c,
 double ContactForces::update(const ImplicitProblem& p, std::span<PlaneContact> contacts, const Lanes& x,
                              const glm::dmat3& rotation, Lanes& changes) {
   const double none_found = springs_lead_ ? 0 : std::numeric_limits<double>::infinity();
-  double& moves_left = moves_left_[contacts.front().at % implicit_lanes];
+  double& moves_left = moves_left_[contacts.front().point.lane()];
   std::vector<ActiveContact> active = active_contacts(p, contacts, x);
   if (active.size() > max_active || moves_left <= 0) return none_found;
   ForceSweeps sweeps(active);
   const glm::dmat3 back = glm::transpose(rotation);
-  const auto particle = [&](std::size_t i) { return Index(active[i].contact->at / implicit_lanes); };
+  const auto compliance = [&](const BodyPoint& moved, const BodyPoint& pushed) {
+    return moved.mean([&](std::size_t i) {
+      return pushed.mean(
+          [&](std::size_t j) { return p.matrix.compliance(Index(i / implicit_lanes), Index(j / implicit_lanes)); });
+    });
+  };
   for (std::size_t i = 0; i < active.size(); ++i)
     for (std::size_t j = 0; j < active.size(); ++j)
-      sweeps.set_compliance(i, j, rotation * p.matrix.compliance(particle(j), particle(i)) * back);
+      sweeps.set_compliance(i, j, rotation * compliance(active[j].contact->point, active[i].contact->point) * back);
   const double moves_before = moves_left;
   const auto [most, last] = sweeps.run(1e-9 * p.model.radius, moves_left);
   work_ += (moves_before - moves_left) * work_of_a_move;
@@ -174,7 +179,7 @@ double ContactForces::update(const ImplicitProblem& p, std::span<PlaneContact> c
   const bool trusted = springs_lead_ ? most <= p.model.radius : last <= held_within * p.model.radius;
   for (const ActiveContact& a : active) {
     if (!trusted) a.contact->force = a.before;
-    add(changes, a.contact->at, a.contact->force - a.before);
+    a.contact->point.add_to(changes, a.contact->force - a.before);
   }
   return trusted ? most : none_found;
 }

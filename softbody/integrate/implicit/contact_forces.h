@@ -7,21 +7,22 @@
 
 namespace softbody {
 
-/// Searches for the forces that keep particles in front of their planes, with friction in Coulomb's cone. It works on
-/// the compliance that the matrix gives the touching particles. A crushed body is not what the matrix says: for that
-/// one, springs between particles and planes can lead the search.
+/// Searches for the forces that keep points in front of their planes, with friction in Coulomb's cone. It works on
+/// the compliance that the matrix gives the touching points. A crushed body is not what the matrix says: for that
+/// one, springs between points and planes can lead the search.
 class ContactForces {
  public:
-  /// Forces hold if no change of one moves a particle by more than this share of the radius.
+  /// Forces hold if no change of one moves a point by more than this share of the radius.
   static constexpr double held_within = 1e-7;
 
+  bool springs_lead() const { return springs_lead_; }
   /// Starts a search in all lanes, which springs lead or not.
   void start(bool springs_lead);
-  /// Returns the force (N) on a particle that has moved by u (m): the one that is held and, while springs lead, one on
+  /// Returns the force (N) on a point that has moved by u (m): the one that is held and, while springs lead, one on
   /// what is left to correct.
   glm::dvec3 force(const ImplicitProblem& problem, const PlaneContact& contact, const glm::dvec3& u) const;
   /// Brings the forces of one lane's contacts up to date with the positions x, and adds their changes to `changes`.
-  /// Returns how far (m) a force's change has moved its particle at most. Where no forces are found, changes nothing
+  /// Returns how far (m) a force's change has moved its point at most. Where no forces are found, changes nothing
   /// and returns infinity, or 0 while springs lead. `rotation`: of the matrix, for this lane.
   double update(const ImplicitProblem& problem, std::span<PlaneContact> contacts, const Lanes& x,
                 const glm::dmat3& rotation, Lanes& changes);

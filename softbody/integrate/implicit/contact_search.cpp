@@ -1,29 +1,80 @@
 #include "softbody/integrate/implicit/contact_search.h"
 
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/law.h"
 #include "softbody/contact/solid_shapes.h"
 
 namespace softbody {
+namespace {
+
+/// Returns the surface of a solid as seen from x, in the frame of the body in a lane.
+SurfaceAt<double> surface_from(const SolidArguments& s, std::size_t lane, const glm::dvec3& x) {
+  const glm::dvec3 from = x - glm::dvec3(s.place[lane]);
+  const body::Vec<double> d{from.x, from.y, from.z};
+  return body::surface_at(s.shape, d);
+}
+
+/// Returns the point that a row keeps off a solid, in a lane of a step.
+BodyPoint point_of(const ContactRow& row, int width, std::size_t lane) {
+  BodyPoint point;
+  for (std::size_t k = 0; k < 3; ++k) {
+    point.at[k] = row.slot[k] / std::size_t(width) * implicit_lanes + lane;
+    point.weight[k] = double(row.weight[k]);
+    assert(point.weight[k] == 0 || row.slot[k] % std::size_t(width) == row.slot[0] % std::size_t(width));
+  }
+  return point;
+}
+
+/// Returns true for contacts of one point with one solid, which faces that share an edge have in common. The search for
+/// forces converges slowly where two differ by rounding.
+bool is_same(const PlaneContact& a, const PlaneContact& b) {
+  constexpr double rounding = 1e-5;
+  const auto weight_in = [](const BodyPoint& point, std::size_t at) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += point.at[k] == at ? point.weight[k] : 0;
+    return sum;
+  };
+  double apart = glm::distance(a.normal, b.normal);
+  for (const std::size_t at : a.point.at) apart += std::abs(weight_in(a.point, at) - weight_in(b.point, at));
+  return apart < rounding;
+}
+
+}  // namespace
+
 LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, LaneMask moving, double h,
                      ImplicitWork& work) {
   LaneMask in_contact;
   work.planes.clear();
+  const auto add_plane = [&](const PlaneContact& c) {
+    const glm::dvec3 meant = c.point.mean(
+        [&](std::size_t at) { return frames.free_displacement(c.point.lane(), read(work.x, at), read(work.v, at)); });
+    if (glm::dot(meant, c.normal) < c.min_displacement) in_contact.set(c.point.lane());
+    work.planes.push_back(c);
+  };
   for (std::size_t lane = 0; lane < implicit_lanes; ++lane) {
     if (!moving[lane]) continue;
     const std::size_t own = b.first_lane + lane;  // in the batch
     for (const SolidArguments& s : b.near_solids) {
       if (!(s.near >> own & 1u)) continue;
       for (std::size_t at = lane; at < work.x.size() / 3; at += implicit_lanes) {
-        const glm::dvec3 x = read(work.x, at), v = read(work.v, at);
-        const glm::dvec3 d = x - glm::dvec3(s.place[own]);
-        const SurfaceAt<double> surface = body::surface_at(s.shape, body::Vec<double>{d.x, d.y, d.z});
+        const SurfaceAt<double> surface = surface_from(s, own, read(work.x, at));
         const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
-        const double out = law::min_move(surface.distance, h);
-        if (glm::dot(frames.free_displacement(lane, x, v), normal) < out) in_contact.set(lane);
-        work.planes.push_back({at, double(s.friction), double(s.restitution), normal, out});
+        add_plane({{{at}}, double(s.friction), double(s.restitution), normal, law::min_move(surface.distance, h)});
       }
+    }
+    const std::size_t first = work.planes.size();
+    for (const ContactRow& row : b.features) {
+      if (row.slot[0] % std::size_t(b.width) != own) continue;
+      const PlaneContact c{point_of(row, b.width, lane), double(row.friction), double(row.restitution),
+                           glm::dvec3(row.normal), double(row.target) * h};
+      if (std::ranges::none_of(std::span(work.planes).subspan(first),
+                               [&](const PlaneContact& other) { return is_same(c, other); }))
+        add_plane(c);
     }
   }
   return in_contact;

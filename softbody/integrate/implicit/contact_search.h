@@ -5,8 +5,8 @@
 
 namespace softbody {
 
-/// Sets work.planes to the planes of near solids before each particle of the lanes `moving`, for a step of h. Returns
-/// the lanes in which a particle would pass one if no force acted on it.
+/// Sets work.planes to the planes of near solids before each particle and near feature of the lanes `moving`, for a
+/// step of h. Returns the lanes in which one would pass its plane if no force acted on it.
 LaneMask find_planes(const ImplicitBatch& batch, const ImplicitFrames& frames, LaneMask moving, double h,
                      ImplicitWork& work);
 

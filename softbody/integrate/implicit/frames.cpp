@@ -62,7 +62,7 @@ void ImplicitFrames::enter(Lanes& x, Lanes& v, Lanes& frame_displacement) const 
 
 PlaneContact ImplicitFrames::enter(const PlaneContact& contact) const {
   PlaneContact c = contact;
-  c.normal = enter(c.at % implicit_lanes, c.normal);
+  c.normal = enter(c.point.lane(), c.normal);
   return c;
 }
 

@@ -5,9 +5,10 @@
 namespace softbody {
 namespace {
 
-/// Returns by how much (m) a particle's displacement is short of what its plane needs.
+/// Returns by how much (m) a point's displacement is short of what its plane needs.
 double missing(const ImplicitWork& work, const PlaneContact& c) {
-  return c.min_displacement - glm::dot(read(work.end_x, c.at) - read(work.x, c.at), c.normal);
+  const glm::dvec3 moved = c.point.mean([&](std::size_t at) { return read(work.end_x, at) - read(work.x, at); });
+  return c.min_displacement - glm::dot(moved, c.normal);
 }
 
 }  // namespace
@@ -15,7 +16,7 @@ double missing(const ImplicitWork& work, const PlaneContact& c) {
 LaneMask behind_planes(const ImplicitWork& work) {
   LaneMask behind;
   for (const PlaneContact& c : work.planes)
-    if (missing(work, c) > 0) behind.set(c.at % implicit_lanes);
+    if (missing(work, c) > 0) behind.set(c.point.lane());
   return behind;
 }
 
@@ -25,10 +26,11 @@ void clear_planes(ImplicitWork& work, LaneMask which, double h) {
     any = false;
     for (const PlaneContact& c : work.planes) {
       const double by = missing(work, c);
-      if (!which[c.at % implicit_lanes] || !(by > 0)) continue;
+      if (!which[c.point.lane()] || !(by > 0)) continue;
       any = true;
-      add(work.end_x, c.at, by * c.normal);
-      add(work.end_v, c.at, by / h * c.normal);
+      const glm::dvec3 move = by / c.point.square_of_weights() * c.normal;
+      c.point.add_to(work.end_x, move);
+      c.point.add_to(work.end_v, move / h);
     }
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Corrections of an implicit step whose solve has left particles behind planes.
+// Corrections of an implicit step whose solve has left points behind planes.
 
 #include <span>
 
@@ -23,8 +23,9 @@ glm::dvec3 stop_at(std::span<const PlaneContact> planes, std::size_t lane, doubl
   for (int pass = 0; !stands && pass < plane_passes; ++pass) {
     stands = true;
     for (const PlaneContact& c : planes) {
-      if (c.at % implicit_lanes != lane) continue;
-      const double more = c.min_displacement - glm::dot(shift + aside(c.at / implicit_lanes), c.normal);
+      if (c.point.lane() != lane) continue;
+      const glm::dvec3 by = c.point.mean([&](std::size_t at) { return aside(at / implicit_lanes); });
+      const double more = c.min_displacement - glm::dot(shift + by, c.normal);
       if (!(more > 0)) continue;
       shift += more * c.normal;
       stands = false;
@@ -35,11 +36,11 @@ glm::dvec3 stop_at(std::span<const PlaneContact> planes, std::size_t lane, doubl
   return shift;
 }
 
-/// Returns the lanes in which a particle ends behind one of work.planes.
+/// Returns the lanes in which a point ends behind one of work.planes.
 LaneMask behind_planes(const ImplicitWork& work);
 
-/// Moves each particle of the lanes that ends behind its planes in front of them. A solve that has not converged leaves
-/// such particles.
+/// Moves each point of the lanes that ends behind its planes in front of them. A solve that has not converged leaves
+/// such points.
 void clear_planes(ImplicitWork& work, LaneMask which, double h);
 
 }  // namespace softbody

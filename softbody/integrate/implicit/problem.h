@@ -2,6 +2,7 @@
 // The problem of one implicit step of the bodies in all lanes, and what touches them.
 
 #include <algorithm>
+#include <array>
 #include <bitset>
 #include <span>
 
@@ -17,12 +18,35 @@ namespace softbody {
 /// One flag a lane.
 using LaneMask = std::bitset<implicit_lanes>;
 
-/// The plane of a solid that a particle must stay in front of, and the contact force.
+/// A point of a body: a particle, or the point of a face or an edge that follows its corners by their weights.
+struct BodyPoint {
+  std::array<std::size_t, 3> at{};        // particle * implicit_lanes + lane
+  std::array<double, 3> weight{1, 0, 0};  // their sum is 1
+
+  std::size_t lane() const { return at[0] % implicit_lanes; }
+  /// Returns the weighted mean of value(at).
+  template <class Value>
+  auto mean(const Value& value) const {
+    auto sum = weight[0] * value(at[0]);
+    for (std::size_t k = 1; k < 3; ++k)
+      if (weight[k] != 0) sum += weight[k] * value(at[k]);
+    return sum;
+  }
+  /// Returns how far the point moves if each corner moves by its weight.
+  double square_of_weights() const { return weight[0] * weight[0] + weight[1] * weight[1] + weight[2] * weight[2]; }
+  /// Adds a value to each corner, times its weight.
+  void add_to(Lanes& sums, const glm::dvec3& value) const {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (weight[k] != 0) add(sums, at[k], weight[k] * value);
+  }
+};
+
+/// The plane of a solid that a point must stay in front of, and the contact force.
 struct PlaneContact {
-  std::size_t at;  // particle * implicit_lanes + lane
+  BodyPoint point;
   double friction, restitution;
   glm::dvec3 normal;        // unit
-  double min_displacement;  // m, that the particle has to move along the normal in this step
+  double min_displacement;  // m, that it has to move along the normal in this step
   glm::dvec3 force{0.0};    // N
 
   double out() const { return std::max(0.0, min_displacement); }  // m, that takes it out of the solid
@@ -67,6 +91,9 @@ struct ImplicitProblem {
   /// Returns the displacement (m) in this step of a particle whose position is now in `now`.
   glm::dvec3 displacement(const Lanes& now, std::size_t at) const {
     return read(now, at) - read(*x, at) + read(*frame_displacement, at);
+  }
+  glm::dvec3 displacement(const Lanes& now, const BodyPoint& point) const {
+    return point.mean([&](std::size_t at) { return displacement(now, at); });
   }
 };
 

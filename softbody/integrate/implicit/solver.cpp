@@ -41,7 +41,7 @@ void ImplicitSolver::predict(const ImplicitProblem& p) {
 /// Stops each body as a whole where its planes stop it. Behind them, it would start far inside the solid.
 void ImplicitSolver::stop_at_planes(const ImplicitProblem& p) {
   LaneMask any;
-  for (const PlaneContact& c : p.planes) any.set(c.at % implicit_lanes);
+  for (const PlaneContact& c : p.planes) any.set(c.point.lane());
   for (std::size_t l = 0; l < implicit_lanes; ++l) {
     if (!any[l]) continue;
     glm::dvec3 meant(0.0);
@@ -79,7 +79,9 @@ void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g
 void ImplicitSolver::add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f) {
   constexpr double work_of_a_force = 1.0 / 32;  // of an iteration for one particle in all lanes, about
   work_ += double(p.planes.size() + p.penalty_pairs.size()) * work_of_a_force;
-  for (const PlaneContact& c : p.planes) add(f, c.at, contact_.force(p, c, p.displacement(x, c.at)));
+  for (const PlaneContact& c : p.planes)  // most of them are far off
+    if (contact_.springs_lead() || c.force != glm::dvec3(0.0))
+      c.point.add_to(f, contact_.force(p, c, p.displacement(x, c.point)));
   for (const LinearPenaltyPair& s : p.penalty_pairs) add(f, s.at, s.force_after(p.displacement(x, s.at)));
 }
 
@@ -116,13 +118,13 @@ bool ImplicitSolver::minimise(const ImplicitProblem& p, int iterations) {
 }
 
 /// Brings the contact forces of the lanes up to date with the positions, and these with the forces' changes. Returns
-/// how far (m) these have moved a particle at most, or infinity where no forces are found.
+/// how far (m) these have moved a point at most, or infinity where no forces are found.
 PerLane ImplicitSolver::update_contact_forces(const ImplicitProblem& p, LaneMask which) {
   PerLane moved{}, once;
   push_.assign(push_.size(), 0.0);
   for (std::size_t first = 0, end = 0; first < p.planes.size(); first = end) {
-    const std::size_t lane = p.planes[first].at % implicit_lanes;
-    while (end < p.planes.size() && p.planes[end].at % implicit_lanes == lane) ++end;
+    const std::size_t lane = p.planes[first].point.lane();
+    while (end < p.planes.size() && p.planes[end].point.lane() == lane) ++end;
     if (which[lane])
       moved[lane] = contact_.update(p, p.planes.subspan(first, end - first), x_, rotation(p, lane), push_);
   }
@@ -167,7 +169,7 @@ void ImplicitSolver::solve_contact_by_springs(const ImplicitProblem& p) {
     const bool settled = minimise(p, iterations_of_round);
     double most = 0;
     for (PlaneContact& c : p.planes) {
-      const glm::dvec3 force = contact_.force(p, c, p.displacement(x_, c.at));
+      const glm::dvec3 force = contact_.force(p, c, p.displacement(x_, c.point));
       most = std::max(most, glm::length(force - c.force));
       c.force = force;
     }
@@ -194,7 +196,7 @@ const Lanes& ImplicitSolver::solve(const ImplicitProblem& p) {
   for (std::size_t i = 0; i < found.size(); ++i)
     if (held[i % implicit_lanes]) x_[i] = found[i];
   for (std::size_t i = 0; i < planes_before.size(); ++i)
-    if (held[planes_before[i].at % implicit_lanes]) p.planes[i] = planes_before[i];
+    if (held[planes_before[i].point.lane()]) p.planes[i] = planes_before[i];
   return x_;
 }
 

@@ -41,14 +41,15 @@ void add_impulses(const ImplicitStep& step, const ImplicitWork& work, std::size_
                   const ImplicitResult& result) {
   const BodyField sum{result.impulse, first_lane, 1};
   for (const PlaneContact& c : work.planes) {
-    const std::size_t own = c.at % implicit_lanes, lane = first_lane + own;
+    const std::size_t own = c.point.lane(), lane = first_lane + own;
     const double push = glm::dot(c.force, c.normal);
     if (push == 0) continue;
     sum.add(own, step.h * push * c.normal);
-    // At the end of the step: until then the spin takes the particle along its circle.
-    const glm::dvec3 whole = step.frames.start(own).velocity, v = read(work.v, c.at);
-    const double before = glm::dot(whole + step.frames.leave(own, v - whole), c.normal);
-    const double after = glm::dot(read(work.end_v, c.at), c.normal);
+    // At the end of the step: until then the spin takes the point along its circle.
+    const auto of_point = [&](const Lanes& v) { return c.point.mean([&](std::size_t at) { return read(v, at); }); };
+    const glm::dvec3 whole = step.frames.start(own).velocity;
+    const double before = glm::dot(whole + step.frames.leave(own, of_point(work.v) - whole), c.normal);
+    const double after = glm::dot(of_point(work.end_v), c.normal);
     result.returned[lane] += float(law::bounce_energy(step.h * push, before, after, c.restitution));
     result.energy[lane] += float(push * c.out());
   }

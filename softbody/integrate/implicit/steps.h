@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "softbody/contact/contact_row.h"
 #include "softbody/contact/solid_law.h"
 #include "softbody/forces/penalty_contact.h"
 #include "softbody/integrate/implicit/matrices.h"
@@ -24,6 +25,7 @@ struct ImplicitBatch {
   std::size_t base;                     // where the values of this one start in them
   glm::dvec3 gravity;                   // m/s^2
   std::span<const SolidArguments> near_solids;
+  std::span<const ContactRow> features;   // of the bodies, which may meet these solids between vertices
   const PenaltyContact& penalty;          // evaluated at x, v
   std::span<const PenaltyEnd> ends;       // of its pairs, those that fall to this batch
   std::function<bool(BodyId)> is_moving;  // false for bodies that are held or asleep
