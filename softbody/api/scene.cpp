@@ -13,7 +13,7 @@
 #include "softbody/forces/material_keys.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/mesh/surface.h"
-#include "softbody/scene/limits.h"
+#include "softbody/scene/scene_keys.h"
 #include "softbody/scene/toml_text.h"
 
 namespace sbcollide {

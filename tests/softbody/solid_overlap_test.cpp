@@ -10,6 +10,7 @@
 #include "softbody/contact/solid_overlap.h"
 #include "softbody/scene/solids.h"
 #include "tests/softbody/surface_rig.h"
+#include "tests/support/change.h"
 
 namespace softbody::test {
 namespace {
@@ -143,7 +144,7 @@ TEST(SolidOverlap, ASolidThatIsMovedOntoASleeperWakesItAndEasesItOut) {
     ASSERT_TRUE(world.all_at_rest());
     const double volume = measure(world).volume_ratio_min;
     scene.boxes = {{.centre = {0.2, 0.5, 0.1}, .half_size = {0.7, 0.3, 0.5}}};
-    world.set_solids(scene);
+    change(world, [&](Scene& s) { copy_solids(scene, s); });
     for (int i = 0; i < 200; ++i) {
       world.step();
       ASSERT_LT(measure(world).max_speed, 3.5) << integrator << ", " << frame_of(world);

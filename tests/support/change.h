@@ -1,0 +1,23 @@
+#pragma once
+// Changes of a world's scene.
+
+#include "softbody/world/world.h"
+
+namespace softbody {
+
+/// Applies the world's scene as `edit` changes it.
+void change(World& world, const auto& edit) {
+  Scene scene = world.scene();
+  edit(scene);
+  world.apply(scene);
+}
+
+inline void copy_solids(const Scene& from, Scene& to) {
+  to.spheres = from.spheres;
+  to.planes = from.planes;
+  to.boxes = from.boxes;
+  to.capsules = from.capsules;
+  to.ground = from.ground;
+}
+
+}  // namespace softbody
