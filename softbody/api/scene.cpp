@@ -12,7 +12,7 @@
 #include "softbody/forces/material_keys.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/mesh/surface.h"
-#include "softbody/scene/limits.h"
+#include "softbody/scene/scene_keys.h"
 #include "softbody/scene/solid_toml.h"
 
 namespace sbcollide {

@@ -24,6 +24,7 @@ std::size_t SolverState::bytes() const {
 Solver::Solver(const Scene& scene, const Crew& crew)
     : scene_(scene),
       crew_(crew),
+      penalty_(scene.collision.tolerance),
       solids_(state_),
       contacts_(scene, state_, solids_, crew_),
       implicit_(std::make_unique<ImplicitSteps>()),
@@ -54,10 +55,6 @@ void Solver::remove(BodyId body) {
   rebounds_.remove(body);
   hand_.remove(body);
   state_.remove(body);
-}
-
-void Solver::set_contacts(const DetectedContacts& detected, float thickness) {
-  penalty_.find(detected, state_, thickness, crew_.workers());
 }
 
 glm::dvec3 Solver::gravity() const { return has_gravity_ ? scene_.gravity : glm::dvec3(0.0); }
@@ -262,6 +259,7 @@ void Solver::run(int count, float h, bool first, const std::function<void()>& af
 }
 
 void Solver::finish_frame(double seconds, Field<float> places) {
+  penalty_.layer.grow(seconds);  // with time, not frames
   const std::span<const Batch> batches = state_.batches();
   crew_.for_each(batches.size(), [&](std::size_t i) {
     if (batches[i].any_moves()) finish(batches[i], seconds);
@@ -293,13 +291,13 @@ void Solver::write_positions(Field<float> to) const {
 }
 
 SolverState Solver::save() const {
-  return {state_.saved(), penalty_.thickness,          penalty_.pairs,     solids_.pushes(),
-          rebounds_,      contacts_.surfaces().save(), steps_.hysteresis()};
+  return {state_.saved(),     penalty_.layer, penalty_.pairs, solids_.pushes(), rebounds_, contacts_.surfaces().save(),
+          steps_.hysteresis()};
 }
 
 void Solver::restore(const SolverState& saved) {
   state_.restore(saved.bodies);
-  penalty_.thickness = saved.penalty_thickness;
+  penalty_.layer = saved.layer;
   penalty_.pairs = saved.penalty_pairs;
   solids_.begin_frame();
   solids_.set_pushes(saved.pushes);

@@ -9,6 +9,7 @@
 #include "softbody/forces/springs.h"
 #include "softbody/model/body_model.h"
 #include "tests/app/scenes.h"
+#include "tests/support/change.h"
 
 namespace app {
 namespace {
@@ -147,7 +148,7 @@ TEST(BlowUpMonitor, AcceptsABodyPushedOutOfASolid) {
   const double start = softbody::measure(watched.world).energy;
   add_solid(scene,
             {softbody::SolidSphere{.centre = watched.world.body(0).origin - glm::dvec3(0.1, 0.3, 0), .radius = 1}});
-  watched.world.set_solids(scene);
+  softbody::change(watched.world, [&](softbody::Scene& s) { s.solids = scene.solids; });
   for (int frame = 0; frame < 5 || softbody::measure(watched.world).deepest_penetration > 0; ++frame) {
     ASSERT_LT(frame, 600);
     watched.look();
@@ -194,7 +195,7 @@ TEST(BlowUpMonitor, AcceptsBodiesThatSwingFast) {
     Session session(scene, {}, 1);
     while (session.world().frame() < 15) session.advance(tick);
     rubber[softbody::GasPressure::inside] = pressure;
-    session.settings.set_material(0, rubber);
+    session.simulation.change_scene("Material", [&](softbody::Scene& s) { s.materials[0] = rubber; });
     while (session.world().frame() < 60 && !session.simulation.stability().blow_up()) session.advance(tick);
     EXPECT_FALSE(session.simulation.stability().blow_up())
         << pressure << " Pa: " << session.simulation.stability().blow_up()->what;

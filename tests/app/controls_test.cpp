@@ -96,14 +96,14 @@ TEST(BodyControls, AskForASelectionBeforeTheyDelete) {
 TEST(BodyControls, PullOnlyWhatIsGrabbed) {
   session::Simulation simulation(touching_pair(), 1);
   session::BodyControls bodies(simulation);
-  bodies.pull_to({0, 9, 0});
+  simulation.pull_to({0, 9, 0});
   EXPECT_FALSE(simulation.simulated()->grabbed());
-  bodies.grab({.body = 1, .target = {0, 4, 0}});
-  bodies.pull_to({0, 9, 0});
+  simulation.grab({.body = 1, .target = {0, 4, 0}});
+  simulation.pull_to({0, 9, 0});
   ASSERT_TRUE(simulation.simulated()->grabbed());
   EXPECT_EQ(simulation.simulated()->grabbed()->body, 1u);
   EXPECT_EQ(simulation.simulated()->grabbed()->target, glm::dvec3(0, 9, 0));
-  bodies.release();
+  simulation.release();
   EXPECT_FALSE(simulation.simulated()->grabbed());
 }
 
@@ -123,12 +123,12 @@ TEST(SettingControls, KeepGravityMaterialAndSolidsOverAResetUntilTheScenesAreRes
   session::SettingControls controls(simulation);
   softbody::Material heavy = simulation.world().scene().materials[0];
   heavy[softbody::Material::mass] = 3;
-  controls.set_material(0, heavy);
-  controls.set_gravity(2);
-  session::SolidList solids = controls.solids();
-  ASSERT_EQ(solids.size(), 2u);
-  solids[0].enabled = false;
-  controls.set_solids(solids);
+  simulation.change_scene("Material", [&](softbody::Scene& s) { s.materials[0] = heavy; });
+  simulation.change_scene("Gravity", [&](softbody::Scene& s) { s.gravity = {0, -2, 0}; });
+  ASSERT_EQ(controls.solids().size(), 2u);
+  softbody::Solid solid = controls.solids()[0];
+  solid.enabled = false;
+  controls.set_solid(0, solid);
   EXPECT_FALSE(simulation.world().scene().solids[0].enabled);
   simulation.reset();
   EXPECT_EQ(simulation.world().scene().materials[0][softbody::Material::mass], 3);
@@ -146,10 +146,10 @@ TEST(SettingControls, RefuseSettingsWithAProblem) {
   session::SettingControls controls(simulation);
   collide::Settings bad = simulation.world().collision();
   bad.tolerance = -1;
-  controls.set_collision(bad, true);
+  simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = bad, s.collision.cell_size.reset(); });
   EXPECT_FALSE(simulation.notice.text().empty());
   EXPECT_EQ(simulation.world().collision().tolerance, 0.1f);
-  controls.set_collision(simulation.world().collision(), true);
+  simulation.change_scene("Settings", [](softbody::Scene& s) { s.collision.tolerance = 0.2f; });
   EXPECT_TRUE(simulation.notice.text().empty());
 }
 
@@ -161,7 +161,8 @@ TEST(SettingControls, FindNewContactsWhilePaused) {
   const auto revision = simulation.revision();
   collide::Settings settings = simulation.world().collision();
   settings.tolerance = 0.2f;
-  controls.set_collision(settings, true);
+  simulation.change_scene("Settings",
+                          [&](softbody::Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
   EXPECT_GT(simulation.world().detection().contacts.size(), before);
   EXPECT_NE(simulation.revision(), revision);
 }

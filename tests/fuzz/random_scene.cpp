@@ -12,7 +12,7 @@
 #include "softbody/forces/gas.h"
 #include "softbody/forces/material_keys.h"
 #include "softbody/mesh/limits.h"
-#include "softbody/scene/limits.h"
+#include "softbody/scene/scene_keys.h"
 #include "tests/solids.h"
 
 namespace fuzz {
@@ -153,10 +153,10 @@ void read_collision(Bytes& bytes, Scene& scene) {
   c.self_collision = bytes.below(2) == 0;
   c.levels = bytes.one_of({3, 0, 6, collide::max_levels});
   c.buckets = bytes.one_of({1001u, 101u, 1u, 65536u});
-  scene.default_cell_size = bytes.below(4) != 0;
-  if (!scene.default_cell_size)
-    for (int axis = 0; axis < 3; ++axis)
-      c.cell_size[axis] = static_cast<float>(read(bytes, {0.1, 1, softbody::min_length, softbody::max_length}));
+  if (bytes.below(4) != 0) return;
+  c.cell_size.emplace();
+  for (int axis = 0; axis < 3; ++axis)
+    (*c.cell_size)[axis] = static_cast<float>(read(bytes, {0.1, 1, softbody::min_length, softbody::max_length}));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "softbody/world/snapshot.h"
 #include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
+#include "tests/support/change.h"
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
@@ -316,7 +317,7 @@ TEST(LargeBodies, AreChangedTheSameAtEitherWidth) {
     run(*world, 4);
     Material soft = scene.materials[0];
     soft[StructuralSprings::stiffness] = 100;
-    world->set_material(0, soft);
+    change(*world, [&](Scene& s) { s.materials[0] = soft; });
     world->grab(Grab{.body = 1, .target = {1, 2, 0}});
     run(*world, 4);
     world->grab({});

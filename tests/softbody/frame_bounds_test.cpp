@@ -7,6 +7,7 @@
 #include "softbody/world/energy_watch.h"
 #include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
+#include "tests/support/change.h"
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
@@ -294,8 +295,8 @@ TEST(PenaltyContact, GrowsByTheSimulatedSecondsOfAShortFrame) {
   add_body(scene, {5, 0, 0}, {});
   World world(scene, {.integrator = {"semi-implicit-euler"}});
   world.step();
-  world.set_contact_surface(ContactSurface::surfaces);  // after which it grows from nothing
-  world.set_contact_surface(ContactSurface::vertices);
+  change(world, [&](Scene& s) { s.contact_surface = ContactSurface::surfaces; });  // after which it grows from nothing
+  change(world, [&](Scene& s) { s.contact_surface = ContactSurface::vertices; });
   double grown = 0;
   for (int frame = 0; frame < 3; ++frame) {
     place(world, glm::dvec3(1.0), 1e5);

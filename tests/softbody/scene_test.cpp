@@ -30,7 +30,7 @@ TEST(SceneFile, OneBodyIsEnoughAndTheRestHasDefaults) {
   EXPECT_EQ(s.collision.buckets, 1001u);
   EXPECT_EQ(s.collision.primes, collide::default_primes);
   EXPECT_TRUE(s.collision.self_collision);
-  EXPECT_TRUE(s.default_cell_size);
+  EXPECT_FALSE(s.collision.cell_size);
   EXPECT_FALSE(s.dropper);
   EXPECT_TRUE(s.solids.empty() && s.captions.empty());
   ASSERT_EQ(s.materials.size(), 1u);
@@ -160,7 +160,7 @@ TEST(SceneFile, EveryKeyArrivesWhereItBelongs) {
   EXPECT_FALSE(s.collision.self_collision);
   EXPECT_EQ(s.collision.levels, 6);
   EXPECT_EQ(s.collision.buckets, 997u);
-  EXPECT_FALSE(s.default_cell_size);
+  EXPECT_TRUE(s.collision.cell_size);
   EXPECT_EQ(s.collision.cell_size, glm::vec3(0.5f, 0.6f, 0.7f));
   EXPECT_EQ(s.collision.primes, (std::array<std::uint32_t, 3>{1, 4294967295, 83492791}));
   EXPECT_EQ(s.sleep.speed, 0.04);

@@ -104,13 +104,11 @@ class Filler {
   }
   void set(ContactSurface& v) { v = contact_surfaces[random_() % contact_surfaces.size()].value; }
   void set(Scene& v) {
-    auto& [key, name, look_at, gravity, method, surface, collision, default_cell, list, bodies, solids, dropper, sleep,
-           view, captions] = v;
-    set_all(name, look_at, gravity, surface, collision, default_cell, list, bodies, solids, dropper, sleep, view,
-            captions);
+    auto& [key, name, look_at, gravity, method, surface, collision, list, bodies, solids, dropper, sleep, view,
+           captions] = v;
+    set_all(name, look_at, gravity, surface, collision, list, bodies, solids, dropper, sleep, view, captions);
     key = "saved";
     method = collide::method_table()[random_() % collide::method_table().size()].key;
-    if (default_cell) collision.cell_size = collide::Settings().cell_size;  // nobody reads it, so nobody writes it
   }
 
  private:

@@ -10,6 +10,7 @@
 #include "softbody/contact/solid_geometry.h"
 #include "softbody/contact/solid_overlap.h"
 #include "tests/softbody/surface_rig.h"
+#include "tests/support/change.h"
 
 namespace softbody::test {
 namespace {
@@ -141,7 +142,7 @@ TEST(SolidOverlap, ASolidThatIsMovedOntoASleeperWakesItAndEasesItOut) {
     ASSERT_TRUE(world.all_at_rest());
     const double volume = measure(world).volume_ratio_min;
     set_solid(scene, {SolidBox{.centre = {0.2, 0.5, 0.1}, .half_size = {0.7, 0.3, 0.5}}});
-    world.set_solids(scene);
+    world.apply(scene);
     for (int i = 0; i < 200; ++i) {
       world.step();
       ASSERT_LT(measure(world).max_speed, 3.5) << integrator << ", " << frame_of(world);

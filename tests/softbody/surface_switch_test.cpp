@@ -5,6 +5,7 @@
 #include "softbody/integrate/force_stage.h"
 #include "tests/every_target.h"
 #include "tests/softbody/surface_rig.h"
+#include "tests/support/change.h"
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
@@ -68,13 +69,13 @@ TEST(SurfaceContact, MayBeTurnedOnAndOffAtAnyTime) {
   World world(crowd(), {});
   Judge judge(world);
   for (int i = 0; i < 60; ++i) {
-    if (i % 7 == 3) world.set_contact_surface(ContactSurface::vertices);
-    if (i % 7 == 5) world.set_contact_surface(ContactSurface::surfaces);
+    if (i % 7 == 3) change(world, [&](Scene& s) { s.contact_surface = ContactSurface::vertices; });
+    if (i % 7 == 5) change(world, [&](Scene& s) { s.contact_surface = ContactSurface::surfaces; });
     world.step();
     ASSERT_TRUE(measure(world).finite) << frame_of(world);
     ASSERT_LT(measure(world).max_speed, 40) << frame_of(world);
   }
-  world.set_contact_surface(ContactSurface::surfaces);
+  change(world, [&](Scene& s) { s.contact_surface = ContactSurface::surfaces; });
   EXPECT_TRUE(world.plan().has(Stage::surface_contact));
   EXPECT_FALSE(world.plan().has(stage_of<PenaltyContact>));
   run(world, 60);
@@ -87,8 +88,8 @@ TEST(SurfaceContact, LeavesVertexContactAsItIs) {
     scene.contact_surface = ContactSurface::vertices;
     World world(scene, {});
     if (to_and_fro) {
-      world.set_contact_surface(ContactSurface::surfaces);
-      world.set_contact_surface(ContactSurface::vertices);
+      change(world, [&](Scene& s) { s.contact_surface = ContactSurface::surfaces; });
+      change(world, [&](Scene& s) { s.contact_surface = ContactSurface::vertices; });
     }
     run(world, 30);
     return world.state_hash();

@@ -3,21 +3,13 @@
 #include <algorithm>
 #include <cassert>
 
-#include <glm/geometric.hpp>
+#include <fmt/core.h>
 
 #include "app/ui/panel/panel.h"
 #include "softbody/forces/material_keys.h"
 
 namespace app::ui {
 namespace {
-
-void draw_gravity(Widgets& w, Session& session) {
-  double strength = glm::length(session.world().scene().gravity);
-  w.row_label("Gravity", w.px(label_column));
-  if (w.slider("Gravity", strength, 0, 30, "%.2f m/s\u00b2",
-               "Acceleration in the direction of the scene. On Earth it is 9.81.", false))
-    session.settings.set_gravity(strength);
-}
 
 /// Draws a list of `count` items (at least one) and returns the chosen index.
 template <class Name>
@@ -31,6 +23,11 @@ std::size_t choose(Widgets& w, const char* label, const char* tooltip, std::size
     if (w.combo_item(name(i).c_str(), i == chosen, nullptr)) chosen = i;
   ImGui::EndCombo();
   return chosen;
+}
+
+void set_material(Session& session, std::size_t index, std::string_view what, const softbody::Material& material) {
+  session.simulation.change_scene(fmt::format("{} of {}", what, material.name),
+                                  [&](softbody::Scene& scene) { scene.materials[index] = material; });
 }
 
 /// Offers the presets for a material of the scene, which keeps its name.
@@ -52,7 +49,7 @@ void draw_preset(Widgets& w, Session& session, std::size_t index) {
   for (const softbody::Material& preset : presets)
     if (w.combo_item(preset.name.c_str(), renamed(preset) == now, nullptr)) chosen = renamed(preset);
   ImGui::EndCombo();
-  if (chosen != now) session.settings.set_material(index, chosen);
+  set_material(session, index, "Preset", chosen);
 }
 
 void draw_material(Widgets& w, Session& session, UiState& ui) {
@@ -71,7 +68,7 @@ void draw_material(Widgets& w, Session& session, UiState& ui) {
                   s.logarithmic))
       continue;
     changed[*key] = shown * s.unit;
-    session.settings.set_material(ui.material, changed);
+    set_material(session, ui.material, s.text, changed);
   }
 }
 
@@ -112,17 +109,17 @@ struct ShapeWidgets {
 };
 
 void draw_solids(Widgets& w, Session& session, UiState& ui) {
-  if (session.settings.solids().empty()) {
+  const session::SolidList& solids = session.settings.solids();
+  if (solids.empty()) {
     ImGui::TextDisabled("The scene has no solids.");
     return;
   }
-  session::SolidList solids = session.settings.solids();
   const std::vector<std::size_t> order = session::listed(solids);
   const auto shown = static_cast<std::size_t>(std::ranges::find(order, ui.solid.value_or(order[0])) - order.begin());
   const std::size_t chosen = choose(w, "Solid", "The solid to edit.", shown, order.size(),
                                     [&](std::size_t i) { return session::solid_name(solids, order[i]); });
   if (chosen != shown) ui.solid = order[chosen];
-  softbody::Solid& solid = solids[order[chosen]];
+  softbody::Solid solid = solids[order[chosen]];
   w.checkbox("Enabled###Solid enabled", solid.enabled, "Bodies pass through a solid that is not enabled.");
   ImGui::BeginDisabled(!solid.enabled);
   solid.values(ShapeWidgets{w});
@@ -135,13 +132,13 @@ void draw_solids(Widgets& w, Session& session, UiState& ui) {
       "back.",
       false);
   ImGui::EndDisabled();
-  if (solids != session.settings.solids()) session.settings.set_solids(solids);
+  session.settings.set_solid(order[chosen], solid);
 }
 
 }  // namespace
 
 void draw_world(Widgets& w, Session& session, UiState& ui) {
-  draw_gravity(w, session);
+  draw_values(w, session, ui, false);
   ImGui::Separator();
   draw_material(w, session, ui);
   ImGui::Separator();
