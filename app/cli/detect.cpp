@@ -166,7 +166,7 @@ struct Given {
 
 /// Returns what one method gives. compared: nullptr, or all runs, of which this is one.
 Json to_json(const Given& given, const MethodRun& run, const MethodRuns* compared) {
-  const glm::vec3& cell = given.task.settings.cell_size;
+  const glm::vec3& cell = *given.task.settings.cell_size;
   Json document{{"method", run.method->key},
                 {"tolerance", *given.options.detection.tolerance},
                 {"cell_size", {cell.x, cell.y, cell.z}},
@@ -187,7 +187,7 @@ Json to_json(const Given& given, const MethodRun& run, const MethodRuns* compare
 // ---- tables ----
 
 void print_heading(const Given& given, std::string_view method, const std::vector<std::string>& notes) {
-  const glm::vec3& cell = given.task.settings.cell_size;
+  const glm::vec3& cell = *given.task.settings.cell_size;
   std::cout << fmt::format(
       "{}, tolerance {:g} m, cells of {:.3g} x {:.3g} x {:.3g} m, threads {}, bodies {}, vertices {}\n", method,
       *given.options.detection.tolerance, cell.x, cell.y, cell.z, given.task.threads, given.task.of().bodies.count(),
@@ -249,8 +249,8 @@ void detect(const Options& options) {
   std::vector<std::string> notes;
   SequenceTask task = read_sequence(options, notes);
   task.settings = settings;
-  if (automatic_cell_size(options.detection, true))
-    task.settings.cell_size = collide::default_cell_size(task.frames[0].view(), settings.levels, settings.tolerance);
+  if (!settings.cell_size)
+    task.settings.cell_size = collide::automatic_cell_size(task.frames[0].view(), settings.levels, settings.tolerance);
   const Given given{options, task, notes};
   if (compares) {
     const MethodRuns all = run_all_methods(task);

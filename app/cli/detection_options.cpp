@@ -27,11 +27,12 @@ std::array<std::uint32_t, 3> read_primes(const std::string& text) {
   return primes;
 }
 
-glm::vec3 read_cell_size(const std::string& text) {
+std::optional<glm::vec3> read_cell_size(const std::string& text) {
+  if (text == "auto") return std::nullopt;
   const auto sides = parse_reals(text, ',');
   if (!sides || (sides->size() != 1 && sides->size() != 3))
     throw UsageError("--cell-size " + text + ": must be a number of metres, three of them as X,Y,Z, or auto");
-  return {float(sides->front()), float((*sides)[sides->size() / 2]), float(sides->back())};
+  return glm::vec3((*sides)[0], (*sides)[sides->size() / 2], sides->back());
 }
 
 }  // namespace
@@ -62,10 +63,6 @@ const collide::Method& chosen_method(const DetectionOptions& options, std::strin
   return *method;
 }
 
-bool automatic_cell_size(const DetectionOptions& options, bool otherwise) {
-  return options.cell_size ? *options.cell_size == "auto" : otherwise;
-}
-
 void apply(const DetectionOptions& options, collide::Settings& settings) {
   const auto check = [&](const std::string& option) {
     if (const std::string wrong = collide::problem(settings); !wrong.empty()) throw UsageError(option + ": " + wrong);
@@ -76,7 +73,7 @@ void apply(const DetectionOptions& options, collide::Settings& settings) {
     settings.tolerance = static_cast<float>(*options.tolerance);
     check(fmt::format("--tolerance {:.9g}", *options.tolerance));
   }
-  if (!automatic_cell_size(options, true)) settings.cell_size = read_cell_size(*options.cell_size);
+  if (options.cell_size) settings.cell_size = read_cell_size(*options.cell_size);
   check("--cell-size");
   if (options.primes) settings.primes = read_primes(*options.primes);
 }

@@ -30,9 +30,6 @@ void add_detection_options(CLI::App& command, DetectionOptions& options);
 /// Returns the chosen method, or the one with the key `otherwise`. Throws UsageError if there is no such method.
 const collide::Method& chosen_method(const DetectionOptions& options, std::string_view otherwise);
 
-/// Returns true if the cell size is "auto"; `otherwise` if it is not given.
-bool automatic_cell_size(const DetectionOptions& options, bool otherwise);
-
 /// Applies the other options to `settings`. Throws UsageError with the option at fault. Precondition: problem(settings)
 /// is empty.
 void apply(const DetectionOptions& options, collide::Settings& settings);

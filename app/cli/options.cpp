@@ -11,7 +11,7 @@
 #include "app/cli/integer_option.h"
 #include "app/files/playback.h"
 #include "app/files/scene_folder.h"
-#include "softbody/scene/limits.h"
+#include "softbody/scene/scene_keys.h"
 #include "softbody/world/world.h"
 
 namespace app::cli {
@@ -282,10 +282,11 @@ void check_play(const CLI::App& cli, const Options& options) {
 }
 
 /// Throws UsageError unless a scene file may have this length: a saved scene must be readable again.
-void require_length(const std::string& option, float metres, double most) {
-  if (!(metres >= static_cast<float>(softbody::min_length) && metres <= static_cast<float>(most)))
-    throw UsageError(option +
-                     fmt::format(": must be a number of metres from {:g} to {:.0f}", softbody::min_length, most));
+void require_length(const std::string& option, double metres, const softbody::Key& key) {
+  const auto [least, most] = key.limits;
+  if (!(static_cast<float>(metres) >= static_cast<float>(least) &&
+        static_cast<float>(metres) <= static_cast<float>(most)))
+    throw UsageError(option + fmt::format(": must be a number of metres from {:g} to {:.0f}", least, most));
 }
 
 }  // namespace
@@ -368,14 +369,11 @@ files::Opened open(const Options& options) {
   const bool may_be_saved = options.play.empty();
   scene.method = chosen_method(options.detection, scene.method).key;
   if (const auto tolerance = options.detection.tolerance; tolerance && may_be_saved)
-    require_length(fmt::format("--tolerance {:.9g}", *tolerance), static_cast<float>(*tolerance),
-                   softbody::max_tolerance);
+    require_length(fmt::format("--tolerance {:.9g}", *tolerance), *tolerance, softbody::scene_key::tolerance);
   apply(options.detection, scene.collision);
-  if (!automatic_cell_size(options.detection, true) && may_be_saved)
-    for (int axis = 0; axis < 3; ++axis)
-      require_length("--cell-size " + *options.detection.cell_size, scene.collision.cell_size[axis],
-                     softbody::max_length);
-  scene.default_cell_size = automatic_cell_size(options.detection, scene.default_cell_size);
+  if (options.detection.cell_size && may_be_saved)
+    for (const double side : softbody::numbers_of(scene.collision.cell_size))
+      require_length("--cell-size " + *options.detection.cell_size, side, softbody::scene_key::cell_size);
   if (options.self_collision) scene.collision.self_collision = *options.self_collision;
   if (options.view) scene.view = *options.view;
   if (options.contact_surface) scene.contact_surface = softbody::find_contact_surface(*options.contact_surface)->value;

@@ -93,7 +93,9 @@ Json plan_json(const softbody::World& world) {
   Json left_out = Json::array();
   for (const softbody::LeftOut& l : plan.left_out)
     left_out.push_back({{"stage", softbody::stage_key(l.stage)}, {"why", l.why}});
-  Json json{{"stages", to_json(plan.stages)}, {"left_out", left_out}};
+  Json shapes = Json::array();
+  for (const softbody::ShapeTraits* shape : plan.shapes) shapes.push_back(shape->key);
+  Json json{{"stages", to_json(plan.stages)}, {"shapes", shapes}, {"left_out", left_out}};
   const softbody::Integrator& integrator = world.integrator_choice().integrator();
   if (integrator.projects) json["as_forces"] = to_json(plan.unprojected(integrator));
   return json;

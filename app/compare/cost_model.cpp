@@ -93,7 +93,7 @@ double CostModel::reachable_buckets() const {
   for (int axis = 0; axis < 3; ++axis) {
     const std::uint64_t prime = settings_.primes[static_cast<std::size_t>(axis)] % settings_.buckets;
     common = std::gcd(common, prime);
-    max_sum += static_cast<double>(prime) * (extent_[axis] / static_cast<double>(settings_.cell_size[axis]) + 1);
+    max_sum += static_cast<double>(prime) * (extent_[axis] / static_cast<double>((*settings_.cell_size)[axis]) + 1);
   }
   return std::min(static_cast<double>(settings_.buckets / common), max_sum);
 }
@@ -121,7 +121,7 @@ WorkEstimate CostModel::estimate(const collide::Method& method) const {
 }
 
 WorkEstimate CostModel::estimate_hashed(const collide::Method& method) const {
-  const glm::dvec3 cell(settings_.cell_size), padding(static_cast<double>(settings_.tolerance));
+  const glm::dvec3 cell(*settings_.cell_size), padding(static_cast<double>(settings_.tolerance));
   const double boxes = std::min(std::ldexp(bodies_, settings_.levels), vertices_);
   const bool complete = method.uses_levels && method.exact;
   // A box is in eight cells, or in all that it overlaps with its padding; a vertex looks into the cells around it.

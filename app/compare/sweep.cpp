@@ -42,7 +42,7 @@ std::vector<Configuration> sweep_configurations(const collide::Settings& setting
 
 std::vector<Configuration> sweep_configurations(const softbody::BodiesInMotion& world, const MethodSet& methods) {
   return sweep_configurations(
-      world.collision(), [&](int levels) { return world.default_cell_size(levels); }, methods);
+      world.collision(), [&](int levels) { return world.automatic_cell_size(levels); }, methods);
 }
 
 Sweep::Sweep(const collide::Frame& frame, const std::vector<Configuration>& configurations, const SweepLimits& limits,

@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 
 #include "app/reference/body_shape.h"
+#include "softbody/contact/solid_surface.h"
 #include "softbody/forces/bound.h"
 #include "softbody/forces/gas.h"
-#include "softbody/scene/solids.h"
 
 namespace app::reference {
 namespace {
@@ -65,10 +65,9 @@ BodyState state_of(const softbody::World& world, softbody::BodyId body) {
 
 std::string ReferenceBody::unsupported_stage(const softbody::World& world) {
   // Detection and sleep move nothing: a body that sleeps has come to rest.
-  constexpr std::array<std::string_view, 13> known{
-      "structural-springs", "bend-springs",  "shear-springs", "gas-pressure", "gravity",
-      "integrate",          "solid-spheres", "ground",        "solid-planes", "solid-boxes",
-      "solid-capsules",     "detect",        "sleep"};
+  constexpr std::array<std::string_view, 9> known{
+      "structural-springs", "bend-springs", "shear-springs", "gas-pressure", "gravity",
+      "integrate",          "solids",       "detect",        "sleep"};
   if (world.scene().bodies.size() != 1) return "several bodies";
   for (const Stage stage : world.plan().stages)
     if (std::ranges::find(known, softbody::stage_key(stage)) == known.end())
@@ -108,7 +107,7 @@ std::vector<dvec3> ReferenceBody::accelerations(const BodyState& state) const {
 /// at most 1 m/s and a tenth of its depth per step. Coulomb friction acts in proportion to the correction.
 void ReferenceBody::collide_with_solids(const std::vector<dvec3>& x, std::vector<dvec3>& v, double h) const {
   const double thickness = model_.material[softbody::Material::thickness];
-  softbody::for_each_solid(scene_, [&](const auto& solid) {
+  for (const softbody::Solid& solid : scene_.solids) {
     for (std::size_t i = 0; i < x.size(); ++i) {
       const softbody::SolidSurface s = softbody::surface_at(solid, x[i]);
       const double gap = s.distance - thickness;
@@ -119,7 +118,7 @@ void ReferenceBody::collide_with_solids(const std::vector<dvec3>& x, std::vector
       const double slip = glm::length(along), lost = std::min(slip, solid.friction * (min_up - up));
       v[i] = min_up * s.normal + (slip > 0 ? (1 - lost / slip) * along : along);
     }
-  });
+  }
 }
 
 void ReferenceBody::step(BodyState& state, double h) const {

@@ -337,9 +337,9 @@ void add_overlays(const softbody::BodiesInMotion& world, const OverlayRequest& r
   const Overlays& shown = request.shown;
   if (shown.springs) add_springs(world, viewpoint, particles, frame);
   if (shown.body_boxes) add_body_boxes(world, positions, !shown.boxes, frame);
-  if (request.debug && shown.cells) add_cells(request, world.collision().cell_size, frame);
+  if (request.debug && shown.cells) add_cells(request, *world.collision().cell_size, frame);
   if (request.debug && shown.boxes) add_boxes(request, frame);
-  if (request.debug && request.bucket) add_bucket(request, world.collision().cell_size, positions, frame);
+  if (request.debug && request.bucket) add_bucket(request, *world.collision().cell_size, positions, frame);
   if (shown.areas) add_areas(request.areas, frame);
   if (shown.contacts) add_contacts(world, request.solid_contacts, at, frame);
   if (shown.missed && request.missed) add_missed(*request.missed, positions, frame);

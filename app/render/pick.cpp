@@ -35,7 +35,7 @@ bool passes(const engine::Ray& ray, const BoundingSphere& sphere) {
 /// Returns the distance at which the ray enters the first solid, at most `max_distance`.
 float clear_of_solids(const engine::Ray& ray, const softbody::Scene& scene, float max_distance) {
   double nearest = static_cast<double>(max_distance);
-  softbody::for_each_solid(scene, [&](const auto& solid) { nearest = entry_distance(ray, solid, nearest); });
+  for (const softbody::Solid& solid : scene.solids) nearest = entry_distance(ray, solid, nearest);
   return static_cast<float>(nearest);
 }
 
@@ -51,6 +51,20 @@ void hold_by_particles(Pick& pick, const softbody::BodyModel& model) {
 }
 
 }  // namespace
+
+double entry_distance(const engine::Ray& ray, const softbody::Solid& solid, double max_distance) {
+  constexpr double hit_distance = 1e-3;  // m
+  constexpr int max_steps = 300;
+  double along = 0;
+  for (int i = 0; i < max_steps && along < max_distance; ++i) {
+    const glm::dvec3 at = glm::dvec3(ray.origin) + along * glm::dvec3(ray.direction);
+    const double away = softbody::surface_at(solid, at).distance;
+    if (i == 0 && away <= 0) return max_distance;
+    if (away < hit_distance) return along;
+    along += away;
+  }
+  return max_distance;
+}
 
 BoundingSphere bounding_sphere(const softbody::BodiesInMotion& world, softbody::BodyId body,
                                const compare::DrawnPositions& positions) {

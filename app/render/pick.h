@@ -5,7 +5,7 @@
 
 #include "app/compare/drawn_positions.h"
 #include "engine/camera.h"
-#include "softbody/scene/solids.h"
+#include "softbody/contact/solid_surface.h"
 #include "softbody/world/bodies_in_motion.h"
 
 namespace app::render {
@@ -30,20 +30,7 @@ std::optional<float> distance_to_scene(const engine::Ray& ray, const softbody::B
 
 /// Returns the distance (m) at which the ray enters a solid, at most `max_distance`, by sphere tracing. It looks
 /// through a solid in which the ray starts, as the drawing does.
-template <class Solid>
-double entry_distance(const engine::Ray& ray, const Solid& solid, double max_distance) {
-  constexpr double hit_distance = 1e-3;  // m
-  constexpr int max_steps = 300;
-  double along = 0;
-  for (int i = 0; i < max_steps && along < max_distance; ++i) {
-    const glm::dvec3 at = glm::dvec3(ray.origin) + along * glm::dvec3(ray.direction);
-    const double away = softbody::surface_at(solid, at).distance;
-    if (i == 0 && away <= 0) return max_distance;
-    if (away < hit_distance) return along;
-    along += away;
-  }
-  return max_distance;
-}
+double entry_distance(const engine::Ray& ray, const softbody::Solid& solid, double max_distance);
 
 struct BoundingSphere {
   glm::vec3 centre;

@@ -36,6 +36,29 @@ double distance_factor(glm::ivec2 size) {
   return std::clamp(composed_for * std::max(size.y, 1) / std::max(size.x, 1), 1.0, 3.0);
 }
 
+// The pictures of the shapes of solids.
+void add(const softbody::SolidSphere& s, engine::FrameData& frame) {
+  frame.spheres.push_back({glm::vec3(s.centre), static_cast<float>(s.radius)});
+}
+void add(const softbody::SolidCapsule& c, engine::FrameData& frame) {
+  frame.capsules.push_back({glm::vec3(c.from), glm::vec3(c.to), static_cast<float>(c.radius)});
+}
+void add(const softbody::SolidBox& b, engine::FrameData& frame) {
+  const glm::dmat3 half_axes(b.half_size.x * b.axes[0], b.half_size.y * b.axes[1], b.half_size.z * b.axes[2]);
+  frame.oriented_boxes.push_back({glm::vec3(b.centre), glm::mat3(half_axes)});
+}
+void add(const softbody::SolidPlane& p, engine::FrameData& frame) {
+  if (!frame.floor_height && p.normal == glm::dvec3(0, 1, 0))
+    frame.floor_height = static_cast<float>(p.point.y);  // a floor
+  else
+    frame.planes.push_back({glm::vec3(p.point), glm::vec3(p.normal)});
+}
+
+void add_solids(const softbody::Scene& scene, engine::FrameData& frame) {
+  for (const softbody::Solid& solid : scene.solids)
+    if (solid.enabled) std::visit([&](const auto& shape) { add(shape, frame); }, solid.shape);
+}
+
 }  // namespace
 
 const SceneView::UploadedMesh& SceneView::upload(const softbody::Mesh& mesh) {
@@ -114,25 +137,6 @@ void SceneView::apply(const Highlight& highlight) {
   frame_.translucent.push_back(std::move(others));
 }
 
-void SceneView::gather_solids(const softbody::Scene& scene) {
-  constexpr glm::vec3 grey(0.62f);
-  for (const softbody::SolidSphere& s : scene.spheres)
-    frame_.spheres.push_back({glm::vec3(s.centre), static_cast<float>(s.radius), grey});
-  for (const softbody::SolidCapsule& c : scene.capsules)
-    frame_.capsules.push_back({glm::vec3(c.from), glm::vec3(c.to), static_cast<float>(c.radius), grey});
-  for (const softbody::SolidBox& b : scene.boxes) {
-    const glm::dmat3 half_axes(b.half_size.x * b.axes[0], b.half_size.y * b.axes[1], b.half_size.z * b.axes[2]);
-    frame_.oriented_boxes.push_back({glm::vec3(b.centre), glm::mat3(half_axes), grey});
-  }
-  if (scene.ground) frame_.floor_height = static_cast<float>(scene.ground->height);
-  for (const softbody::SolidPlane& p : scene.planes) {
-    if (!frame_.floor_height && p.normal == glm::dvec3(0, 1, 0))
-      frame_.floor_height = static_cast<float>(p.point.y);  // a floor
-    else
-      frame_.planes.push_back({glm::vec3(p.point), glm::vec3(p.normal)});
-  }
-}
-
 void SceneView::draw(const softbody::BodiesInMotion& world, const OverlayRequest& overlays,
                      const engine::Camera& camera, const engine::Viewport& viewport, float pixel_scale,
                      const compare::DrawnMeshes& at) {
@@ -162,7 +166,7 @@ void SceneView::draw(const softbody::BodiesInMotion& world, const OverlayRequest
   if (overlays.highlight) apply(*overlays.highlight);
   frame_.tessellated = !overlays.shown.springs;  // springs run along the straight edges
 
-  gather_solids(world.scene());
+  add_solids(world.scene(), frame_);
   const Bounds around = bounds(world);
   frame_.bounds_centre = around.centre;
   frame_.bounds_radius = enclosing_radius(around.centre, around.radius, positions_);
@@ -197,12 +201,13 @@ SceneView::Bounds SceneView::bounds(const softbody::BodiesInMotion& world) {
     lo = glm::min(lo, centre - reach);
     hi = glm::max(hi, centre + reach);
   };
-  for (const softbody::SolidSphere& s : scene.spheres) include(s.centre, s.radius);
-  for (const softbody::SolidBox& b : scene.boxes) include(b.centre, glm::length(b.half_size));
-  for (const softbody::SolidCapsule& c : scene.capsules) {
-    include(c.from, c.radius);
-    include(c.to, c.radius);
-  }
+  engine::FrameData solids;
+  add_solids(scene, solids);
+  for (const engine::Sphere& s : solids.spheres) include(glm::dvec3(s.centre), double{s.radius});
+  for (const engine::OrientedBox& b : solids.oriented_boxes)
+    include(glm::dvec3(b.centre), double{glm::length(b.half_axes * glm::vec3(1.0f))});
+  for (const engine::Capsule& c : solids.capsules)
+    for (const glm::vec3& end : {c.from, c.to}) include(glm::dvec3(end), double{c.radius});
   for (const softbody::BodySource& body : scene.bodies) include(body.position, radius(body.mesh));
   if (scene.dropper) include(scene.dropper->body.position, radius(scene.dropper->body.mesh));
   return {glm::vec3(0.5 * (lo + hi)), static_cast<float>(0.5 * glm::distance(lo, hi)) + 0.5f};
@@ -213,7 +218,9 @@ engine::Camera SceneView::camera(const softbody::BodiesInMotion& world, glm::ive
   const Bounds around = bounds(world);
   engine::Camera camera;
   camera.fit(around.centre, around.radius, size);  // sets the limits of zoom and depth
-  if (scene.ground) camera.set_floor(static_cast<float>(scene.ground->height));
+  for (const softbody::Solid& solid : scene.solids)
+    if (const auto* ground = std::get_if<softbody::Ground>(&solid.shape); ground && solid.enabled)
+      camera.set_floor(static_cast<float>(ground->height));
   const softbody::View& view = scene.view;
   camera.set_orbit({glm::vec3(view.target), static_cast<float>(view.distance * distance_factor(size)),
                     static_cast<float>(glm::radians(view.azimuth)), static_cast<float>(glm::radians(view.elevation))});

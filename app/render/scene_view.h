@@ -79,7 +79,6 @@ class SceneView {
   std::vector<engine::MeshDraw> gather_bodies(const softbody::BodiesInMotion& world, std::uint32_t first);
   void gather_ghost(const softbody::BodiesInMotion& ghost, const compare::DrawnPositions& positions);
   void apply(const Highlight& highlight);
-  void gather_solids(const softbody::Scene& scene);
   const UploadedMesh& upload(const softbody::Mesh& mesh);
   Bounds bounds(const softbody::BodiesInMotion& world);
   double radius(const softbody::MeshSource& source);

@@ -83,15 +83,14 @@ void BodyControls::add(softbody::BodySource body, Material material) {
     return simulation_.notice.set(error.what());
   }
   simulation_.change_bodies("import of a body", [&](World& world) {
-    std::vector<Material>& materials = simulation_.loaded.scene.materials;
-    const std::size_t known = find_material(materials, material);
+    softbody::Scene scene = world.scene();
+    const std::size_t known = find_material(scene.materials, material);
     body.material = static_cast<int>(known);
-    if (known == materials.size()) {
-      make_name_new(material.name, materials);
-      materials.push_back(std::move(material));
+    if (known == scene.materials.size()) {
+      make_name_new(material.name, scene.materials);
+      scene.materials.push_back(std::move(material));
+      world.apply(scene);
     }
-    // After an undo the world may lack materials that were added later.
-    for (std::size_t i = world.scene().materials.size(); i < materials.size(); ++i) world.set_material(i, materials[i]);
     world.add(body);
     return true;
   });
@@ -110,12 +109,6 @@ void BodyControls::remove_selected() {
     return true;
   });
   selected_.reset();
-}
-
-void BodyControls::grab(const softbody::Grab& grab) {
-  simulation_.leave_script();
-  simulation_.begin_drag({Change::Of::bodies, "pull of a body"});
-  simulation_.change([&](World& world) { world.grab(grab); });
 }
 
 void BodyControls::replaced(bool new_scene) { select(new_scene ? std::nullopt : selected_); }

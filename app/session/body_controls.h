@@ -1,5 +1,5 @@
 #pragma once
-// What the user does with bodies: select, grab, drop, throw, add and delete them.
+// What the user does with bodies: select, drop, throw, add and delete them.
 
 #include "app/session/simulation.h"
 
@@ -26,10 +26,6 @@ class BodyControls {
   const std::optional<softbody::BodyId>& selected() const { return selected_; }
   void select(std::optional<softbody::BodyId> body);
   void remove_selected();
-
-  void grab(const softbody::Grab& grab);
-  void pull_to(const glm::dvec3& target) { simulation_.pull_to(target); }  // m
-  void release() { simulation_.release(); }  // undo() then goes back to the grab, if the body was pulled
 
   /// To be called by the simulation's observer.
   void replaced(bool new_scene);

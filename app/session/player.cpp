@@ -1,19 +1,17 @@
 #include "app/session/player.h"
 
-#include <cassert>
-
 #include "app/base/timings.h"
+#include "app/session/window_work.h"
 
 namespace app::session {
 
 Player::Player(std::shared_ptr<files::Recording> recording, softbody::Scene scene, int threads)
     : recording_(std::move(recording)),
       scene_(std::move(scene)),
-      settings_(scene_.collision),
+      settings_(settings_of(scene_)),
       method_(collide::find_method(scene_.method)),
       workers_(threads),
       detector_(method_->make()) {
-  if (scene_.default_cell_size) settings_.cell_size = default_cell_size(settings_.levels);
   show(0);
 }
 
@@ -42,23 +40,25 @@ void Player::detect() {
   report_.detect_ms = time_ms([this] { detector_->detect(positions(), settings_, workers_, result_); });
 }
 
-glm::vec3 Player::default_cell_size(int levels) const {
-  return files::default_cell_size(*recording_, levels, settings_.tolerance);
+collide::Settings Player::settings_of(const softbody::Scene& scene) const {
+  collide::Settings all = scene.collision;
+  if (!all.cell_size) all.cell_size = files::automatic_cell_size(*recording_, all.levels, all.tolerance);
+  return all;
 }
 
-void Player::set_method(std::string_view key) {
-  method_ = collide::find_method(key);
-  assert(method_);
-  detector_ = method_->make();
-  detect();
-}
-
-void Player::set_collision(const collide::Settings& settings, bool default_cell_size) {
-  assert(collide::problem(settings).empty());
-  settings_ = scene_.collision = settings;
-  scene_.default_cell_size = default_cell_size;
-  if (default_cell_size) settings_.cell_size = this->default_cell_size(settings.levels);
-  detect();
+void Player::apply(const softbody::Scene& scene) {
+  if (const std::string wrong = collide::problem(scene.collision); !wrong.empty()) throw softbody::SceneError(wrong);
+  const collide::Method& method = *collide::find_method(scene.method);
+  collide::Settings settings = settings_of(scene);
+  if (&method != method_ || settings != settings_) require_affordable(*this, method, settings);
+  auto detector = method.make();
+  collide::Result result;
+  report_.detect_ms = time_ms([&] { detector->detect(positions(), settings, workers_, result); });
+  scene_ = scene;
+  method_ = &method;
+  settings_ = settings;
+  detector_ = std::move(detector);
+  result_ = std::move(result);
 }
 
 void Player::forget_detection() {

@@ -21,12 +21,10 @@ class Player : public softbody::BodiesInMotion {
   /// Shows a frame and detects. Throws as Recording::frame() does, and then shows what it did before. If it is the
   /// detector that throws, the frame is shown, but detection() is not of it.
   void show(int number);
-  void set_method(std::string_view key);  // of a known method
-  /// problem(settings) must be empty.
-  void set_collision(const collide::Settings& settings, bool default_cell_size);
-  /// Finds the contacts anew.
-  void detect();
-  /// Frees the memory of the detection, until detect() is called.
+  /// Makes `scene` the scene, and detects anew. Changes nothing if it throws: SceneError for settings that are not
+  /// allowed or take too long in a frame, or what the detector throws.
+  void apply(const softbody::Scene& scene);
+  /// Frees the memory of the detection, until apply() is called.
   void forget_detection();
 
   const std::shared_ptr<files::Recording>& recording() const { return recording_; }
@@ -35,7 +33,9 @@ class Player : public softbody::BodiesInMotion {
 
   const softbody::Scene& scene() const override { return scene_; }
   const collide::Settings& collision() const override { return settings_; }
-  glm::vec3 default_cell_size(int levels) const override;
+  glm::vec3 automatic_cell_size(int levels) const override {
+    return files::automatic_cell_size(*recording_, levels, settings_.tolerance);
+  }
   const collide::Method& method() const override { return *method_; }
   std::optional<std::array<glm::vec3, 2>> bounds() const override { return recording_->bounds(); }
   int frame() const override { return frame_; }
@@ -51,6 +51,9 @@ class Player : public softbody::BodiesInMotion {
   const collide::Detector& detector() const override { return *detector_; }
 
  private:
+  collide::Settings settings_of(const softbody::Scene& scene) const;
+  void detect();
+
   std::shared_ptr<files::Recording> recording_;
   softbody::Scene scene_;
   collide::Settings settings_;

@@ -53,13 +53,11 @@ void SceneControls::choose(const std::string& key_or_path) {
 
 void SceneControls::enter(ShownWorld world, softbody::Scene scene, const std::string& key_or_path) {
   files::protect_inputs(scene);
-  SceneFile file(key_or_path, scene);
-  SolidList solids = list_solids(scene);
-  simulation_.enter(std::move(world), {std::move(scene), std::move(file), std::move(solids)}, "choice of scene");
+  simulation_.enter(std::move(world), {std::move(scene), SceneFile(key_or_path)}, "choice of scene");
 }
 
 softbody::Scene SceneControls::with_added_bodies() const {
-  softbody::Scene scene = scene_in_use(simulation_);
+  softbody::Scene scene = simulation_.world().scene();
   if (simulation_.simulated()) scene.bodies = softbody::body_sources(*simulation_.simulated());
   return scene;
 }
@@ -77,7 +75,8 @@ std::string SceneControls::save(const std::filesystem::path& file, const softbod
   softbody::Scene scene = with_added_bodies();
   scene.view = view;
   try {
-    simulation_.loaded.file = SceneFile::save(std::move(scene), file);
+    simulation_.loaded.file = SceneFile::save(scene, file);
+    simulation_.loaded.scene = std::move(scene);
   } catch (const std::exception& error) {
     return error.what();
   }

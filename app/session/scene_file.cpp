@@ -3,24 +3,13 @@
 #include <algorithm>
 
 #include "app/files/output_file.h"
+#include "softbody/scene/scene_keys.h"
 #include "softbody/scene/scene_write.h"
 #include "softbody/scene/toml_text.h"
 
 namespace app::session {
 namespace fs = std::filesystem;
 namespace {
-
-/// Returns the scene without all that command-line options can set.
-softbody::Scene without_options(softbody::Scene scene) {
-  const softbody::Scene plain;
-  scene.key = plain.key;  // depends on the file's name
-  scene.method = plain.method;
-  scene.contact_surface = plain.contact_surface;
-  scene.collision = plain.collision;
-  scene.default_cell_size = plain.default_cell_size;
-  scene.view = plain.view;
-  return scene;
-}
 
 std::string three(const auto& values) {
   return softbody::toml_value(values[0]) + "," + softbody::toml_value(values[1]) + "," +
@@ -36,15 +25,14 @@ std::string view_text(const softbody::View& v) {
 
 }  // namespace
 
-SceneFile::SceneFile(const std::string& key_or_path, softbody::Scene content)
+SceneFile::SceneFile(const std::string& key_or_path)
     : name_(key_or_path.ends_with(ending) ? fs::absolute(key_or_path).string() : key_or_path),
-      content_(without_options(std::move(content))),
       known_time_(time_on_disk()) {}
 
-SceneFile SceneFile::save(softbody::Scene scene, const fs::path& file) {
+SceneFile SceneFile::save(const softbody::Scene& scene, const fs::path& file) {
   if (file.extension() != ending) throw softbody::SceneError("a scene's file must end in .toml, e.g. scene.toml");
   files::write_file(file, softbody::scene_toml(scene, file.parent_path()));
-  return {file.string(), std::move(scene)};
+  return SceneFile(file.string());
 }
 
 bool SceneFile::is_at(const fs::path& file) const {
@@ -57,7 +45,13 @@ fs::file_time_type SceneFile::time_on_disk() const {
   return fs::last_write_time(name_, missing);
 }
 
-bool SceneFile::reproduces(const softbody::Scene& used) const { return without_options(used) == content_; }
+bool options_make(const softbody::Scene& used, const softbody::Scene& named) {
+  softbody::Scene made = named;
+  made.key = used.key;  // depends on the file's name
+  made.view = used.view;
+  softbody::copy_values(used, made, true);
+  return made == used;
+}
 
 std::string shell_word(const std::string& text) {
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./,:=+@%";
@@ -79,7 +73,7 @@ std::string detection_options(const softbody::Scene& used) {
   const collide::Settings& c = used.collision;
   std::string text = option("--method", used.method) + option("--levels", std::to_string(c.levels)) +
                      option("--buckets", std::to_string(c.buckets)) +
-                     option("--cell-size", used.default_cell_size ? "auto" : three(c.cell_size));
+                     option("--cell-size", c.cell_size ? three(*c.cell_size) : "auto");
   if (c.primes != collide::default_primes) text += option("--primes", three(c.primes));
   text += option("--tolerance", softbody::toml_value(c.tolerance)) + (c.self_collision ? " --self" : " --no-self");
   return text + option("--view", view_text(used.view));

@@ -16,11 +16,11 @@ class SceneFile {
   static constexpr std::string_view ending = ".toml";
 
   SceneFile() = default;
-  /// key_or_path: in the form of --scene; content: the scene of that name.
-  SceneFile(const std::string& key_or_path, softbody::Scene content);
+  /// key_or_path: in the form of --scene.
+  explicit SceneFile(const std::string& key_or_path);
 
   /// Writes a scene to a file, which becomes complete or stays as it was. Throws SceneError or UsageError.
-  static SceneFile save(softbody::Scene scene, const std::filesystem::path& file);
+  static SceneFile save(const softbody::Scene& scene, const std::filesystem::path& file);
 
   /// Returns the name by which --scene finds it from any folder: a key, or an absolute path.
   const std::string& name() const { return name_; }
@@ -28,16 +28,16 @@ class SceneFile {
   bool is_at(const std::filesystem::path& file) const;
   /// Returns true if the scene's file is not the one any more that was read or written.
   bool changed_on_disk() const { return time_on_disk() != known_time_; }
-  /// Returns true if the scene of this name and command-line options reproduce the scene `used`.
-  bool reproduces(const softbody::Scene& used) const;
 
  private:
   std::filesystem::file_time_type time_on_disk() const;
 
   std::string name_;
-  softbody::Scene content_;
   std::filesystem::file_time_type known_time_{};
 };
+
+/// Returns true if command-line options make the scene `used` of `named`.
+bool options_make(const softbody::Scene& used, const softbody::Scene& named);
 
 /// Returns `text` as one word of a POSIX shell, quoted only if needed.
 std::string shell_word(const std::string& text);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/base/usage_error.h"
+#include "app/session/window_work.h"
 
 namespace app::session {
 
@@ -12,37 +13,11 @@ using softbody::World;
 
 namespace {
 
-/// Where the world has other gravity or materials than those in use, it gets these; so too the solids, if asked for.
-void keep_settings(World& world, const softbody::Scene& in_use, bool with_solids) {
-  const softbody::Scene& now = world.scene();
-  if (now.gravity != in_use.gravity) world.set_gravity(in_use.gravity);
-  if (with_solids && list_solids(now) != list_solids(in_use)) world.set_solids(in_use);
-  for (std::size_t i = 0; i < std::min(now.materials.size(), in_use.materials.size()); ++i)
-    if (!(now.materials[i] == in_use.materials[i])) world.set_material(i, in_use.materials[i]);
-}
-
-/// The bodies as they were, with the settings in use; `with_its_solids`: with the solids as they were, too.
-void restore(World& world, const softbody::Snapshot& snapshot, bool with_its_solids) {
-  const std::string method(world.method().key);
-  const softbody::ContactSurface surface = world.scene().contact_surface;
-  const collide::Settings settings = world.collision();
-  const bool default_cell_size = world.scene().default_cell_size;
-  const softbody::IntegratorChoice integrator = world.integrator_choice();
-  const softbody::Scene in_use = world.scene();
-  world.restore(snapshot);
-  if (integrator != world.integrator_choice()) world.set_integrator(integrator);
-  if (surface != world.scene().contact_surface) world.set_contact_surface(surface);
-  keep_settings(world, in_use, !with_its_solids);
-  if (method != world.method().key) world.set_method(method);
-  if (settings != world.collision() || default_cell_size != world.scene().default_cell_size)
-    world.set_collision(settings, default_cell_size);
-}
-
 /// Returns what was kept, as it was. Throws if there is too little memory.
 ShownWorld bring_back(const decltype(KeptWorld::world)& kept, int threads) {
-  if (const auto* player = std::get_if<std::shared_ptr<Player>>(&kept)) {
-    (*player)->detect();
-    return *player;
+  if (const auto* played = std::get_if<KeptPlayer>(&kept)) {
+    played->player->apply(played->scene);
+    return played->player;
   }
   auto world = make_window_world({}, {}, threads);
   world->restore(std::get<softbody::Snapshot>(kept));
@@ -54,7 +29,7 @@ ShownWorld bring_back(const decltype(KeptWorld::world)& kept, int threads) {
 Simulation::Simulation(files::Opened opened, int threads, std::string scene_name, SimulationObserver* observer)
     : observer_(observer ? *observer : none_), threads_(threads), shown_(show_in_window(opened, threads)) {
   const softbody::Scene& scene = opened.scene;
-  loaded = {scene, SceneFile(scene_name.empty() ? scene.key : scene_name, scene), list_solids(scene)};
+  loaded = {scene, SceneFile(scene_name.empty() ? scene.key : scene_name)};
   if (simulated()) stability_.restart(*simulated());
   before_last_step_.copy(world());
 }
@@ -138,7 +113,7 @@ const std::string& Simulation::caption() const {
 }
 
 /// Returns false, with a notice, if `action` throws. What a world refuses changes nothing; all else (too little memory
-/// for a detector, say) pauses.
+/// for a detector, say) pauses, and may have changed something.
 bool Simulation::attempt(const std::function<void()>& action) {
   try {
     action();
@@ -155,74 +130,96 @@ bool Simulation::attempt(const std::function<void()>& action) {
     notice.set(std::string(defect_prefix) + error.what());
   }
   clock.paused = true;
+  ++revision_;
+  observer_.intervened();
   return false;
 }
 
-bool Simulation::change(const std::function<void(World&)>& change) {
-  return carry_out([&] {
-    if (player()) throw softbody::SceneError("no body can join or change: the motion is recorded");
-    change(solver());
-  });
+softbody::World& Simulation::solver() {
+  if (player()) throw softbody::SceneError("no body can join or change: the motion is recorded");
+  return *std::get<0>(shown_);
 }
 
-bool Simulation::carry_out(const std::function<void()>& change) {
+/// Returns what `change` returns: whether it changed anything. False if it throws.
+bool Simulation::intervene(const std::function<bool()>& change) {
   notice.clear();
   const collide::Method& method = world().method();
   const collide::Settings settings = world().collision();
-  const bool done = attempt(change);
+  bool changed = false;
+  if (!attempt([&] { changed = change(); }) || !changed) return false;
   ++revision_;
   observer_.intervened();
   if (&method != &world().method() || settings != world().collision()) observer_.detection_changed();
-  return done;
+  return true;
 }
 
-bool Simulation::change_bodies(std::string name, const std::function<bool(World&)>& change) {
-  leave_script();
-  KeptWorld before = present({Change::Of::bodies, std::move(name)});
-  bool changed = false;
+/// `joins`: undo() takes the change together with the one before it.
+bool Simulation::carry_out(const std::string& name, bool joins, const std::function<bool()>& change) {
+  std::optional<KeptWorld> before;
+  if (!joins) before = present(name);
+  if (!intervene(change)) return false;
+  if (before) kept_.push(std::move(*before));
+  if (before_pull_) before_pull_ = present(before_pull_->change);  // a pull that goes on is undone up to here
+  return true;
+}
+
+bool Simulation::change_scene(const std::string& name, const std::function<void(softbody::Scene&)>& change) {
+  softbody::Scene scene = world().scene();
+  change(scene);
+  if (scene == world().scene()) return true;
+  return carry_out(name, kept_.ends_with(name), [&] {
+    std::visit([&](auto& shown) { shown->apply(scene); }, shown_);
+    return true;
+  });
+}
+
+bool Simulation::change_solver(const std::string& name, const std::function<void(World&)>& change) {
+  return carry_out(name, kept_.ends_with(name), [&] { return change(solver()), true; });
+}
+
+bool Simulation::change_bodies(const std::string& name, const std::function<bool(World&)>& change) {
+  as_scripted_ = false;
   const std::size_t bodies = world().bodies().count();
-  this->change([&](World& world) { changed = change(world); });
-  if (changed) {
-    kept_.push(std::move(before));
-    if (before_drag_) before_drag_ = present(before_drag_->change);  // a drag that goes on is undone up to here
-  }
+  const bool changed = carry_out(name, false, [&] { return change(solver()); });
   if (world().bodies().count() < bodies) replace(false);  // bodies after a deleted one have other ids
   return changed;
+}
+
+void Simulation::grab(const softbody::Grab& grab) {
+  as_scripted_ = false;
+  KeptWorld before = present("pull of a body");
+  if (intervene([&] { return solver().grab(grab), true; })) before_pull_ = std::move(before);
 }
 
 void Simulation::pull_to(const glm::dvec3& target) {
   std::optional<softbody::Grab> grab = grabbed();
   if (!grab) return;
-  keep_drag();
+  if (before_pull_) kept_.push(*std::exchange(before_pull_, std::nullopt));
   grab->target = target;
   solver().grab(grab);
 }
 
 void Simulation::release() {
   if (grabbed()) solver().grab({});
-  end_drag();
-}
-
-void Simulation::keep_drag() {
-  if (before_drag_) kept_.push(*std::exchange(before_drag_, std::nullopt));
+  before_pull_.reset();
 }
 
 /// What was found out about the world before is of no use.
 void Simulation::replace(bool new_scene) {
   before_last_step_.copy(world());
   clock.restart();
-  end_drag();
+  before_pull_.reset();
   ++revision_;
   ++world_number_;
   observer_.replaced(new_scene);
 }
 
 /// Without the hand that may hold a body: after an undo nobody would let go.
-KeptWorld Simulation::present(Change change) const {
-  if (player()) return {std::get<1>(shown_), loaded, std::move(change)};
+KeptWorld Simulation::present(std::string change, bool leaves) const {
+  if (player()) return {KeptPlayer{std::get<1>(shown_), world().scene()}, loaded, std::move(change), leaves};
   softbody::Snapshot now = simulated()->snapshot();
   now.grab.reset();
-  return {std::move(now), loaded, std::move(change)};
+  return {std::move(now), loaded, std::move(change), leaves};
 }
 
 void Simulation::leave_for(ShownWorld next) {
@@ -244,14 +241,14 @@ void Simulation::leave_for(ShownWorld next) {
 }
 
 void Simulation::enter(ShownWorld world, LoadedScene scene, std::string name) {
-  kept_.push(present({Change::Of::scene, std::move(name)}));
+  kept_.push(present(std::move(name), true));
   loaded = std::move(scene);
   leave_for(std::move(world));
 }
 
 void Simulation::reset() {
   try {
-    const softbody::Scene scene = scene_in_use(*this);
+    const softbody::Scene& scene = world().scene();
     ShownWorld anew = player() ? show_in_window({scene, player()->recording()}, threads_)
                                : make_window_world(scene, simulated()->integrator_choice(), threads_);
     enter(std::move(anew), loaded, "reset");
@@ -263,12 +260,12 @@ void Simulation::reset() {
 void Simulation::go(Way way) {
   if (kept_.empty(way)) return notice.tell(way == Way::back ? "Nothing to undo" : "Nothing to redo");
   KeptWorld there = kept_.next(way);
-  KeptWorld here = present(there.change);
+  KeptWorld here = present(there.change, there.leaves);
   const auto arrive = [&] {
     kept_.turn(way, std::move(here));
     loaded = std::move(there.loaded);
   };
-  if (there.change.of == Change::Of::scene) {
+  if (there.leaves) {
     attempt([&] {
       ShownWorld next = bring_back(there.world, threads_);
       arrive();
@@ -276,14 +273,17 @@ void Simulation::go(Way way) {
     });
   } else {
     // The worlds in between are gone again, so this one is the snapshot's.
-    const bool of_solids = there.change.of == Change::Of::solids;
-    if (!of_solids) there.loaded.solids = std::move(loaded.solids);  // those in use stay
     arrive();
-    notice.clear();
-    attempt([&] { restore(solver(), std::get<0>(there.world), of_solids); });
+    intervene([&] {
+      if (const auto* played = std::get_if<KeptPlayer>(&there.world))
+        std::get<1>(shown_)->apply(played->scene);
+      else
+        solver().restore(std::get<0>(there.world));
+      return true;
+    });
     after_going_back();
   }
-  if (!notice.is_error()) notice.tell((way == Way::back ? "Undone: " : "Redone: ") + there.change.name);
+  if (!notice.is_error()) notice.tell((way == Way::back ? "Undone: " : "Redone: ") + there.change);
 }
 
 void Simulation::rewind_to(int frame) {
@@ -292,10 +292,13 @@ void Simulation::rewind_to(int frame) {
   if (simulated() && past.snapshots().empty()) return;
   notice.clear();
   attempt([&] {
-    if (player())
-      std::get<1>(shown_)->show(frame);
-    else
-      restore(solver(), past.snapshots()[past.at(frame)], false);
+    if (player()) return std::get<1>(shown_)->show(frame);
+    World& world = solver();
+    const softbody::Scene in_use = world.scene();
+    const softbody::IntegratorChoice integrator = world.integrator_choice();
+    world.restore(past.snapshots()[past.at(frame)]);
+    if (integrator != world.integrator_choice()) world.set_integrator(integrator);
+    world.apply(in_use);
   });
   clock.paused = true;
   after_going_back();
@@ -313,20 +316,6 @@ void Simulation::after_going_back() {
   replace(false);
 }
 
-softbody::Scene scene_in_use(const Simulation& simulation) {
-  softbody::Scene scene = simulation.loaded.scene;
-  const softbody::BodiesInMotion& world = simulation.world();
-  const softbody::Scene& now = world.scene();
-  scene.gravity = now.gravity;
-  std::ranges::copy(now.materials, scene.materials.begin());
-  put_solids(simulation.loaded.solids, scene);
-  scene.method = world.method().key;
-  scene.contact_surface = now.contact_surface;
-  scene.collision = world.collision();
-  scene.default_cell_size = now.default_cell_size;
-  return scene;
-}
-
 ShownWorld show_in_window(const files::Opened& opened, int threads) {
   if (opened.recording) return std::make_shared<Player>(opened.recording, opened.scene, threads);
   return make_window_world(opened.scene, {}, threads);
@@ -334,8 +323,10 @@ ShownWorld show_in_window(const files::Opened& opened, int threads) {
 
 std::unique_ptr<World> make_window_world(const softbody::Scene& scene, const softbody::IntegratorChoice& integrator,
                                          int threads) {
-  return std::make_unique<World>(
-      scene, World::Options{.threads = threads, .integrator = integrator, .budget = softbody::window_budget});
+  return std::make_unique<World>(scene, World::Options{.threads = threads,
+                                                       .integrator = integrator,
+                                                       .budget = softbody::window_budget,
+                                                       .check_work = require_affordable});
 }
 
 }  // namespace app::session

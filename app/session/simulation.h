@@ -94,34 +94,26 @@ class Simulation {
   /// Another number after each SimulationObserver::replaced().
   std::uint64_t world_number() const { return world_number_; }
 
-  // Changes by the user. They clear notice(); what fails sets it, and errors that no input explains pause.
-  /// Changes the world; nothing if none is simulated, which is an error. Returns false if `change` throws. The world is
-  /// then as `change` left it.
-  bool change(const std::function<void(softbody::World&)>& change);
-  /// Calls `change` with what is shown, a World or a Player, to set how contacts are found. Returns as change().
-  template <class Change>
-  bool change_detection(const Change& change) {
-    return carry_out([&] { std::visit([&](auto& shown) { change(*shown); }, shown_); });
-  }
-  /// Changes bodies, which can be undone under this name. `change` returns whether it changed anything.
-  bool change_bodies(std::string name, const std::function<bool(softbody::World&)>& change);
-  /// A drag of the mouse makes many changes, which are undone as one: it begins with begin_drag(), and whatever changes
-  /// something in it calls keep_drag(). A drag that changes nothing cannot be undone.
-  void begin_drag(Change change) { before_drag_ = present(std::move(change)); }
-  void keep_drag();
-  void end_drag() { before_drag_.reset(); }
-  /// The user touched a body: the scene's captions no longer apply. change_bodies() includes it.
-  void leave_script() { as_scripted_ = false; }
-  /// Move or release the body that the hand holds; each step counts a held body as a change.
+  // Changes by the user. They clear notice(); what fails sets it, and errors that no input explains pause. undo() takes
+  // them back under their name: those of a setting that follow each other with the same name as one.
+  /// Changes the scene in use by `change`. Returns false if the scene is refused; the world is then as before.
+  bool change_scene(const std::string& name, const std::function<void(softbody::Scene&)>& change);
+  /// Changes how the world is simulated. An error if none is.
+  bool change_solver(const std::string& name, const std::function<void(softbody::World&)>& change);
+  /// Changes bodies. `change` returns whether it changed anything.
+  bool change_bodies(const std::string& name, const std::function<bool(softbody::World&)>& change);
+  /// A pull of a body is one change, from grab() to release(), if pull_to() is called at all. Each step counts a held
+  /// body as a change.
+  void grab(const softbody::Grab& grab);
   void pull_to(const glm::dvec3& target);  // m
   void release();
   /// Goes on with `world`, which was made from `scene`. The one before can be had back by undo(), under this name.
   void enter(ShownWorld world, LoadedScene scene, std::string name);
-  /// Restarts with scene_in_use(), without added bodies. On an error the present world goes on.
+  /// Restarts with the scene in use, without added bodies. On an error the present world goes on.
   void reset();
 
-  /// Return true if there is a world to go to, to the bit: one before a reset, a choice of scene, a change of bodies or
-  /// a drag; or one that was left by undo(), until the next such change.
+  /// Return true if there is a world to go to, to the bit: one before a change, a reset or a choice of scene; or one
+  /// that was left by undo(), until the next such change.
   bool can_undo() const { return !kept_.empty(Way::back); }
   bool can_redo() const { return !kept_.empty(Way::forward); }
   /// Go there; the notice says what was undone. They stay where they are, with an error, if there is too little memory.
@@ -134,9 +126,10 @@ class Simulation {
 
  private:
   bool attempt(const std::function<void()>& action);
-  bool carry_out(const std::function<void()>& change);
+  bool intervene(const std::function<bool()>& change);
+  bool carry_out(const std::string& name, bool joins, const std::function<bool()>& change);
   void replace(bool new_scene);
-  KeptWorld present(Change change) const;
+  KeptWorld present(std::string change, bool leaves = false) const;
   void leave_for(ShownWorld next);
   void go(Way way);
   void after_going_back();
@@ -144,15 +137,15 @@ class Simulation {
   bool step(softbody::World& world);
   bool step(Player& player);
   SimulationClock::Step step();
-  softbody::World& solver() { return *std::get<0>(shown_); }
+  softbody::World& solver();
 
   SimulationObserver none_;
   SimulationObserver& observer_;
   int threads_;
   ShownWorld shown_;
   UndoHistory kept_;
-  std::optional<KeptWorld> before_drag_;  // until keep_drag()
-  bool as_scripted_ = true;
+  std::optional<KeptWorld> before_pull_;  // until something is pulled
+  bool as_scripted_ = true;               // no body was touched by the user
   compare::WorldPositions before_last_step_;
   double step_ms_ = 0;
   StabilityMonitor stability_;
@@ -160,9 +153,6 @@ class Simulation {
   std::uint64_t last_revision_ = 0;  // after the last step
   std::size_t rest_steps_ = 0;       // without another revision
 };
-
-/// Returns the loaded scene with the settings in use.
-softbody::Scene scene_in_use(const Simulation& simulation);
 
 /// Returns what shows a scene, or plays frames, in a window. Throws SceneError.
 ShownWorld show_in_window(const files::Opened& opened, int threads);

@@ -1,78 +1,49 @@
 #include "app/session/solid_list.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
+#include <numeric>
+#include <utility>
 
 #include <glm/common.hpp>
 
 namespace app::session {
 namespace {
 
-template <class Solid>
-void add(const std::vector<Solid>& solids, SolidList& list) {
-  for (const Solid& solid : solids) list.push_back({solid});
-}
-
-/// Returns the place moved by `by`, within the limits. One that is beyond them may come back.
-glm::dvec3 place(const glm::dvec3& from, const glm::dvec3& by) {
-  const glm::dvec3 limit(max_solid_coordinate);
-  return glm::clamp(from + by, glm::min(-limit, from), glm::max(limit, from));
-}
-
-bool move(softbody::SolidSphere& s, const glm::dvec3& by) { return s.centre = place(s.centre, by), true; }
-bool move(softbody::SolidBox& b, const glm::dvec3& by) { return b.centre = place(b.centre, by), true; }
-bool move(softbody::SolidCapsule& c, const glm::dvec3& by) {
-  const glm::dvec3 axis = c.to - c.from;
-  c.from = place(c.from, by);
-  c.to = c.from + axis;
-  return true;
-}
-bool move(softbody::SolidPlane&, const glm::dvec3&) { return false; }
-bool move(softbody::Ground&, const glm::dvec3&) { return false; }
-
-void put(const softbody::Ground& ground, softbody::Scene& scene) { scene.ground = ground; }
-void put(const softbody::SolidSphere& sphere, softbody::Scene& scene) { scene.spheres.push_back(sphere); }
-void put(const softbody::SolidPlane& plane, softbody::Scene& scene) { scene.planes.push_back(plane); }
-void put(const softbody::SolidBox& box, softbody::Scene& scene) { scene.boxes.push_back(box); }
-void put(const softbody::SolidCapsule& capsule, softbody::Scene& scene) { scene.capsules.push_back(capsule); }
+/// Moves the places of a shape.
+struct Mover {
+  glm::dvec3 by;
+  bool limited = false;
+  void operator()(const char*, softbody::solid::Place p) {
+    const glm::dvec3 limit(max_solid_coordinate);  // one that is beyond them may come back
+    if (!std::exchange(limited, true))
+      by = glm::clamp(p.value + by, glm::min(-limit, p.value), glm::max(limit, p.value)) - p.value;
+    p.value += by;
+  }
+  void operator()(const char*, auto) {}
+};
 
 }  // namespace
 
-SolidList list_solids(const softbody::Scene& scene) {
-  SolidList list;
-  add(scene.spheres, list);
-  add(scene.boxes, list);
-  add(scene.capsules, list);
-  add(scene.planes, list);
-  if (scene.ground) list.push_back({*scene.ground});
-  return list;
+std::vector<std::size_t> listed(const SolidList& solids) {
+  std::vector<std::size_t> order(solids.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(
+      order, {}, [&](std::size_t i) { return std::pair(solids[i].traits().half_space, solids[i].traits().single); });
+  return order;
 }
 
-void put_solids(const SolidList& list, softbody::Scene& scene) {
-  scene.spheres.clear();
-  scene.planes.clear();
-  scene.boxes.clear();
-  scene.capsules.clear();
-  scene.ground.reset();
-  for (const SolidEntry& entry : list)
-    if (entry.on) std::visit([&](const auto& solid) { put(solid, scene); }, entry.solid);
+softbody::Solid moved(softbody::Solid solid, const glm::dvec3& by) {
+  solid.values(Mover{by});
+  return solid;
 }
 
-std::optional<AnySolid> moved(const AnySolid& solid, const glm::dvec3& by) {
-  AnySolid there = solid;
-  if (std::visit([&](auto& one) { return move(one, by); }, there)) return there;
-  return std::nullopt;
-}
-
-std::string solid_name(const SolidList& list, std::size_t index) {
-  assert(index < list.size());
-  static constexpr std::array names{"Ground", "Sphere", "Plane", "Box", "Capsule"};  // in the order of AnySolid
-  const std::size_t kind = list[index].solid.index();
-  const auto same = [kind](const SolidEntry& entry) { return entry.solid.index() == kind; };
-  if (std::ranges::count_if(list, same) == 1) return names[kind];
-  const auto end = list.begin() + static_cast<std::ptrdiff_t>(index);
-  return names[kind] + (' ' + std::to_string(1 + std::count_if(list.begin(), end, same)));
+std::string solid_name(const SolidList& solids, std::size_t index) {
+  assert(index < solids.size());
+  std::string name(solids[index].traits().name);
+  const auto same = [&](const softbody::Solid& one) { return one.traits().name == name; };
+  if (std::ranges::count_if(solids, same) == 1) return name;
+  return name + ' ' + std::to_string(std::count_if(&solids[0], &solids[index] + 1, same));
 }
 
 }  // namespace app::session

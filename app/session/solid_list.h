@@ -1,33 +1,22 @@
 #pragma once
-// A list of a scene's solids, including those that are switched off.
+// The solids of a scene in the window: their order, their names, and how they are moved.
 
-#include <optional>
 #include <string>
-#include <variant>
+#include <vector>
 
-#include "softbody/scene/scene.h"
+#include "softbody/contact/solid.h"
 
 namespace app::session {
 
-using AnySolid = std::variant<softbody::Ground, softbody::SolidSphere, softbody::SolidPlane, softbody::SolidBox,
-                              softbody::SolidCapsule>;
+using SolidList = std::vector<softbody::Solid>;
 
-struct SolidEntry {
-  AnySolid solid;
-  bool on = true;
-  bool operator==(const SolidEntry&) const = default;
-};
-using SolidList = std::vector<SolidEntry>;
-
-/// Returns the solids of a scene, all switched on.
-SolidList list_solids(const softbody::Scene& scene);
-/// Replaces the scene's solids by the entries that are switched on.
-void put_solids(const SolidList& list, softbody::Scene& scene);
+/// Returns the indices of the solids in the order of lists: what has an end first, the ground last.
+std::vector<std::size_t> listed(const SolidList& solids);
 /// How far from the origin a solid may be moved along each axis (m).
-inline constexpr double max_solid_coordinate = 20;
-/// Returns a sphere, box or capsule moved by `by` (m); nothing for planes and grounds, which have no end to hold.
-std::optional<AnySolid> moved(const AnySolid& solid, const glm::dvec3& by);
-/// Returns the unique name of an entry, e.g. "Ground" or "Sphere 2". Precondition: index < list.size().
-std::string solid_name(const SolidList& list, std::size_t index);
+inline constexpr float max_solid_coordinate = 20;
+/// Returns a solid moved by `by` (m), its first place within the limits.
+softbody::Solid moved(softbody::Solid solid, const glm::dvec3& by);
+/// Returns the unique name of a solid, e.g. "Ground" or "Sphere 2". Precondition: index < solids.size().
+std::string solid_name(const SolidList& solids, std::size_t index);
 
 }  // namespace app::session

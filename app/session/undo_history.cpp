@@ -6,35 +6,38 @@
 namespace app::session {
 
 void UndoHistory::push(KeptWorld before) {
-  worlds(Way::forward).clear();
-  keep(Way::back, std::move(before));
+  steps_.erase(steps_.begin() + static_cast<std::ptrdiff_t>(here_), steps_.end());
+  steps_.push_back(std::move(before));
+  ++here_;
+  forget(Way::back);
 }
 
 const KeptWorld& UndoHistory::next(Way way) const {
   assert(!empty(way));
-  return worlds(way).back();
+  return steps_[way == Way::back ? here_ - 1 : here_];
 }
 
 void UndoHistory::turn(Way way, KeptWorld present) {
   assert(!empty(way));
-  worlds(way).pop_back();
-  keep(opposite(way), std::move(present));
+  if (way == Way::back) --here_;
+  steps_[here_] = std::move(present);
+  if (way == Way::forward) ++here_;
+  forget(way == Way::back ? Way::forward : Way::back);
 }
 
-void UndoHistory::keep(Way way, KeptWorld world) {
-  auto &here = worlds(way), &there = worlds(opposite(way));
-  here.push_back(std::move(world));
-  while (count() > max_count || (count() > 1 && bytes() > limit_)) {
-    auto& longer = here.size() > there.size() ? here : there;
-    longer.erase(longer.begin());
+/// Forgets the worlds that are the furthest away. kept: the way to the one that was kept last, which stays.
+void UndoHistory::forget(Way kept) {
+  while (steps_.size() > 1 && bytes() > limit_) {
+    const bool back = 2 * here_ + (kept == Way::forward ? 1 : 0) > steps_.size();
+    steps_.erase(back ? steps_.begin() : steps_.end() - 1);
+    if (back) --here_;
   }
 }
 
 std::size_t UndoHistory::bytes() const {
   std::size_t sum = 0;
-  for (const auto& way : worlds_)
-    for (const KeptWorld& kept : way)
-      sum += kept.world.index() == 0 ? std::get<0>(kept.world).bytes() : std::get<1>(kept.world)->bytes();
+  for (const KeptWorld& kept : steps_)
+    sum += kept.world.index() == 0 ? std::get<0>(kept.world).bytes() : std::get<1>(kept.world).player->bytes();
   return sum;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 // The worlds that undo and redo go to, within a bound of memory.
 
-#include <array>
 #include <cstddef>
 #include <string>
 #include <variant>
@@ -9,46 +8,46 @@
 
 #include "app/session/player.h"
 #include "app/session/scene_file.h"
-#include "app/session/solid_list.h"
 #include "softbody/world/snapshot.h"
 
 namespace app::session {
 
-/// The scene as it was loaded, with the materials that added bodies brought.
+/// The scene as it was loaded, or saved last.
 struct LoadedScene {
   softbody::Scene scene;
-  SceneFile file;    // where the scene came from, or was saved to last
-  SolidList solids;  // in use, also those that are switched off
+  SceneFile file;  // where the scene came from, or was saved to last
 };
 
-/// A change that can be undone.
-struct Change {
-  enum class Of { bodies, solids, scene };  // scene: the world is left for another one
-  Of of;
-  std::string name;  // e.g. "drop of 20 bodies"
+struct KeptPlayer {
+  std::shared_ptr<Player> player;
+  softbody::Scene scene;  // in use
 };
 
-/// The world before or after a change, and its scene.
+/// The world before or after a change that can be undone.
 struct KeptWorld {
-  std::variant<softbody::Snapshot, std::shared_ptr<Player>> world;
+  std::variant<softbody::Snapshot, KeptPlayer> world;
   LoadedScene loaded;
-  Change change;
+  std::string change;   // e.g. "drop of 20 bodies"
+  bool leaves = false;  // the change leaves the world for another one
 };
 
 enum class Way { back, forward };  // undo, redo
-inline Way opposite(Way way) { return way == Way::back ? Way::forward : Way::back; }
 
 class UndoHistory {
  public:
-  static constexpr std::size_t max_count = 8, max_bytes = std::size_t{64} << 20;  // both ways together
+  static constexpr std::size_t max_bytes = std::size_t{64} << 20;  // both ways together
 
   explicit UndoHistory(std::size_t limit = max_bytes) : limit_(limit) {}
 
-  bool empty(Way way) const { return worlds(way).empty(); }
-  std::size_t count() const { return worlds(Way::back).size() + worlds(Way::forward).size(); }
-  /// Keeps the world before a new change; forgets those that could be redone. Beyond the bounds it forgets the oldest,
+  bool empty(Way way) const { return here_ == (way == Way::back ? 0 : steps_.size()); }
+  std::size_t count() const { return steps_.size(); }
+  /// Keeps the world before a new change; forgets those that could be redone. Beyond the bound it forgets the oldest,
   /// but never this one.
   void push(KeptWorld before);
+  /// Returns true if the latest change is of this name, and was not undone or followed by an undone one.
+  bool ends_with(const std::string& change) const {
+    return empty(Way::forward) && !empty(Way::back) && next(Way::back).change == change;
+  }
   /// Returns the world to go to. Precondition: not empty(way).
   const KeptWorld& next(Way way) const;
   /// Takes next(way) out and keeps `present` to come back to; forgets as push() does.
@@ -57,12 +56,11 @@ class UndoHistory {
   std::size_t bytes() const;
 
  private:
-  const std::vector<KeptWorld>& worlds(Way way) const { return worlds_[static_cast<std::size_t>(way)]; }
-  std::vector<KeptWorld>& worlds(Way way) { return worlds_[static_cast<std::size_t>(way)]; }
-  void keep(Way way, KeptWorld world);
+  void forget(Way kept);
 
   std::size_t limit_;
-  std::array<std::vector<KeptWorld>, 2> worlds_;  // by Way; the next one last
+  std::vector<KeptWorld> steps_;  // in order: those to go back to, and from here_ on those to go forward to
+  std::size_t here_ = 0;
 };
 
 }  // namespace app::session

@@ -17,4 +17,13 @@ inline compare::WorkEstimate window_work(const softbody::BodiesInMotion& world, 
   return cost_model.of(compare::method_index(method.key));
 }
 
+/// Throws SceneError if the method would hold the window up: it runs where the bodies are moved and drawn.
+inline void require_affordable(const softbody::BodiesInMotion& world, const collide::Method& method,
+                               const collide::Settings& settings) {
+  const compare::WorkEstimate work = window_work(world, method, settings);
+  if (work.cost() > max_window_work)
+    throw softbody::SceneError(method.name + " would take " + work.in_words() +
+                               " a frame here: too long to drive the bodies with");
+}
+
 }  // namespace app::session

@@ -10,9 +10,9 @@ namespace app::ui {
 namespace {
 
 void change_levels(Session& session, int by) {
-  collide::Settings settings = session.world().collision();
-  settings.levels = std::clamp(settings.levels + by, 0, collide::max_levels);
-  session.settings.set_collision(settings, session.world().scene().default_cell_size);
+  session.simulation.change_scene("Subdivision", [by](softbody::Scene& scene) {
+    scene.collision.levels = std::clamp(scene.collision.levels + by, 0, collide::max_levels);
+  });
 }
 
 /// Says what an action did, unless it failed.
@@ -43,8 +43,8 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_R, 0, "R", "Reset the scene", [](Session& s, UiState&) { s.simulation.reset(); }},
     Shortcut{GLFW_KEY_Z, 0, "", redo_text, [](Session& s, UiState&) { s.simulation.redo(); }, false,
              GLFW_MOD_CONTROL | GLFW_MOD_SHIFT},
-    Shortcut{GLFW_KEY_Z, 0, "Ctrl+Z", "Undo a change of bodies or scene, or a drag",
-             [](Session& s, UiState&) { s.simulation.undo(); }, false, GLFW_MOD_CONTROL},
+    Shortcut{GLFW_KEY_Z, 0, "Ctrl+Z", "Undo the last change", [](Session& s, UiState&) { s.simulation.undo(); }, false,
+             GLFW_MOD_CONTROL},
     Shortcut{GLFW_KEY_Y, 0, "Ctrl+Y", redo_text, [](Session& s, UiState&) { s.simulation.redo(); }, false,
              GLFW_MOD_CONTROL},
     Shortcut{GLFW_KEY_D, 0, "Shift+D", "Drop twenty bodies",

@@ -9,9 +9,6 @@ namespace {
 
 constexpr float max_click_length = 5;  // pixels: a longer way of the mouse is a drag
 
-softbody::SolidPlane traceable(const softbody::Ground& ground) { return softbody::as_plane(ground); }
-const auto& traceable(const auto& solid) { return solid; }
-
 struct SolidUnder {
   std::size_t index;  // of SettingControls::solids()
   double distance;    // m
@@ -22,13 +19,10 @@ std::optional<SolidUnder> pick_solid(const engine::Ray& ray, const session::Soli
   constexpr double max_distance = 1000;  // m
   SolidUnder nearest{solids.size(), max_distance};
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    if (!solids[i].on) continue;
-    const double distance =
-        std::visit([&](const auto& solid) { return render::entry_distance(ray, traceable(solid), nearest.distance); },
-                   solids[i].solid);
+    const double distance = render::entry_distance(ray, solids[i], nearest.distance);
     if (distance < nearest.distance) nearest = {i, distance};
   }
-  if (nearest.index == solids.size() || !session::moved(solids[nearest.index].solid, {})) return std::nullopt;
+  if (nearest.index == solids.size() || solids[nearest.index].traits().half_space) return std::nullopt;
   return nearest;
 }
 
@@ -97,10 +91,9 @@ void SceneMouse::press(const MouseInput& in, Session& session, engine::Camera& c
     if (const auto solid = pick_solid(ray, session.settings.solids())) {
       drag_ = Drag::solid;
       pressed_solid_ = solid->index;
-      held_solid_ = {solid->index, session.settings.solids()[solid->index].solid,
+      held_solid_ = {solid->index, session.settings.solids()[solid->index],
                      glm::dvec3(ray.origin) + solid->distance * glm::dvec3(ray.direction),
                      session.simulation.world_number()};
-      session.settings.begin_drag(solid->index);
     }
     return;
   }
@@ -108,10 +101,10 @@ void SceneMouse::press(const MouseInput& in, Session& session, engine::Camera& c
   if (in.double_click) {
     focus_on(under->body, session, camera, size);
   } else if (!session.simulation.clock.paused && session.simulated()) {
-    session.bodies.grab({.body = under->body,
-                         .corners = under->corners,
-                         .weights = glm::dvec3(under->weights),
-                         .target = glm::dvec3(under->point)});
+    session.simulation.grab({.body = under->body,
+                             .corners = under->corners,
+                             .weights = glm::dvec3(under->weights),
+                             .target = glm::dvec3(under->point)});
     drag_ = Drag::body;
   }
 }
@@ -123,7 +116,7 @@ void SceneMouse::drag(const MouseInput& in, Session& session, engine::Camera& ca
   if (drag_length_ >= max_click_length) {  // a click moves nothing
     const engine::Ray ray = camera.pick_ray(in.at, size);
     const auto held = session.simulation.grabbed();
-    if (drag_ == Drag::body && held) session.bodies.pull_to(on_facing_plane(ray, camera, held->target));
+    if (drag_ == Drag::body && held) session.simulation.pull_to(on_facing_plane(ray, camera, held->target));
     if (drag_ == Drag::solid) drag_solid(ray, session, camera);
   }
   if (drag_ == Drag::orbit) camera.rotate(in.moved - orbited_, size);
@@ -134,15 +127,12 @@ void SceneMouse::drag(const MouseInput& in, Session& session, engine::Camera& ca
 
 void SceneMouse::drag_solid(const engine::Ray& ray, Session& session, const engine::Camera& camera) {
   if (session.simulation.world_number() != held_solid_->world_number) return;  // the solids may be others
-  session::SolidList solids = session.settings.solids();
   const glm::dvec3 way = on_facing_plane(ray, camera, held_solid_->point) - held_solid_->point;
-  solids[held_solid_->index].solid = *session::moved(held_solid_->solid, way);
-  if (solids != session.settings.solids()) session.settings.set_solids(solids);
+  session.settings.set_solid(held_solid_->index, session::moved(held_solid_->solid, way));
 }
 
 void SceneMouse::release(Session& session) {
-  if (session.simulation.grabbed()) session.bodies.release();
-  if (drag_ != Drag::none) session.simulation.end_drag();
+  session.simulation.release();
   const bool on_scenery = drag_ == Drag::solid || (drag_ == Drag::orbit && !pressed_on_body_);
   if (on_scenery && drag_length_ < max_click_length) session.bodies.select(std::nullopt);
   drag_ = Drag::none;

@@ -46,7 +46,7 @@ class SceneMouse {
   enum class Drag { none, body, solid, orbit };
   struct HeldSolid {
     std::size_t index;           // of SettingControls::solids()
-    session::AnySolid solid;     // where it was at the press
+    softbody::Solid solid;       // where it was at the press
     glm::dvec3 point;            // m, where the mouse pressed it
     std::uint64_t world_number;  // of the Simulation
   };

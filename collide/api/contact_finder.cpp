@@ -29,11 +29,9 @@ std::vector<glm::vec3> positions_of(std::span<const float> xyz) {
 collide::Settings settings_of(const FinderSettings& s) {
   const auto [x, y, z] = s.cell_size;
   const bool automatic = x == 0 && y == 0 && z == 0;
-  collide::Settings settings{.tolerance = s.tolerance,
-                             .self_collision = s.self_collision,
-                             .levels = s.levels,
-                             .buckets = s.buckets,
-                             .cell_size = automatic ? glm::vec3(1) : glm::vec3(x, y, z)};
+  collide::Settings settings{
+      .tolerance = s.tolerance, .self_collision = s.self_collision, .levels = s.levels, .buckets = s.buckets};
+  if (!automatic) settings.cell_size = {x, y, z};
   if (const std::string wrong = problem(settings); !wrong.empty()) throw Error(wrong);
   return settings;
 }
@@ -60,15 +58,10 @@ std::vector<std::string> method_keys() {
 
 struct ContactFinder::Impl {
   explicit Impl(const FinderSettings& s)
-      : method(method_of(s)),
-        settings(settings_of(s)),
-        default_cell_size(method.uses_hash && s.cell_size == FinderSettings{}.cell_size),
-        workers(threads_of(s)),
-        detector(method.make()) {}
+      : method(method_of(s)), settings(settings_of(s)), workers(threads_of(s)), detector(method.make()) {}
 
   const collide::Method& method;
-  collide::Settings settings;
-  bool default_cell_size;  // is still to be found, from the next frame
+  collide::Settings settings;  // an automatic cell size is that of the first frame
   collide::Workers workers;
   std::unique_ptr<collide::Detector> detector;
   collide::Bodies bodies;
@@ -130,9 +123,8 @@ Detection ContactFinder::find(std::span<const float> x, std::span<const float> y
       throw Error("find: " + std::to_string(x.size()) + ", " + std::to_string(y.size()) + " and " +
                   std::to_string(z.size()) + " coordinates; give one of each for all " + std::to_string(vertices()) +
                   " vertices");
-    if (f.default_cell_size)
-      f.settings.cell_size = collide::default_cell_size(frame, f.settings.levels, f.settings.tolerance);
-    f.default_cell_size = false;
+    if (f.method.uses_hash && !f.settings.cell_size)
+      f.settings.cell_size = collide::automatic_cell_size(frame, f.settings.levels, f.settings.tolerance);
     f.detector->detect(frame, f.settings, f.workers, f.result);
     return Detection{f.result.contacts, f.result.self_contacts, f.result.non_finite_bodies, f.method.exact,
                      f.result.counters.pair_tests};

@@ -33,10 +33,9 @@ std::string problem(const Settings& settings) {
   if (settings.buckets < 1 || settings.buckets > max_buckets) {
     return complaint("buckets", settings.buckets, "1 to 16777216");
   }
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!positive(settings.cell_size[axis])) {
-      return complaint("cell size", settings.cell_size[axis], "finite and above 0 m along every axis");
-    }
+  for (int axis = 0; settings.cell_size && axis < 3; ++axis) {
+    const float side = (*settings.cell_size)[axis];
+    if (!positive(side)) return complaint("cell size", side, "finite and above 0 m along every axis");
   }
   for (const std::uint32_t prime : settings.primes) {
     if (prime == 0) return complaint("prime", prime, "above 0");
@@ -62,7 +61,7 @@ std::string hash_warning(const Settings& settings) {
   return text.str();
 }
 
-glm::vec3 default_cell_size(const Frame& frame, int levels, float tolerance) {
+glm::vec3 automatic_cell_size(const Frame& frame, int levels, float tolerance) {
   std::array<std::vector<float>, 3> at{
       {{frame.x.begin(), frame.x.end()}, {frame.y.begin(), frame.y.end()}, {frame.z.begin(), frame.z.end()}}};
   for (Index body = 0; body < frame.bodies->count(); ++body) {

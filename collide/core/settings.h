@@ -1,6 +1,7 @@
 #pragma once
 // The settings of a detection.
 
+#include <optional>
 #include <string>
 
 #include "collide/core/frame.h"
@@ -16,11 +17,12 @@ inline constexpr std::array<std::uint32_t, 3> default_primes{73856093, 19349669,
 
 /// The settings of a detection. A method ignores those that it does not use.
 struct Settings {
-  float tolerance = 0.1f;        // m, min_tolerance .. max_tolerance: closer vertices are in contact (§2.3)
-  bool self_collision = true;    // also pairs of one body (§2.4)
-  int levels = 3;                // 0 .. max_levels; a body's box is cut into 2^levels boxes (§2.1)
-  std::uint32_t buckets = 1001;  // 1 .. max_buckets: the paper's "bucket size" (§2.2)
-  glm::vec3 cell_size{1.0f};     // m, finite and > 0: the paper's length, height, width; see default_cell_size()
+  float tolerance = 0.1f;                // m, min_tolerance .. max_tolerance: closer vertices are in contact (§2.3)
+  bool self_collision = true;            // also pairs of one body (§2.4)
+  int levels = 3;                        // 0 .. max_levels; a body's box is cut into 2^levels boxes (§2.1)
+  std::uint32_t buckets = 1001;          // 1 .. max_buckets: the paper's "bucket size" (§2.2)
+  std::optional<glm::vec3> cell_size{};  // m, finite and > 0: the paper's length, height, width. Methods with a hash
+                                         // table need it; without it, who calls them takes automatic_cell_size().
   std::array<std::uint32_t, 3> primes = default_primes;  // > 0
 
   bool operator==(const Settings&) const = default;
@@ -34,9 +36,9 @@ std::string problem(const Settings& settings);
 /// make the hash ignore an axis or mix two axes.
 std::string hash_warning(const Settings& settings);
 
-/// Returns the default cell size (m, §2.2): on each axis the largest subdivided box of any body, plus the tolerance. A
-/// body counts as it is at rest, or as it is in the frame if its shape does not know that. It is a default and does not
-/// guarantee full recall. Never 0.
-glm::vec3 default_cell_size(const Frame& frame, int levels, float tolerance);
+/// Returns the automatic cell size (m, §2.2): on each axis the largest subdivided box of any body, plus the tolerance.
+/// A body counts as it is at rest, or as it is in the frame if its shape does not know that. It does not guarantee full
+/// recall. Never 0.
+glm::vec3 automatic_cell_size(const Frame& frame, int levels, float tolerance);
 
 }  // namespace collide

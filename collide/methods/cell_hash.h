@@ -3,6 +3,7 @@
 //   index = (floor(x/length)*xprime + floor(y/height)*yprime + floor(z/width)*zprime) % bucketsize
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "collide/core/detector.h"
@@ -14,7 +15,8 @@ class CellHash {
   using Cell = std::array<std::int64_t, 3>;
 
   explicit CellHash(const Settings& settings) : prime_(settings.primes), buckets_(settings.buckets) {
-    for (int axis = 0; axis < 3; ++axis) size_[static_cast<std::size_t>(axis)] = settings.cell_size[axis];
+    assert(settings.cell_size);
+    for (int axis = 0; axis < 3; ++axis) size_[static_cast<std::size_t>(axis)] = (*settings.cell_size)[axis];
   }
 
   /// Returns floor(value / cell size), clamped so that every coordinate has an index. Monotonic in value.

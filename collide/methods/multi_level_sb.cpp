@@ -67,7 +67,7 @@ class CornerHash {
     }
     std::size_t corner = 0;
     for_each_corner(sides, [&](auto x, auto y, auto z) { buckets_[corner++] = hash_.bucket_of_residues(x, y, z); });
-    exceeded_ = exceeded_ || exceeds_cell(box.region, settings_.cell_size);
+    exceeded_ = exceeded_ || exceeds_cell(box.region, *settings_.cell_size);
     return buckets_;
   }
 
@@ -159,6 +159,7 @@ class MultiLevelSb final : public Detector {
 
   DebugGeometry debug() const override {
     DebugGeometry geometry;
+    if (!settings_.cell_size) return geometry;  // before the first frame
     Hashing hashing(settings_, subdivision_.points().size());
     CellList cells;
     for (const SubdividedBox& box : subdivision_.boxes()) {

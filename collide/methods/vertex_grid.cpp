@@ -66,6 +66,7 @@ void VertexGrid::visit_cells(int thread, Index slot, double cutoff, const CellHa
 
 DebugGeometry VertexGrid::debug() const {
   DebugGeometry geometry;
+  if (!settings_.cell_size) return geometry;  // before the first frame
   const CellHash hash(settings_);
   CellList cells;
   for (Index slot = 0; slot < points_.size(); ++slot) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <variant>
 
 #include <glm/common.hpp>
 
@@ -13,8 +12,8 @@
 #include "softbody/forces/material_keys.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/mesh/surface.h"
-#include "softbody/scene/limits.h"
-#include "softbody/scene/toml_text.h"
+#include "softbody/scene/scene_keys.h"
+#include "softbody/scene/solid_toml.h"
 
 namespace sbcollide {
 namespace {
@@ -24,27 +23,21 @@ glm::dvec3 to_glm(const Vector& v) { return {v[0], v[1], v[2]}; }
 void require_finite(double value) {
   if (!std::isfinite(value)) throw Error("a number is not finite");
 }
-void require_finite(const Vector& v) {
-  for (const double value : v) require_finite(value);
+void require_finite(const glm::dvec3& v) {
+  for (int axis = 0; axis < 3; ++axis) require_finite(v[axis]);
 }
 
-/// A number or three of them, by its key.
-using Value = std::pair<std::string_view, std::variant<double, Vector>>;
+void require_finite(const glm::dmat3& m) {
+  for (int axis = 0; axis < 3; ++axis) require_finite(m[axis]);
+}
 
-/// Returns a table as a scene file has it. Throws Error unless all numbers are finite.
-std::string table(std::string_view heading, std::initializer_list<Value> values) {
+/// Returns a solid as a scene file has it. Throws Error unless all numbers are finite.
+std::string text_of(const softbody::Solid::Shape& shape, double friction) {
+  softbody::Solid solid{shape, friction};
+  require_finite(friction);
+  solid.values([](const char*, auto value) { require_finite(value.value); });
   softbody::TomlLines lines;
-  lines.heading(heading);
-  for (const auto& [key, value] : values) {
-    if (const double* number = std::get_if<double>(&value)) {
-      require_finite(*number);
-      lines.add(key, *number);
-    } else {
-      const Vector& vector = std::get<Vector>(value);
-      require_finite(vector);
-      lines.add(key, to_glm(vector));
-    }
-  }
+  softbody::write_solids(lines, {solid});
   return lines.text();
 }
 
@@ -64,7 +57,7 @@ void place(softbody::ImportedMesh& imported, std::span<const float> xyz) {
   glm::dvec3 lo(INFINITY), hi(-INFINITY);
   for (std::size_t i = 0; i < xyz.size(); i += 3) {
     const glm::dvec3 v(xyz[i], xyz[i + 1], xyz[i + 2]);
-    for (int axis = 0; axis < 3; ++axis) require_finite(v[axis]);
+    require_finite(v);
     lo = glm::min(lo, v), hi = glm::max(hi, v);
     vertices.push_back(v);
   }
@@ -136,7 +129,7 @@ Scene Scene::from_file(const std::filesystem::path& file) {
 void Scene::add_text(std::string_view toml) { impl_->text.append("\n").append(toml).append("\n"); }
 
 void Scene::set_gravity(const Vector& gravity) {
-  require_finite(gravity);
+  require_finite(to_glm(gravity));
   for (const double g : gravity)
     if (std::abs(g) > softbody::max_gravity) throw Error("gravity: must be from -1000 to 1000 m/s^2 along each axis");
   impl_->gravity = to_glm(gravity);
@@ -156,24 +149,22 @@ void Scene::add_material(std::string_view name, const std::map<std::string, doub
   add_text(lines.text());
 }
 
-void Scene::add_ground(double height, double friction) {
-  add_text(table("[ground]", {{"height", height}, {"friction", friction}}));
-}
+void Scene::add_ground(double height, double friction) { add_text(text_of(softbody::Ground{height}, friction)); }
 
 void Scene::add_solid_plane(const Vector& point, const Vector& normal, double friction) {
-  add_text(table("[[solid_plane]]", {{"point", point}, {"normal", normal}, {"friction", friction}}));
+  add_text(text_of(softbody::SolidPlane{to_glm(point), to_glm(normal)}, friction));
 }
 
 void Scene::add_solid_sphere(const Vector& centre, double radius, double friction) {
-  add_text(table("[[solid_sphere]]", {{"centre", centre}, {"radius", radius}, {"friction", friction}}));
+  add_text(text_of(softbody::SolidSphere{to_glm(centre), radius}, friction));
 }
 
 void Scene::add_solid_box(const Vector& centre, const Vector& size, double friction) {
-  add_text(table("[[solid_box]]", {{"centre", centre}, {"size", size}, {"friction", friction}}));
+  add_text(text_of(softbody::SolidBox{to_glm(centre), 0.5 * to_glm(size)}, friction));
 }
 
 void Scene::add_solid_capsule(const Vector& from, const Vector& to, double radius, double friction) {
-  add_text(table("[[solid_capsule]]", {{"from", from}, {"to", to}, {"radius", radius}, {"friction", friction}}));
+  add_text(text_of(softbody::SolidCapsule{to_glm(from), to_glm(to), radius}, friction));
 }
 
 int Scene::add_mesh(std::span<const float> xyz, std::span<const std::array<Index, 3>> triangles, int resolution) {

@@ -14,7 +14,6 @@
 #include "softbody/contact/law.h"
 #include "softbody/contact/solid_law.h"
 #include "softbody/contact/solid_overlap.h"
-#include "softbody/contact/solid_placement.h"
 #include "softbody/contact/solid_shapes.h"
 #include "softbody/contact/surface_vectors.h"
 #include "softbody/state/kernels.h"
@@ -32,9 +31,36 @@ double max_travel(const Batch& b, const Extent& e, int lane, const glm::dvec3& g
          b.model->material[Material::thickness];
 }
 
+/// Returns the unit vector along which a box leaves a solid soonest, without going deeper into another one: one of the
+/// scene's axes, or away from where the solid's surface is nearest.
+glm::dvec3 way_out(std::span<const Solid> solids, const Solid& solid, const PlacedBox& box) {
+  const glm::dvec3 nearest = surface_at(solid, box.centre).normal;
+  const double size = glm::length(box.half_size);
+  glm::dvec3 best = nearest;
+  double shortest = infinite;
+  const auto consider = [&](const glm::dvec3& way) {
+    PlacedBox at = box;
+    constexpr int steps = 100;
+    double length = 0;
+    for (int i = 0; i < steps && gap_before(solid, at) < 0; ++i) {
+      length += std::max(-gap_before(solid, at), 0.05 * size);
+      at.centre = box.centre + length * way;
+    }
+    const bool free =
+        length < shortest && gap_before(solid, at) >= 0 && std::ranges::all_of(solids, [&](const Solid& other) {
+          const double now = gap_before(other, at);
+          return now >= 0 || now >= gap_before(other, box);
+        });
+    if (free) best = way, shortest = length;
+  };
+  consider(nearest);
+  for (const glm::dvec3& way : {glm::dvec3(0, 1, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1)})
+    consider(way), consider(-way);
+  return best;
+}
+
 }  // namespace
 
-template <class Solid>
 bool SolidContact::lies_in(const Batch& b, int lane, const Solid& solid) const {
   std::array<std::vector<float>, 3> at;
   for (std::size_t k = 0; k < 3; ++k)
@@ -69,64 +95,63 @@ void SolidContact::begin_frame() {
   if (has_restitution_) before_ = state_.v;
 }
 
-template <class Solid>
-void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, const glm::dvec3& gravity, double seconds,
-                       const WayOut& way_out) {
-  OfBatch& own = of_batch_[b.index];
+void SolidContact::add(const Batch& b, const Extent& e, std::span<const Solid> solids, const glm::dvec3& gravity,
+                       double seconds) {
   std::array<PlacedBox, lanes> boxes;
-  std::array<double, lanes> gap;
-  unsigned lanes_near = 0;
+  std::array<double, lanes> travel;
   for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
     const glm::dvec3 lo(e.lo[l]), hi(e.hi[l]);
     boxes[l] = {state_.body(b.body[l]).origin + 0.5 * (lo + hi), 0.5 * (hi - lo)};
-    gap[l] = gap_before(solid, boxes[l]);
-    lanes_near |= unsigned(gap[l] <= max_travel(b, e, int(l), gravity, seconds)) << l;
+    travel[l] = max_travel(b, e, int(l), gravity, seconds);
   }
-  if (!lanes_near) return;
-  const std::optional<SolidMiddle> middle = middle_of(solid);
-  const double deep = std::min(shallow * b.model->mean_edge, middle ? middle->depth : infinite);
-  for (int l = 0; l < b.used; ++l) {
-    if (b.moves[std::size_t(l)] == 0 || !state_.body(b.body[std::size_t(l)]).memory.may_lie_in_solid ||
-        gap[std::size_t(l)] > -deep || !lies_in(b, l, solid))
-      continue;
-    lanes_near &= ~(1u << l);
-    own.eased |= 1u << l;
-    ease_out(b, l, way_out(boxes[std::size_t(l)]), gravity, seconds);
+  for (const Solid& solid : solids) {
+    if (!solid.enabled) continue;
+    std::array<double, lanes> gap;
+    unsigned lanes_near = 0;
+    for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
+      gap[l] = gap_before(solid, boxes[l]);
+      lanes_near |= unsigned(gap[l] <= travel[l]) << l;
+    }
+    if (!lanes_near) continue;
+    const SolidInterior interior = interior_of(solid);
+    const double deep = std::min(shallow * b.model->mean_edge, interior.middle ? interior.middle->depth : infinite);
+    for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
+      if (b.moves[l] == 0 || !state_.body(b.body[l]).memory.may_lie_in_solid || gap[l] > -deep ||
+          !lies_in(b, int(l), solid))
+        continue;
+      lanes_near &= ~(1u << l);
+      of_batch_[b.index].eased |= 1u << l;
+      ease_out(b, int(l), way_out(solids, solid, boxes[l]), gravity, seconds);
+    }
+    const SolidArguments& s = add(b, solid, lanes_near);
+    for (std::size_t l = 0; has_features_ && l < std::size_t(b.used); ++l)
+      if (b.moves[l] != 0 && s.near >> l & 1u) find_features(b, e, int(l), interior, travel[l], seconds);
   }
+}
+
+const SolidArguments& SolidContact::add(const Batch& b, const Solid& solid, unsigned lanes_near) {
   const double thickness = b.model->material[Material::thickness];
-  SolidArguments& s = own.near.emplace_back();
+  SolidArguments& s = of_batch_[b.index].near.emplace_back();
   s.particles = b.particles();
   s.mass = float(b.model->particle_mass);
   s.friction = float(solid.friction);
   s.restitution = float(law::common_restitution(solid.restitution, b.model->material[contact::restitution]));
-  s.shape = shape_of<float>(solid, thickness);
   for (int l = 0; l < b.used; ++l) {
     const glm::dvec3 origin = state_.body(b.body[std::size_t(l)]).origin;
-    s.place.set(std::size_t(l), glm::vec3(place_of(solid, thickness, origin) - origin));
+    const auto put = [&](const auto& one) {
+      const auto [shape, place] = placed<float>(one, thickness, origin);
+      s.shape = shape;
+      s.place.set(std::size_t(l), glm::vec3(place - origin));
+    };
+    std::visit(put, solid.shape);
   }
   s.near = lanes_near;
   s.moves = b.moves.data();
   s.impulse = impulse(b);
   s.returned = returned(b);
   s.energy = energy(b);
-  if (!has_features_) return;
-  const std::vector<SolidCore> cores = cores_of(solid);
-  for (int l = 0; l < b.used; ++l) {
-    if (b.moves[std::size_t(l)] == 0 || !(lanes_near >> l & 1u)) continue;
-    const double travel = max_travel(b, e, l, gravity, seconds);
-    find_features(
-        b, l, cores,
-        {core_radius(solid) + thickness, travel / seconds, travel, {e.lo[std::size_t(l)], e.hi[std::size_t(l)]}});
-  }
+  return s;
 }
-
-template void SolidContact::add(const Batch&, const Extent&, const SolidSphere&, const glm::dvec3&, double,
-                                const WayOut&);
-template void SolidContact::add(const Batch&, const Extent&, const SolidPlane&, const glm::dvec3&, double,
-                                const WayOut&);
-template void SolidContact::add(const Batch&, const Extent&, const SolidBox&, const glm::dvec3&, double, const WayOut&);
-template void SolidContact::add(const Batch&, const Extent&, const SolidCapsule&, const glm::dvec3&, double,
-                                const WayOut&);
 
 void SolidContact::end_frame() {
   pushes_.assign(state_.body_count(), {});
@@ -196,11 +221,7 @@ void SolidContact::add_particle_rows(BodyId body, float travel, std::vector<Cont
     for (Index v = 0; v < b.particles(); ++v) {
       const auto slot = std::uint32_t(state_.slot(body, v));
       const glm::vec3 at = read(field(std::as_const(state_.x)), slot) - place;
-      const SurfaceAt<float> surface = std::visit(
-          [&](const auto& shape) {
-            return body::surface_at(shape, body::Vec<float>{at.x, at.y, at.z});
-          },
-          s.shape);
+      const SurfaceAt<float> surface = body::surface_at(s.shape, body::Vec<float>{at.x, at.y, at.z});
       if (surface.distance > travel) continue;
       ContactRow& row = rows.emplace_back();
       row.slot.fill(slot);

@@ -2,13 +2,12 @@
 // Contact of bodies with solids, on the velocities of a substep: particles of all solids, and faces and edges where
 // solids are round or sharp.
 
-#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "softbody/contact/contact_row.h"
-#include "softbody/contact/solid_arguments.h"
-#include "softbody/contact/solid_features.h"
+#include "softbody/contact/kernels.h"
 #include "softbody/contact/solid_surface.h"
 #include "softbody/state/state.h"
 
@@ -21,24 +20,32 @@ struct SolidPush {
   double returned = 0;      // J, that restitution gives back when the body leaves them
 };
 
+/// A face or edge of a body that may meet a core of a solid in the coming frame.
+struct SolidFeature {
+  int lane;                               // of the body in its batch
+  std::size_t solid;                      // among those near the batch
+  std::array<std::uint32_t, 3> vertices;  // an edge's last one is no_vertex
+  glm::vec3 from, to, out;                // the core, from the body's origin
+  float distance;                         // m, from it to where the body is kept
+  float speed;                            // m/s, with which the body may come
+  float free_travel = 0;                  // m, that it may go at least before the two can meet
+  static constexpr std::uint32_t no_vertex = ~std::uint32_t{0};
+};
+
 class SolidContact {
  public:
-  /// Returns the unit vector along which a body in this box leaves a solid.
-  using WayOut = std::function<glm::dvec3(const PlacedBox&)>;
-
   /// The state must outlive this.
   explicit SolidContact(State& state) : state_(state) {}
 
   /// features: faces and edges meet solids, too. restitution: some contact has it.
   void set_parts(bool features, bool restitution) { has_features_ = features, has_restitution_ = restitution; }
 
-  // A frame: begin_frame(), add() for each batch that moves and each solid, substeps, end_frame().
+  // A frame: begin_frame(), add() for each batch that moves, substeps, end_frame().
   void begin_frame();
-  /// Adds a solid to those near a batch if a body of the batch may touch it within `seconds` (s). extent: of the
-  /// batch's positions and velocities now. gravity in m/s^2.
-  template <class Solid>
-  void add(const Batch& batch, const Extent& extent, const Solid& solid, const glm::dvec3& gravity, double seconds,
-           const WayOut& way_out);
+  /// Adds those of the solids that a body of the batch may touch within `seconds` (s). extent: of the batch's positions
+  /// and velocities now. gravity in m/s^2.
+  void add(const Batch& batch, const Extent& extent, std::span<const Solid> solids, const glm::dvec3& gravity,
+           double seconds);
   /// Notes the pushes of the frame, and books the energy that they gave.
   void end_frame();
 
@@ -99,11 +106,12 @@ class SolidContact {
     }
   };
 
-  template <class Solid>
+  const SolidArguments& add(const Batch& batch, const Solid& solid, unsigned lanes_near);
   bool lies_in(const Batch& batch, int lane, const Solid& solid) const;
   void ease_out(const Batch& batch, int lane, const glm::dvec3& way, const glm::dvec3& gravity, double seconds);
   bool apply_to_particles(const Batch& batch, float h, bool again);
-  void find_features(const Batch& batch, int lane, std::span<const SolidCore> cores, const Approach& approach);
+  void find_features(const Batch& batch, const Extent& extent, int lane, const SolidInterior& interior, double travel,
+                     double seconds);
   void apply_to_features(const Batch& batch, float h);
   void add_row(const Batch& batch, SolidFeature& feature, float h);
 

@@ -67,7 +67,7 @@ std::optional<SurfaceAt<float>> gap_of(const SolidFeature& f, const ClosestPoint
   const glm::vec3 at = m.point - place;
   const body::Vec<float> d{at.x, at.y, at.z};
   const auto* box = std::get_if<BoxShape<float>>(&shape);
-  if (!box) return std::visit([&](const auto& s) { return body::surface_at(s, d); }, shape);
+  if (!box) return body::surface_at(shape, d);
   constexpr float rounding = 1e-6f;  // m
   const bool inside = body::surface_at(*box, d).distance + box->radius <= rounding;
   if (const auto n = outward_normal(f, m, *box)) {
@@ -83,7 +83,10 @@ std::optional<SurfaceAt<float>> gap_of(const SolidFeature& f, const ClosestPoint
 
 }  // namespace
 
-void SolidContact::find_features(const Batch& b, int lane, std::span<const SolidCore> cores, const Approach& approach) {
+/// Finds the features of the body in a lane, in that extent, that may come to the cores if the body goes `travel` (m)
+/// in `seconds`.
+void SolidContact::find_features(const Batch& b, const Extent& e, int lane, const SolidInterior& interior,
+                                 double travel, double seconds) {
   OfBatch& own = of_batch_[b.index];
   const glm::dvec3 origin = state_.body(b.body[std::size_t(lane)]).origin;
   const Field<const float> x = field(std::as_const(state_.x), b.base);
@@ -91,22 +94,23 @@ void SolidContact::find_features(const Batch& b, int lane, std::span<const Solid
     return read(x, std::size_t(v) * std::size_t(b.width) + std::size_t(lane));
   };
   const collide::surface::Surface& surface = *b.model->surface;
-  for (const SolidCore& core : cores) {
+  const std::array box{e.lo[std::size_t(lane)], e.hi[std::size_t(lane)]};
+  const double distance = interior.core_radius + b.model->material[Material::thickness];
+  for (const SolidCore& core : interior.cores) {
     SolidFeature found{.lane = lane,
                        .solid = own.near.size() - 1,
                        .vertices = {},
                        .from = glm::vec3(core.from - origin),
                        .to = glm::vec3(core.to - origin),
                        .out = glm::vec3(core.out),
-                       .distance = float(approach.distance),
-                       .speed = float(approach.speed)};
-    if (!may_meet(approach.box, found.from, found.to, float(approach.distance + approach.travel))) continue;
+                       .distance = float(distance),
+                       .speed = float(travel / seconds)};
+    if (!may_meet(box, found.from, found.to, float(distance + travel))) continue;
     const auto add = [&](const auto& features) {
       for (const auto& feature : features) {
         std::array<glm::vec3, 3> corners{};
         std::transform(feature.begin(), feature.end(), corners.begin(), position);
-        if (!may_meet(std::span(corners).first(feature.size()), found.from, found.to,
-                      float(approach.distance + approach.travel)))
+        if (!may_meet(std::span(corners).first(feature.size()), found.from, found.to, float(distance + travel)))
           continue;
         found.vertices.fill(SolidFeature::no_vertex);
         std::copy(feature.begin(), feature.end(), found.vertices.begin());

@@ -7,8 +7,8 @@
 #define SOFTBODY_CONTACT_SOLID_LAW_H
 #endif
 
+#include "softbody/contact/kernels.h"
 #include "softbody/contact/law.h"
-#include "softbody/contact/solid_arguments.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace softbody {

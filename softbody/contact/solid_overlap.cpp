@@ -2,10 +2,9 @@
 
 #include <algorithm>
 
-#include <glm/geometric.hpp>
-
 #include "collide/core/vertex_kernels.h"
 #include "collide/surface/closed_shell.h"
+#include "softbody/contact/solid_geometry.h"
 
 namespace softbody {
 namespace {
@@ -36,34 +35,7 @@ bool lies_in(const PlacedBody& body, const PlacedBody& other) {
   return shell.inside(middle);
 }
 
-}  // namespace
-
-std::vector<bool> overlapping(std::span<const PlacedBody> bodies) {
-  std::vector<collide::Aabb> boxes;
-  for (const PlacedBody& body : bodies) boxes.push_back(collide::measure_bounds(body.at).box);
-  std::vector<bool> found(bodies.size());
-  for (std::size_t a = 0; a < bodies.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b) {
-      if ((found[a] && found[b]) || !collide::near(boxes[a], boxes[b], 0.0f)) continue;
-      if (lies_in(bodies[a], bodies[b]) || lies_in(bodies[b], bodies[a])) found[a] = found[b] = true;
-    }
-  return found;
-}
-
-std::optional<SolidMiddle> middle_of(const SolidSphere& s) { return SolidMiddle{s.centre, {}, s.radius}; }
-std::optional<SolidMiddle> middle_of(const SolidPlane&) { return std::nullopt; }
-std::optional<SolidMiddle> middle_of(const SolidCapsule& c) {
-  return SolidMiddle{0.5 * (c.from + c.to), {0.5 * (c.to - c.from), glm::dvec3(0.0)}, c.radius};
-}
-std::optional<SolidMiddle> middle_of(const SolidBox& b) {
-  const double depth = std::min({b.half_size.x, b.half_size.y, b.half_size.z});
-  SolidMiddle middle{b.centre, {}, depth};
-  std::size_t side = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    if (b.half_size[axis] > depth && side < 2) middle.sides[side++] = (b.half_size[axis] - depth) * b.axes[axis];
-  return middle;
-}
-
+/// Returns true if a solid's middle is inside a closed body or crosses the surface of any.
 bool holds(const PlacedBody& body, const SolidMiddle& middle) {
   const glm::dvec3 centre = middle.centre - body.origin;
   if (body.surface.closed() && collide::surface::ClosedShell(body.surface, body.at).inside(glm::vec3(centre)))
@@ -83,6 +55,30 @@ bool holds(const PlacedBody& body, const SolidMiddle& middle) {
   };
   return std::ranges::any_of(body.surface.triangles(), through_face) ||
          std::ranges::any_of(body.surface.edges(), edge_through);
+}
+
+}  // namespace
+
+std::vector<bool> overlapping(std::span<const PlacedBody> bodies) {
+  std::vector<collide::Aabb> boxes;
+  for (const PlacedBody& body : bodies) boxes.push_back(collide::measure_bounds(body.at).box);
+  std::vector<bool> found(bodies.size());
+  for (std::size_t a = 0; a < bodies.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      if ((found[a] && found[b]) || !collide::near(boxes[a], boxes[b], 0.0f)) continue;
+      if (lies_in(bodies[a], bodies[b]) || lies_in(bodies[b], bodies[a])) found[a] = found[b] = true;
+    }
+  return found;
+}
+
+bool overlap(const PlacedBody& body, const Solid& solid, bool between) {
+  if (!solid.enabled) return false;
+  for (collide::Index i = 0; i < body.at.size; ++i) {
+    const glm::dvec3 x(body.at[i]);
+    if (surface_at(solid, body.origin + x).distance < -shallow * body.mean_edge) return true;
+  }
+  const std::optional<SolidMiddle> middle = interior_of(solid).middle;
+  return middle && (between || middle->depth > body.mean_edge) && holds(body, *middle);
 }
 
 }  // namespace softbody

@@ -1,8 +1,8 @@
-// The signed distance of a point from each kind of solid, with the surface's outward normal nearest to it: the one
-// place that knows the shapes. Written once for the kernels (V is one value a lane, Real is float) and for plain
-// doubles. All shapes are convex: the whole solid lies behind the plane through the nearest point of its surface, so a
-// particle that stays before this plane for a step passes through no solid, however thin it is and however fast the
-// particle. Compiled for each of Highway's targets, see state/simd.h.
+// The signed distance of a point from each shape of a solid, with the surface's outward normal nearest to it. Written
+// once for the kernels (V is one value a lane, Real is float) and for plain doubles. All shapes are convex: the whole
+// solid lies behind the plane through the nearest point of its surface, so a particle that stays before this plane for
+// a step passes through no solid, however thin it is and however fast the particle. Compiled for each of Highway's
+// targets, see state/simd.h.
 #if defined(SOFTBODY_CONTACT_SOLID_SHAPES_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOFTBODY_CONTACT_SOLID_SHAPES_H
 #undef SOFTBODY_CONTACT_SOLID_SHAPES_H
@@ -10,7 +10,7 @@
 #define SOFTBODY_CONTACT_SOLID_SHAPES_H
 #endif
 
-#include "softbody/contact/solid_arguments.h"
+#include "softbody/contact/solid_geometry.h"
 #include "softbody/state/lane_math.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -69,6 +69,11 @@ HWY_INLINE SurfaceAt<V> surface_at(const CapsuleShape<Real>& c, Vec<V> d) {
   const V square = dot(segment, segment);
   const V along = select(square > zero, dot(d, segment) / square, zero);
   return surface_at(SphereShape<Real>{c.radius}, d - smaller(larger(along, zero), V(1)) * segment);
+}
+
+template <std::floating_point Real, std::floating_point V>
+HWY_INLINE SurfaceAt<V> surface_at(const SolidShape<Real>& shape, Vec<V> d) {
+  return std::visit([d](const auto& one) { return surface_at(one, d); }, shape);
 }
 
 }  // namespace body

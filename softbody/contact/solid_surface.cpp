@@ -1,22 +1,28 @@
 #include "softbody/contact/solid_surface.h"
 
-#include "softbody/contact/solid_placement.h"
+#include <limits>
+
+#include <glm/common.hpp>
+
 #include "softbody/contact/solid_shapes.h"
 
 namespace softbody {
-namespace {
 
-template <class Solid>
-SolidSurface surface_of(const Solid& solid, const glm::dvec3& point) {
-  const auto s = body::surface_at(shape_of<double>(solid, 0), as_vec<double>(point - place_of(solid, 0, point)));
-  return {s.distance, {s.normal.x, s.normal.y, s.normal.z}};
+SolidSurface surface_at(const Solid& solid, const glm::dvec3& point) {
+  if (!solid.enabled) return {std::numeric_limits<double>::infinity(), {0, 1, 0}};
+  return std::visit(
+      [&](const auto& one) {
+        const auto [shape, place] = placed<double>(one, 0, point);
+        const glm::dvec3 d = point - place;
+        const SurfaceAt<double> s = body::surface_at(shape, body::Vec<double>{d.x, d.y, d.z});
+        return SolidSurface{s.distance, {s.normal.x, s.normal.y, s.normal.z}};
+      },
+      solid.shape);
 }
 
-}  // namespace
-
-SolidSurface surface_at(const SolidSphere& s, const glm::dvec3& point) { return surface_of(s, point); }
-SolidSurface surface_at(const SolidPlane& p, const glm::dvec3& point) { return surface_of(p, point); }
-SolidSurface surface_at(const SolidBox& b, const glm::dvec3& point) { return surface_of(b, point); }
-SolidSurface surface_at(const SolidCapsule& c, const glm::dvec3& point) { return surface_of(c, point); }
+double gap_before(const Solid& solid, const PlacedBox& box) {
+  const SolidSurface s = surface_at(solid, box.centre);
+  return s.distance - glm::dot(glm::abs(s.normal), box.half_size);
+}
 
 }  // namespace softbody

@@ -21,7 +21,8 @@ glm::vec3 between(const PenaltyPair& p, Field<const float> x) {
 
 template <class Real>
 PenaltyLaw<Real> law_of(const PenaltyContact& c, const PenaltyPair& p) {
-  return {Real(p.stiffness), Real(c.thickness), Real(p.friction), Real(c.damper_limit * p.damped_mass), Real(p.loss)};
+  return {Real(p.stiffness), Real(c.layer.thickness), Real(p.friction), Real(c.damper_limit * p.damped_mass),
+          Real(p.loss)};
 }
 
 }  // namespace
@@ -52,9 +53,11 @@ struct PenaltyContact::Share {
   }
 };
 
-void PenaltyContact::find(const DetectedContacts& detected, const State& state, float layer,
+void PenaltyContact::find(const DetectedContacts& detected, const State& state, double seconds,
                           collide::Workers& workers) {
-  thickness = layer;
+  layer.tolerance = detected.tolerance;
+  layer.begun = layer.thickness;
+  layer.grow(seconds);
   if (detected.contacts.empty()) return pairs.clear();
   const std::vector<collide::Contact> before = std::exchange(pairs.contact, {});
   const VectorArray stretch = std::exchange(pairs.stretch, {});

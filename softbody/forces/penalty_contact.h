@@ -8,6 +8,7 @@
 // In a substep each thread gathers the particles of its batches, which stand side by side then; all threads evaluate
 // the pairs; and each adds their forces to the particles of its batches, in the order of the pairs.
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <utility>
@@ -24,6 +25,17 @@ struct DetectedContacts {
   const collide::Bodies& vertices;
   std::span<const BodyId> vertex_body;  // the body of each vertex
   const std::vector<collide::Contact>& contacts;
+  float tolerance;  // m, with which they were found
+};
+
+/// The contact layer. It grows by 5 cm/s up to the tolerance, so that neither a larger tolerance nor bodies that other
+/// contact let closer are thrown apart.
+struct ContactLayer {
+  float thickness = 0, begun = 0;  // m, now and when the frame began
+  float tolerance = 0;             // m
+
+  void grow(double seconds) { thickness = std::min(tolerance, begun + float(0.05 * seconds)); }
+  bool grows() const { return thickness < tolerance; }
 };
 
 class PenaltyContact {
@@ -39,13 +51,16 @@ class PenaltyContact {
   /// step of 0.8 times the stable length leaves 4 (1 - 0.8^2). So contacts ask for no shorter steps by their damping.
   static constexpr float max_damped = 0.36f;
   float damper_limit = std::numeric_limits<float>::infinity();  // 1/s, of a damper over the damped mass
-  float thickness = 0;                                          // of the contact layer, m
-  PenaltyPairs pairs;                                           // their contacts ascend
-  LaneArray<glm::vec4> force;                                   // on a, of the current substep, N
+  ContactLayer layer;
+  PenaltyPairs pairs;          // their contacts ascend
+  LaneArray<glm::vec4> force;  // on a, of the current substep, N
 
-  /// Takes the contacts for the coming frame, and hands the friction springs of those that were there before on to
-  /// them. thickness: of the contact layer, m. The contacts ascend.
-  void find(const DetectedContacts& detected, const State& state, float thickness, collide::Workers& workers);
+  /// tolerance: m. The contact layer is as thick from the start.
+  explicit PenaltyContact(float tolerance = 0) : layer{tolerance, tolerance, tolerance} {}
+
+  /// Takes the contacts for the coming frame of `seconds`, and hands the friction springs of those that were there
+  /// before on to them. The contacts ascend. If the frame is cut short, layer.grow() must follow.
+  void find(const DetectedContacts& detected, const State& state, double seconds, collide::Workers& workers);
   /// Finds the particles that the pairs join by their slots, which are below `slots`.
   void group(std::size_t slots, std::span<const Batch> batches);
   /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up.
@@ -57,13 +72,13 @@ class PenaltyContact {
   /// Evaluates the forces of the pairs in `part` on the gathered particles, and stretches their friction springs by
   /// `seconds` of slip.
   void evaluate(collide::Part part, float seconds) {
-    penalty_kernels().evaluate(part, pairs, motion_.data(), {thickness, damper_limit, seconds}, force.data());
+    penalty_kernels().evaluate(part, pairs, motion_.data(), {layer.thickness, damper_limit, seconds}, force.data());
   }
   /// Adds the forces that evaluate() has found.
   void add(const ForceBatch& batch) const;
   /// Measures what the pairs in `part` store, for energy().
   void measure(collide::Part part) {
-    penalty_kernels().measure(part, pairs, motion_.data(), thickness, stored_.data());
+    penalty_kernels().measure(part, pairs, motion_.data(), layer.thickness, stored_.data());
   }
   double energy() const;  // J, of all pairs, measured
 

@@ -8,7 +8,7 @@
 #include "softbody/integrate/force_stage.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/integrate/resistance.h"
-#include "softbody/scene/solids.h"
+#include "softbody/scene/scene.h"
 
 namespace softbody {
 namespace {
@@ -23,6 +23,9 @@ struct Facts {
   template <class Test>
   bool any(Test test) const {
     return std::any_of(models.begin(), models.end(), [&](const auto& p) { return test(*p); });
+  }
+  bool any_solid(bool (*test)(const Solid&) = [](const Solid&) { return true; }) const {
+    return std::ranges::any_of(scene.solids, [&](const Solid& s) { return s.enabled && test(s); });
   }
 };
 
@@ -55,16 +58,11 @@ const char* force(const Facts& f) {
 
 const char* gravity(const Facts& f) { return f.scene.gravity != glm::dvec3(0.0) ? nullptr : "the scene has none"; }
 
-const char* spheres(const Facts& f) { return f.scene.spheres.empty() ? "the scene has no solid sphere" : nullptr; }
-const char* ground(const Facts& f) { return f.scene.ground ? nullptr : "the scene has no ground"; }
-const char* planes(const Facts& f) { return f.scene.planes.empty() ? "the scene has no solid plane" : nullptr; }
-const char* boxes(const Facts& f) { return f.scene.boxes.empty() ? "the scene has no solid box" : nullptr; }
-const char* capsules(const Facts& f) { return f.scene.capsules.empty() ? "the scene has no solid capsule" : nullptr; }
+const char* solids(const Facts& f) { return f.any_solid() ? nullptr : "the scene has no solid"; }
 
 const char* restitution(const Facts& f) {
-  bool any = false;
-  for_each_solid(f.scene, [&any](const auto& solid) { any = any || solid.restitution > 0; });
-  any = any || f.any([](const BodyModel& p) { return p.material[contact::restitution] > 0; });
+  const bool any = f.any_solid([](const Solid& s) { return s.restitution > 0; }) ||
+                   f.any([](const BodyModel& p) { return p.material[contact::restitution] > 0; });
   return any ? nullptr : "no solid and no material has restitution";
 }
 
@@ -74,7 +72,7 @@ const char* damping(const Facts& f) {
 }
 
 const char* rebound(const Facts& f) {
-  if (!has_solids(f.scene)) return "no solid to rebound from";
+  if (!f.any_solid()) return "no solid to rebound from";
   return f.any([](const BodyModel& p) { return p.material[contact::rebound_speed] > 0; })
              ? nullptr
              : "no material has a rebound speed";
@@ -82,12 +80,11 @@ const char* rebound(const Facts& f) {
 
 const char* solid_features(const Facts& f) {
   if (f.scene.contact_surface == ContactSurface::vertices) return "the vertices keep off the solids";
-  const bool flat = f.scene.spheres.empty() && f.scene.boxes.empty() && f.scene.capsules.empty();
-  return flat ? "no solid is round or sharp" : nullptr;
+  return f.any_solid([](const Solid& s) { return !s.traits().half_space; }) ? nullptr : "no solid is round or sharp";
 }
 
 const char* rolling(const Facts& f) {
-  if (!has_solids(f.scene)) return "no solid to roll on";
+  if (!f.any_solid()) return "no solid to roll on";
   return f.any([](const BodyModel& p) { return p.rolls && p.material[contact::rolling_resistance] > 0; })
              ? nullptr
              : "no closed body with rolling resistance";
@@ -111,11 +108,7 @@ constexpr std::array after_forces{
     Row{Stage::gravity, "gravity", gravity},
     Row{Stage::integrate, "integrate", needed},
     Row{Stage::restitution, "restitution", restitution},
-    Row{Stage::solid_spheres, "solid-spheres", spheres},
-    Row{Stage::ground, "ground", ground},
-    Row{Stage::solid_planes, "solid-planes", planes},
-    Row{Stage::solid_boxes, "solid-boxes", boxes},
-    Row{Stage::solid_capsules, "solid-capsules", capsules},
+    Row{Stage::solids, "solids", solids},
     Row{Stage::solid_features, "solid-features", solid_features},
     Row{Stage::internal_damping, "internal-damping", damping},
     Row{Stage::rebound_damping, "rebound-damping", rebound},
@@ -160,6 +153,8 @@ Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const BodyM
     else
       plan.stages.push_back(row.stage);
   }
+  for (const Solid& s : scene.solids)
+    if (s.enabled && std::ranges::count(plan.shapes, &s.traits()) == 0) plan.shapes.push_back(&s.traits());
   return plan;
 }
 

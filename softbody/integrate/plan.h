@@ -13,6 +13,7 @@ namespace softbody {
 struct BodyModel;
 struct Integrator;
 struct Scene;
+struct ShapeTraits;
 
 /// A stage of a step. That of a force of the table (forces/table.h) is first_force plus its place there: see stage_of.
 enum class Stage {
@@ -21,11 +22,7 @@ enum class Stage {
   gravity,
   integrate,
   restitution,
-  solid_spheres,
-  ground,
-  solid_planes,
-  solid_boxes,
-  solid_capsules,
+  solids,
   solid_features,
   internal_damping,
   rebound_damping,
@@ -44,8 +41,9 @@ struct LeftOut {
 };
 
 struct Plan {
-  std::vector<Stage> stages;      // in the order in which a step runs them
-  std::vector<LeftOut> left_out;  // in order
+  std::vector<Stage> stages;               // in the order in which a step runs them
+  std::vector<LeftOut> left_out;           // in order
+  std::vector<const ShapeTraits*> shapes;  // of the solids that are enabled, each once
   bool has(Stage stage) const;
   bool has(std::string_view key) const;
   /// Returns the stages that act as forces although the integrator moves particles to where others have them.

@@ -9,7 +9,6 @@
 #include "softbody/forces/body_measures.h"
 #include "softbody/integrate/force_stage.h"
 #include "softbody/integrate/implicit/steps.h"
-#include "softbody/scene/solids.h"
 
 namespace softbody {
 namespace {
@@ -25,6 +24,7 @@ std::size_t SolverState::bytes() const {
 Solver::Solver(const Scene& scene, const Crew& crew)
     : scene_(scene),
       crew_(crew),
+      penalty_(scene.collision.tolerance),
       solids_(state_),
       contacts_(scene, state_, solids_, crew_),
       implicit_(std::make_unique<ImplicitSteps>()),
@@ -57,25 +57,12 @@ void Solver::remove(BodyId body) {
   state_.remove(body);
 }
 
-void Solver::set_contacts(const DetectedContacts& detected, float thickness) {
-  penalty_.find(detected, state_, thickness, crew_.workers());
-}
-
 glm::dvec3 Solver::gravity() const { return has_gravity_ ? scene_.gravity : glm::dvec3(0.0); }
 
 /// Notes that this one may touch others, or itself.
 void Solver::join(BodyId body) {
   mark_pushed(body);
   joined_[state_.body(body).batch] = true;
-}
-
-/// Finds which solids are near which bodies.
-void Solver::add_solids(std::span<const Extent> extents, double seconds) {
-  for (std::size_t i = 0; i < extents.size(); ++i)
-    for_each_solid(scene_, [&](const auto& solid) {
-      solids_.add(*crew_.moving()[i], extents[i], solid, scene_.gravity, seconds,
-                  [&](const PlacedBox& box) { return way_out(scene_, solid, box); });
-    });
 }
 
 Solver::Frame Solver::begin_frame(double seconds) {
@@ -96,7 +83,8 @@ Solver::Frame Solver::begin_frame(double seconds) {
   const std::vector<const Batch*>& moving = crew_.moving();
   std::vector<Extent> extents(moving.size());
   crew_.for_each(moving.size(), [&](std::size_t i) { extents[i] = state_.extent(*moving[i], state_.x, state_.v); });
-  add_solids(extents, seconds);
+  for (std::size_t i = 0; i < moving.size(); ++i)
+    solids_.add(*moving[i], extents[i], scene_.solids, scene_.gravity, seconds);
   if (std::ranges::any_of(moving, [&](const Batch* b) { return solids_.pushed(*b) != 0; }))  // eased out
     penalty_.gather(field(std::as_const(state_.x)), field(std::as_const(state_.v)));
   const StepBound bound = bounds_.measure(steps_.bounds_of());
@@ -271,6 +259,7 @@ void Solver::run(int count, float h, bool first, const std::function<void()>& af
 }
 
 void Solver::finish_frame(double seconds, Field<float> places) {
+  penalty_.layer.grow(seconds);  // with time, not frames
   const std::span<const Batch> batches = state_.batches();
   crew_.for_each(batches.size(), [&](std::size_t i) {
     if (batches[i].any_moves()) finish(batches[i], seconds);
@@ -302,13 +291,13 @@ void Solver::write_positions(Field<float> to) const {
 }
 
 SolverState Solver::save() const {
-  return {state_.saved(), penalty_.thickness,          penalty_.pairs,     solids_.pushes(),
-          rebounds_,      contacts_.surfaces().save(), steps_.hysteresis()};
+  return {state_.saved(),     penalty_.layer, penalty_.pairs, solids_.pushes(), rebounds_, contacts_.surfaces().save(),
+          steps_.hysteresis()};
 }
 
 void Solver::restore(const SolverState& saved) {
   state_.restore(saved.bodies);
-  penalty_.thickness = saved.penalty_thickness;
+  penalty_.layer = saved.layer;
   penalty_.pairs = saved.penalty_pairs;
   solids_.begin_frame();
   solids_.set_pushes(saved.pushes);

@@ -28,7 +28,7 @@ struct FrameResult {
 /// Everything that the solver remembers from one frame to the next.
 struct SolverState {
   State bodies;
-  float penalty_thickness = 0;  // m
+  ContactLayer layer;
   PenaltyPairs penalty_pairs;
   std::vector<SolidPush> pushes;
   Rebounds rebounds;
@@ -62,8 +62,12 @@ class Solver {
   /// Removes a body. The world's list of bodies must still contain it.
   void remove(BodyId body);
 
-  /// Takes the contacts for the coming frame. thickness: of the contact layer, m.
-  void set_contacts(const DetectedContacts& detected, float thickness);
+  /// Takes the contacts for the coming frame of `seconds`.
+  void set_contacts(const DetectedContacts& detected, double seconds) {
+    penalty_.find(detected, state_, seconds, crew_.workers());
+  }
+  /// Bodies may come closer than the tolerance from now on: the layer of penalty contact grows anew, from nothing.
+  void let_bodies_closer() { penalty_.layer = {}; }
 
   /// Advances by `seconds`, or by less if the budget of work is spent, or if there are too many candidates of surface
   /// contact on the way. If there are at the start, throws std::length_error; then nothing has moved. Unless substeps
@@ -96,7 +100,6 @@ class Solver {
   void mark_pushed(BodyId body) { pushed_[state_.body(body).batch] |= 1u << state_.body(body).lane; }
   void join(BodyId body);
   double penalty_energy();
-  void add_solids(std::span<const Extent> extents, double seconds);
   void finish(const Batch& batch, double seconds);
   Frame begin_frame(double seconds);
   void take_substeps(Frame& frame, const std::function<void()>& after_substep);

@@ -1,6 +1,6 @@
 #pragma once
-// A key of a material: all that scene files, the panel and the documents say about one of its values. A key is declared
-// beside what it acts on; material_keys() lists all of them.
+// A key of a material or of a scene: all that scene files, the panel and the documents say about one value. A key of a
+// material is declared beside what it acts on; material_keys() lists all of them. Those of scenes: scene/scene_keys.h.
 
 #include <limits>
 #include <string_view>
@@ -30,7 +30,7 @@ struct Key {
   struct Limits {
     double least, most;
   };
-  std::string_view name;  // in files; "a.b" is b in the inline table a
+  std::string_view name;  // in files; "a.b" is b in the table a
   std::string_view unit;
   double fallback;
   Limits limits;
@@ -41,9 +41,13 @@ struct Key {
   constexpr Key(std::string_view n, std::string_view u, double value, Limits allowed, std::string_view text,
                 Slider shown = {}, KeyOptions more = {})
       : name(n), unit(u), fallback(value), limits(allowed), summary(text), slider(shown), options(more) {}
+  /// A key whose fallback is not stated here.
+  constexpr Key(std::string_view n, std::string_view u, Limits allowed, std::string_view text, Slider shown = {},
+                KeyOptions more = {})
+      : Key(n, u, not_given, allowed, text, shown, more) {}
   Key(const Key&) = delete;
 
-  /// Returns the name of the inline table in files that holds the key; empty if none does.
+  /// Returns the name of the table in files that holds the key; empty if none does.
   constexpr std::string_view table() const { return name.substr(0, last_part() > 0 ? last_part() - 1 : 0); }
   /// Returns the key's name in its table.
   constexpr std::string_view own_name() const { return name.substr(last_part()); }

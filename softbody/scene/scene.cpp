@@ -2,7 +2,29 @@
 
 #include <algorithm>
 
+#include "softbody/forces/material_keys.h"
+#include "softbody/mesh/shortest_text.h"
+#include "softbody/scene/scene_keys.h"
+
 namespace softbody {
+
+std::string problem(const Scene& scene) {
+  std::string found = problem(scene.collision);
+  if (!collide::find_method(scene.method)) found = "method must be one of: " + collide::method_keys();
+  const auto check = [&](const std::string& of, const Key& key, double value) {
+    const auto [least, most] = key.limits;  // as floats, of which some of the values are
+    if (float(value) >= float(least) && float(value) <= float(most)) return;
+    found = of + std::string(key.name) + " is " + shortest_text(value) + "; it must be from " + shortest_text(least) +
+            " to " + shortest_text(most);
+  };
+  for_each_value(scene, [&](const Key& key, const auto& value) {
+    for (const double number : numbers_of(value)) check("", key, number);
+  });
+  for (const Material& m : scene.materials)
+    for (const Key* key : material_keys())
+      if (m.given(*key)) check("material " + m.name + ": ", *key, m[*key]);
+  return found;
+}
 
 std::vector<std::string> scene_keys(const std::filesystem::path& folder) {
   std::vector<std::string> keys;

@@ -82,21 +82,20 @@ struct Scene {
   glm::dvec3 gravity{0, -9.81, 0};  // m/s^2
   std::string method{collide::default_method};
   ContactSurface contact_surface = ContactSurface::vertices;
-  collide::Settings collision;  // cell_size is filled in by the world if `default_cell_size`
-  bool default_cell_size = true;
+  collide::Settings collision;  // without a cell size: the automatic one
   std::vector<Material> materials;
   std::vector<BodySource> bodies;
-  std::vector<SolidSphere> spheres;
-  std::vector<SolidPlane> planes;
-  std::vector<SolidBox> boxes;
-  std::vector<SolidCapsule> capsules;
-  std::optional<Ground> ground;
+  std::vector<Solid> solids;  // a step handles them in this order
   std::optional<Dropper> dropper;
   SleepRule sleep;
   View view;
   std::vector<Caption> captions;  // what to see from this frame on
   bool operator==(const Scene&) const = default;
 };
+
+/// Returns an empty string if all values of the scene and its materials are within the limits of a scene file, else one
+/// line that names the value and what is allowed.
+std::string problem(const Scene& scene);
 
 /// Reads a scene file. `presets`: a file of materials that the scene may name; it is read only if the scene does.
 /// Throws SceneError; unknown keys, wrong types and values out of range are errors too.

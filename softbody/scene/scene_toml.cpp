@@ -1,43 +1,74 @@
 // Reads scene files. Each key that is read here is written in scene_write.cpp.
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <span>
+#include <type_traits>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "softbody/forces/material_keys.h"
 #include "softbody/mesh/file_mesh.h"
 #include "softbody/mesh/limits.h"
-#include "softbody/scene/limits.h"
-#include "softbody/scene/scene.h"
+#include "softbody/scene/scene_keys.h"
+#include "softbody/scene/solid_toml.h"
 #include "softbody/scene/toml_table.h"
 
 namespace softbody {
 namespace {
 
-constexpr double tiny = 1e-9;  // smallest allowed value of what must be greater than zero: lengths, masses ...
-
-double read_value(Table& table, const Key& key, double value) {
-  const std::string name(key.own_name());
-  return key.options.is_switch ? double(table.boolean(name, value != 0))
-                               : table.number(name, value, key.limits.least, key.limits.most);
+/// Reads the value of a key, if the table has it.
+template <class Value>
+void read(Table& t, const std::string& name, const Key& key, Value& value) {
+  const auto [least, most] = key.limits;
+  if constexpr (std::is_same_v<Value, bool>) {
+    value = t.boolean(name, value);
+  } else if constexpr (std::is_integral_v<Value>) {
+    value = Value(t.integer(name, int(value), int(least), int(most)));
+  } else if constexpr (std::is_floating_point_v<Value>) {
+    value = Value(key.options.is_switch ? t.boolean(name, value != 0) : t.number(name, value, least, most));
+  } else if constexpr (std::is_same_v<Value, glm::dvec3>) {
+    value = t.vector(name, value, least, most);
+  } else if constexpr (std::is_same_v<Value, std::optional<glm::vec3>>) {
+    if (t.has(name)) value = glm::vec3(t.vector(name, {}, least, most));
+  } else if constexpr (std::is_same_v<Value, std::array<std::uint32_t, 3>>) {
+    const glm::dvec3 v = t.whole_vector(name, {value[0], value[1], value[2]}, least, most);
+    value = {std::uint32_t(v.x), std::uint32_t(v.y), std::uint32_t(v.z)};
+  } else if constexpr (std::is_same_v<Value, ContactSurface>) {
+    const auto* found = t.has(name) ? find_contact_surface(t.text(name, "")) : &contact_surfaces[std::size_t(value)];
+    if (!found) t.fail(name, "must be one of: " + contact_surface_keys());
+    value = found->value;
+  } else {
+    value = t.text(name, value);
+    if (!collide::find_method(value)) t.fail(name, "must be one of: " + collide::method_keys());
+  }
 }
+
+/// Reads values, each from the table in `root` that its key names.
+class ValueReader {
+ public:
+  explicit ValueReader(Table& root) : root_(root) {}
+  void operator()(const Key& key, auto& value) const {
+    const std::string inside(key.table());
+    Table& t = inside.empty() ? root_ : tables_.try_emplace(inside, root_.child(inside)).first->second;
+    read(t, std::string(key.own_name()), key, value);
+  }
+  /// Throws SceneError if one of these tables has a key that was not read.
+  void close() const {
+    for (const auto& [name, table] : tables_) table.close();
+  }
+
+ private:
+  Table& root_;
+  mutable std::map<std::string, Table> tables_;
+};
 
 /// Reads a material. `m` holds the values for keys that the table does not have.
 Material read_material(Table& table, Material m = {}) {
   m.name = table.text("name", m.name);
-  std::map<std::string, Table> inline_tables;
-  for (const Key* key : material_keys()) {
-    const std::string inside(key->table());
-    Table& t = inside.empty() ? table : inline_tables.try_emplace(inside, table.child(inside)).first->second;
-    m[*key] = read_value(t, *key, m[*key]);
-  }
-  for (const auto& [name, inline_table] : inline_tables) inline_table.close();
+  const ValueReader read_value(table);
+  for (const Key* key : material_keys()) read_value(*key, m[*key]);
+  read_value.close();
   table.close();
   return m;
 }
@@ -95,121 +126,6 @@ BodySource read_body(Table& table, const std::vector<Material>& materials, std::
   b.position = table.vector("position", b.position, -1e6, 1e6);
   b.velocity = table.vector("velocity", b.velocity, -1e3, 1e3);
   return b;
-}
-
-void read_collision(Table table, Scene& scene) {
-  collide::Settings& c = scene.collision;
-  scene.method = table.text("method", scene.method);
-  if (!collide::find_method(scene.method)) table.fail("method", "must be one of: " + collide::method_keys());
-  const ContactSurfaceInfo* surface =
-      find_contact_surface(table.text("contact_surface", std::string(contact_surfaces[0].key)));
-  if (!surface) table.fail("contact_surface", "must be one of: " + contact_surface_keys());
-  scene.contact_surface = surface->value;
-  c.tolerance = static_cast<float>(table.number("tolerance", c.tolerance, min_length, max_tolerance));
-  c.self_collision = table.boolean("self_collision", c.self_collision);
-  c.levels = table.integer("levels", c.levels, 0, collide::max_levels);
-  c.buckets =
-      static_cast<std::uint32_t>(table.integer("buckets", static_cast<int>(c.buckets), 1, collide::max_buckets));
-  scene.default_cell_size = !table.has("cell_size");
-  c.cell_size = glm::vec3(table.vector("cell_size", glm::dvec3(c.cell_size), min_length, max_length));
-  const glm::dvec3 primes = table.whole_vector("primes", {c.primes[0], c.primes[1], c.primes[2]}, 1,
-                                               std::numeric_limits<std::uint32_t>::max());
-  for (int axis = 0; axis < 3; ++axis) c.primes[std::size_t(axis)] = static_cast<std::uint32_t>(primes[axis]);
-  table.close();
-}
-
-constexpr double max_coordinate = 1e6;  // m, of positions
-
-/// Reads the keys that all solids have in common.
-template <class Solid>
-void read_surface(Table& table, Solid& solid) {
-  solid.friction = table.number("friction", solid.friction, 0, 10);
-  solid.restitution = table.number("restitution", solid.restitution, 0, 1);
-  table.close();
-}
-
-constexpr double unit_error = 1e-14;  // of the square of a length that was made 1, at most
-
-/// Reads a direction of any length but zero and returns its unit vector. A unit vector is returned unchanged, to the
-/// bit, so that saved scenes are equal.
-glm::dvec3 read_direction(Table& table, const std::string& key, const glm::dvec3& fallback) {
-  const glm::dvec3 v = table.vector(key, fallback, -max_coordinate, max_coordinate);
-  if (glm::length(v) < tiny) table.fail(key, "must have a length, e.g. [0, 1, 0]");
-  return std::abs(glm::dot(v, v) - 1) < unit_error ? v : glm::normalize(v);
-}
-
-/// Reads a rotation as a matrix, column by column. Saved scenes use this form, since it is exact.
-glm::dmat3 read_axes(Table table) {
-  const glm::dmat3 axes = table.matrix("axes");
-  table.close();
-  const glm::dmat3 error = glm::transpose(axes) * axes - glm::dmat3(1.0);
-  for (int k = 0; k < 3; ++k)
-    if (glm::length(error[k]) > 1e-9 || glm::determinant(axes) < 0)
-      table.fail("axes", "must be three directions of length 1, each at right angles to the others, right-handed");
-  return axes;
-}
-
-/// Returns the matrix that rotates by `degrees` about `axis`, counter-clockwise as seen from its tip (Rodrigues). Sine
-/// and cosine are rounded, so that quarter turns are exact and processors agree in the last digits.
-glm::dmat3 read_rotation(Table table) {
-  if (table.has("axes")) return read_axes(std::move(table));
-  const glm::dvec3 axis = read_direction(table, "axis", {0, 1, 0});
-  const double angle = glm::radians(table.number("degrees", 0, -360, 360));
-  table.close();
-  constexpr double digits = 1e12;
-  const double s = std::round(std::sin(angle) * digits) / digits, c = std::round(std::cos(angle) * digits) / digits;
-  glm::dmat3 columns;
-  for (int k = 0; k < 3; ++k) {
-    glm::dvec3 e(0.0);
-    e[k] = 1;
-    columns[k] = c * e + s * glm::cross(axis, e) + (1 - c) * glm::dot(axis, e) * axis;
-  }
-  return columns;
-}
-
-void read_sphere(Table& t, SolidSphere& s) {
-  s.centre = t.vector("centre", s.centre, -max_coordinate, max_coordinate);
-  s.radius = t.number("radius", s.radius, tiny, max_coordinate);
-}
-
-void read_plane(Table& t, SolidPlane& p) {
-  p.point = t.vector("point", p.point, -max_coordinate, max_coordinate);
-  p.normal = read_direction(t, "normal", p.normal);
-}
-
-void read_box(Table& t, SolidBox& b) {
-  b.centre = t.vector("centre", b.centre, -max_coordinate, max_coordinate);
-  b.half_size = 0.5 * t.vector("size", 2.0 * b.half_size, tiny, max_coordinate);
-  b.axes = read_rotation(t.child("rotation"));
-}
-
-void read_capsule(Table& t, SolidCapsule& c) {
-  c.from = t.vector("from", c.from, -max_coordinate, max_coordinate);
-  c.to = t.vector("to", c.to, -max_coordinate, max_coordinate);
-  c.radius = t.number("radius", c.radius, tiny, max_coordinate);
-}
-
-/// Reads the solids of [[key]].
-template <class Solid>
-std::vector<Solid> read_list(Table& root, const std::string& key, void (*read)(Table&, Solid&)) {
-  std::vector<Solid> list;
-  for (Table& t : root.children(key)) {
-    read(t, list.emplace_back());
-    read_surface(t, list.back());
-  }
-  return list;
-}
-
-void read_solids(Table& root, Scene& scene) {
-  scene.spheres = read_list(root, "solid_sphere", read_sphere);
-  scene.planes = read_list(root, "solid_plane", read_plane);
-  scene.boxes = read_list(root, "solid_box", read_box);
-  scene.capsules = read_list(root, "solid_capsule", read_capsule);
-  if (!root.has("ground")) return;
-  Table t = root.child("ground");
-  Ground& ground = scene.ground.emplace();
-  ground.height = t.number("height", ground.height, -max_coordinate, max_coordinate);
-  read_surface(t, ground);
 }
 
 /// Adds `number` copies of the body in layers upwards; the body's position is the centre of the bottom layer. Adds one
@@ -292,7 +208,7 @@ void read_bodies(Table& root, Scene& scene, const std::filesystem::path& presets
 void read_view(Table& root, Scene& scene) {
   Table t = root.child("view");
   scene.view.target = t.vector("target", scene.view.target, -1e6, 1e6);
-  scene.view.distance = t.number("distance", scene.view.distance, tiny, 1e6);
+  scene.view.distance = t.number("distance", scene.view.distance, 1e-9, 1e6);
   scene.view.azimuth = t.number("azimuth", scene.view.azimuth, -360, 360);
   scene.view.elevation = t.number("elevation", scene.view.elevation, -89, 89);
   t.close();
@@ -307,14 +223,11 @@ Scene read_scene(Table root, const std::filesystem::path& file, const std::files
   scene.key = file.stem().string();
   scene.name = root.text("name", scene.key);
   scene.look_at = root.text("look_at", "");
-  scene.gravity = root.vector("gravity", scene.gravity, -max_gravity, max_gravity);
-  read_collision(root.child("collision"), scene);
-  read_solids(root, scene);
+  const ValueReader read_value(root);
+  for_each_value(scene, read_value);
+  read_value.close();
+  scene.solids = read_solids(root);
   read_bodies(root, scene, presets);
-  Table sleep = root.child("sleep");
-  scene.sleep.speed = sleep.number("speed", scene.sleep.speed, 0, 1e3);
-  scene.sleep.frames = sleep.integer("frames", scene.sleep.frames, 1, 1'000'000);
-  sleep.close();
   read_view(root, scene);
   root.close();
   return scene;

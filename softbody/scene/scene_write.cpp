@@ -3,8 +3,11 @@
 #include "softbody/scene/scene_write.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "softbody/forces/material_keys.h"
+#include "softbody/scene/scene_keys.h"
+#include "softbody/scene/solid_toml.h"
 #include "softbody/scene/toml_table.h"
 #include "softbody/scene/toml_text.h"
 
@@ -12,16 +15,24 @@ namespace softbody {
 namespace fs = std::filesystem;
 namespace {
 
-void write_collision(TomlLines& out, const Scene& scene) {
-  const collide::Settings& c = scene.collision;
-  out.heading("[collision]");
-  out.add("method", scene.method);
-  const auto surface = std::ranges::find(contact_surfaces, scene.contact_surface, &ContactSurfaceInfo::value);
-  out.add("contact_surface", surface->key);
-  out.add("tolerance", c.tolerance).add("self_collision", c.self_collision);
-  out.add("levels", c.levels).add("buckets", c.buckets);
-  if (!scene.default_cell_size) out.add("cell_size", c.cell_size);
-  out.add("primes", glm::dvec3(c.primes[0], c.primes[1], c.primes[2]));
+// These write the value of a key, unless nothing was given for it.
+void write(TomlLines& out, const Key& key, const auto& value) { out.add(key.own_name(), value); }
+void write(TomlLines& out, const Key& key, const std::optional<glm::vec3>& value) {
+  if (value) out.add(key.own_name(), *value);
+}
+void write(TomlLines& out, const Key& key, const std::array<std::uint32_t, 3>& value) {
+  out.add(key.own_name(), glm::dvec3(value[0], value[1], value[2]));
+}
+void write(TomlLines& out, const Key& key, ContactSurface value) {
+  out.add(key.own_name(), std::ranges::find(contact_surfaces, value, &ContactSurfaceInfo::value)->key);
+}
+
+void write_values(TomlLines& out, const Scene& scene) {
+  std::string_view table;
+  for_each_value(scene, [&](const Key& key, const auto& value) {
+    if (std::exchange(table, key.table()) != key.table()) out.heading("[" + std::string(table) + "]");
+    write(out, key, value);
+  });
 }
 
 void write_material(TomlLines& out, const Material& m) {
@@ -44,34 +55,6 @@ void write_material(TomlLines& out, const Material& m) {
     for (; key != keys.end() && (*key)->table() == name; ++key) add(inside, **key);
     out.add(name, inside);
   }
-}
-
-template <class Solid>
-void write_surface(TomlLines& out, const Solid& solid) {
-  out.add("friction", solid.friction).add("restitution", solid.restitution);
-}
-
-void write_solids(TomlLines& out, const Scene& scene) {
-  for (const SolidSphere& s : scene.spheres) {
-    out.heading("[[solid_sphere]]").add("centre", s.centre).add("radius", s.radius);
-    write_surface(out, s);
-  }
-  for (const SolidPlane& p : scene.planes) {
-    out.heading("[[solid_plane]]").add("point", p.point).add("normal", p.normal);
-    write_surface(out, p);
-  }
-  for (const SolidBox& b : scene.boxes) {
-    out.heading("[[solid_box]]").add("centre", b.centre).add("size", 2.0 * b.half_size);
-    if (b.axes != glm::dmat3(1.0)) out.add("rotation", TomlInline().add("axes", b.axes));
-    write_surface(out, b);
-  }
-  for (const SolidCapsule& c : scene.capsules) {
-    out.heading("[[solid_capsule]]").add("from", c.from).add("to", c.to).add("radius", c.radius);
-    write_surface(out, c);
-  }
-  if (!scene.ground) return;
-  out.heading("[ground]").add("height", scene.ground->height);
-  write_surface(out, *scene.ground);
 }
 
 /// Returns a path relative to the scene file's folder, with the links in both paths resolved.
@@ -134,11 +117,10 @@ std::string scene_toml(const Scene& scene, const fs::path& folder) {
   if (scene.bodies.empty() && !scene.dropper) throw SceneError("a scene without a body cannot be saved; add one");
   require_different_names(scene);
   TomlLines out;
-  out.add("name", scene.name).add("look_at", scene.look_at).add("gravity", scene.gravity);
-  write_collision(out, scene);
+  out.add("name", scene.name).add("look_at", scene.look_at);
+  write_values(out, scene);
   for (const Material& m : scene.materials) write_material(out, m);
-  write_solids(out, scene);
-  out.heading("[sleep]").add("speed", scene.sleep.speed).add("frames", scene.sleep.frames);
+  write_solids(out, scene.solids);
   write_bodies(out, scene, folder);
   write_view(out, scene);
   if (out.text().size() > max_toml_file_size) throw SceneError("the scene has too many bodies for a scene file");

@@ -43,9 +43,9 @@ class BodiesInMotion {
 
   virtual const Scene& scene() const = 0;                  // with all changes
   virtual const collide::Settings& collision() const = 0;  // the scene's, with the cell size in use
-  /// Returns the default cell size (§2.2) with these levels. It depends on the shapes of the bodies at the start, not
+  /// Returns the automatic cell size (§2.2) with these levels. It depends on the shapes of the bodies at the start, not
   /// on the present ones.
-  virtual glm::vec3 default_cell_size(int levels) const = 0;
+  virtual glm::vec3 automatic_cell_size(int levels) const = 0;
   virtual const collide::Method& method() const = 0;
   /// Returns the lower and the upper corner of a box around the bodies in all frames, if that is known.
   virtual std::optional<std::array<glm::vec3, 2>> bounds() const { return std::nullopt; }

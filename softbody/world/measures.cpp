@@ -7,7 +7,6 @@
 
 #include "softbody/contact/solid_overlap.h"
 #include "softbody/integrate/force_stage.h"
-#include "softbody/scene/solids.h"
 #include "softbody/state/state.h"
 
 namespace softbody {
@@ -31,7 +30,6 @@ double largest_of_concave(double lo, double hi, const Value& value) {
 /// Returns how deep (m) particles at x lie in a solid, and with `faces` also what is between them, if that is more than
 /// `least`. A solid is convex, so that the depth in it is concave: along a face it stays below the planes that touch
 /// it.
-template <class Solid>
 double deepest_in(const Solid& solid, const std::vector<glm::dvec3>& x, std::span<const Triangle> faces, double least) {
   const auto depth = [&](const glm::dvec3& p) { return -surface_at(solid, p).distance; };
   for (const glm::dvec3& p : x) least = std::max(least, depth(p));
@@ -70,22 +68,21 @@ double deepest_in_solids(const World& world, BodyId id, const PlacedBox& box) {
   std::span<const Triangle> faces;
   if (world.scene().contact_surface == ContactSurface::surfaces) faces = p.mesh.triangles;
   double deepest = 0;
-  for_each_solid(world.scene(), [&](const auto& solid) {
-    if (gap_before(solid, box) >= 0) return;
+  for (const Solid& solid : world.scene().solids) {
+    if (gap_before(solid, box) >= 0) continue;
     for (Index i = Index(x.size()); i < p.mesh.vertices.size(); ++i) x.push_back(world.particle(id, i).position);
     deepest = deepest_in(solid, x, faces, deepest);
-  });
+  }
   return deepest;
 }
 
 /// Returns true if a body lies in one of the scene's solids, by more than rounding.
 bool lies_in_solid(const World& world, BodyId id, const PlacedBody& body, const PlacedBox& box) {
   constexpr double rounding = 1e-4;  // m
-  bool any = deepest_in_solids(world, id, box) > rounding;
-  for_each_solid(world.scene(), [&](const auto& solid) {
-    any = any || overlap(body, solid, world.scene().contact_surface == ContactSurface::surfaces);
-  });
-  return any;
+  return deepest_in_solids(world, id, box) > rounding ||
+         std::ranges::any_of(world.scene().solids, [&](const Solid& solid) {
+           return overlap(body, solid, world.scene().contact_surface == ContactSurface::surfaces);
+         });
 }
 
 }  // namespace
@@ -117,10 +114,10 @@ std::vector<BodyId> overlapping_bodies(const World& world) {
 
 SolidDepth solid_depth(const Scene& scene, const glm::dvec3& point) {
   SolidDepth deepest{glm::vec3(0, 1, 0), -std::numeric_limits<double>::infinity()};
-  for_each_solid(scene, [&](const auto& solid) {
+  for (const Solid& solid : scene.solids) {
     const SolidSurface s = surface_at(solid, point);
     if (-s.distance > deepest.depth) deepest = {glm::vec3(s.normal), -s.distance};
-  });
+  }
   return deepest;
 }
 
@@ -157,9 +154,8 @@ std::vector<SolidContactPoint> solid_contacts(const World& world) {
   const std::vector<PlacedBox> boxes = boxes_of(world.state());
   for (BodyId body = 0; body < boxes.size(); ++body) {
     const double distance = world.model(body).material[Material::thickness] + rounding;
-    bool near = false;
-    for_each_solid(world.scene(), [&](const auto& solid) { near = near || gap_before(solid, boxes[body]) < distance; });
-    if (!near) continue;
+    const auto is_near = [&](const Solid& solid) { return gap_before(solid, boxes[body]) < distance; };
+    if (std::ranges::none_of(world.scene().solids, is_near)) continue;
     for (Index i = 0; i < at.bodies->size(body); ++i) {
       const SolidDepth d = solid_depth(world.scene(), world.particle(body, i).position);
       if (d.depth > -distance) contacts.push_back({at.bodies->first[body] + i, d.normal});

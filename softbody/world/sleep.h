@@ -10,7 +10,8 @@ namespace softbody {
 
 class Sleep {
  public:
-  explicit Sleep(SleepRule rule) : rule_(rule) {}
+  /// The rule must outlive this.
+  explicit Sleep(const SleepRule& rule) : rule_(rule) {}
 
   /// Wakes sleepers that are touched by a body faster than twice the rule's speed. Call it before the frame's substeps.
   void wake_touched(State& state, std::span<const BodyId> vertex_body,
@@ -22,7 +23,7 @@ class Sleep {
               const std::vector<collide::surface::ItemPair>& interactions);
 
  private:
-  SleepRule rule_;
+  const SleepRule& rule_;
 };
 
 }  // namespace softbody

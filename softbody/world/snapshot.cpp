@@ -23,12 +23,12 @@ void World::restore(const Snapshot& snapshot) {
   assert(snapshot.values);
   Parts& s = *parts_;
   static_cast<WorldValues&>(s) = snapshot.values->world;
-  s.sleep = Sleep(s.scene.sleep);
+  s.settings = s.settings_of(s.scene);
   s.update_plan();
   s.set_integrator();  // without a check: the state may be one that a new scene would be refused for
   s.solver.restore(snapshot.values->solver);
   s.solver.hand().take(snapshot.grab);
-  s.particles.detector = s.method->make();  // a new one: the old one caches another state
+  s.particles.detector = s.method().make();  // a new one: the old one caches another state
   s.count_vertices();
   s.update_positions();
   s.detect();

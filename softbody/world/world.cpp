@@ -16,7 +16,7 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// Returns the default cell size for the bodies at rest.
+/// Returns the automatic cell size for the bodies at rest.
 glm::vec3 rest_cell_size(const BodyModelSet& models, int levels, float tolerance) {
   collide::Bodies bodies;
   Coordinates rest;
@@ -24,35 +24,29 @@ glm::vec3 rest_cell_size(const BodyModelSet& models, int levels, float tolerance
     bodies.add(std::make_shared<collide::Shape>(p->shown().shape->shared_topology()));  // without another shape at rest
     rest.add(p->shown_at_rest());
   }
-  return collide::default_cell_size(rest.frame(bodies), levels, tolerance);
+  return collide::automatic_cell_size(rest.frame(bodies), levels, tolerance);
 }
 
 }  // namespace
 
 WorldValues::WorldValues(Scene s, const IntegratorChoice& integrator)
-    : scene(std::move(s)),
-      models(scene),
-      arrived(scene.bodies.size(), false),
-      choice(integrator),
-      method(collide::find_method(scene.method)),
-      settings(scene.collision),
-      penalty_thickness(settings.tolerance) {}
+    : scene(std::move(s)), models(scene), arrived(scene.bodies.size(), false), choice(integrator) {}
 
 World::Parts::Parts(Scene s, const Options& o)
     : WorldValues(std::move(s), o.integrator),
+      check_work(o.check_work),
       frame_time(o.frame_time),
       workers(o.threads, o.least_share),
       plan(make_plan(scene, models.all())),
       solver(scene, Crew(workers)),
       sleep(scene.sleep) {
-  particles.detector = method->make();
+  particles.detector = method().make();
   solver.steps().set_budget(o.budget);
   solver.set_max_candidates(o.max_candidates);
   solver.set_vertices(particles.bodies);
   solver.set_plan(plan);
   check_sizes(models, choice);
   set_integrator();
-  if (scene.default_cell_size) settings.cell_size = default_cell_size(settings.levels);
   arrive();
   update_positions();
   detect();
@@ -100,8 +94,11 @@ void World::Parts::arrive() {
   }
 }
 
-glm::vec3 World::Parts::default_cell_size(int levels) const {
-  return rest_cell_size(models, levels, settings.tolerance);
+/// Returns the settings of a detection by this scene, with the cell size.
+collide::Settings World::Parts::settings_of(const Scene& of) const {
+  collide::Settings all = of.collision;
+  if (!all.cell_size) all.cell_size = rest_cell_size(models, all.levels, all.tolerance);
+  return all;
 }
 
 /// Adds the meshes of a new body, which the solver's state has already.
@@ -121,7 +118,7 @@ void World::Parts::count_vertices() {
     if (state.model(id).fine) fine.emplace();
   }
   if (!fine) return;
-  fine->detector = method->make();
+  fine->detector = method().make();
   for (BodyId id = 0; id < state.body_count(); ++id) fine->add(state.model(id).shown().shape);
 }
 
@@ -164,6 +161,23 @@ void World::Parts::detect() {
   report.detect_ms = ms_since(start);
 }
 
+/// Finds the contacts by another method or with other settings, those of `next`. Changes nothing if it throws.
+void World::Parts::detect_anew(const World& world, const Scene& next, const Plan& next_plan) {
+  const collide::Method& another = *collide::find_method(next.method);
+  const collide::Settings others = settings_of(next);
+  if (check_work) check_work(world, another, others);
+  const auto start = Clock::now();
+  std::vector<Detection> found;
+  for_each_meshes([&](DetectedMeshes& meshes) {
+    Detection& one = found.emplace_back(another.make());
+    if (next_plan.has(Stage::detect)) one.detector->detect(meshes.frame(), others, workers, one.result);
+  });
+  report.detect_ms = ms_since(start);
+  settings = others;
+  std::size_t next_one = 0;
+  for_each_meshes([&](Detection& meshes) { meshes = std::move(found[next_one++]); });
+}
+
 void World::Parts::wake_all() {
   for (BodyId b = 0; b < particles.bodies.count(); ++b)
     if (solver.state().body(b).asleep) solver.state().set_asleep(b, false);
@@ -181,13 +195,9 @@ void World::step(const std::function<void()>& after_substep) {
   ++s.frame;
   if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.solver.state(), touching.vertex_body, touching.result.contacts);
   const bool penalty = s.plan.has(stage_of<PenaltyContact>);
-  const auto grown = [&, thickness = s.penalty_thickness](double seconds) {
-    return std::min(s.settings.tolerance, thickness + float(0.05 * seconds));  // 5 cm/s
-  };
-  if (penalty) {
-    s.penalty_thickness = grown(s.frame_time);
-    s.solver.set_contacts({touching.bodies, touching.vertex_body, touching.result.contacts}, s.penalty_thickness);
-  }
+  if (penalty)
+    s.solver.set_contacts({touching.bodies, touching.vertex_body, touching.result.contacts, s.settings.tolerance},
+                          s.frame_time);
   double looking_ms = 0;
   const auto look = [&] {
     const auto from = Clock::now();
@@ -210,10 +220,9 @@ void World::step(const std::function<void()>& after_substep) {
   s.report.integrator = steps.integrator;
   s.report.why = steps.why;
   const bool whole = done.seconds == s.frame_time;
-  if (penalty) s.penalty_thickness = grown(done.seconds);  // with time, not frames
   s.report.solve_ms = ms_since(start) - looking_ms;
   s.detect();
-  const bool penalty_grows = penalty && s.penalty_thickness < s.settings.tolerance;  // nobody falls asleep meanwhile
+  const bool penalty_grows = penalty && s.solver.penalty_contact().layer.grows();  // nobody falls asleep meanwhile
   if (s.plan.has(Stage::sleep) && whole && !penalty_grows)
     s.sleep.settle(s.solver.state(), touching.vertex_body, touching.result.contacts,
                    s.solver.surface_contact().candidates().interactions());
@@ -237,18 +246,10 @@ int World::frame() const { return parts_->frame; }
 double World::frame_time() const { return parts_->frame_time; }
 const Plan& World::plan() const { return parts_->plan; }
 const collide::Settings& World::collision() const { return parts_->settings; }
-glm::vec3 World::default_cell_size(int levels) const { return parts_->default_cell_size(levels); }
-const collide::Method& World::method() const { return *parts_->method; }
-
-void World::set_method(std::string_view key) {
-  Parts& s = *parts_;
-  const collide::Method* found = collide::find_method(key);
-  assert(found);
-  s.method = found;
-  s.for_each_meshes([&](DetectedMeshes& meshes) { meshes.detector = s.method->make(); });
-  s.wake_all();
-  s.detect();
+glm::vec3 World::automatic_cell_size(int levels) const {
+  return rest_cell_size(parts_->models, levels, parts_->settings.tolerance);
 }
+const collide::Method& World::method() const { return parts_->method(); }
 
 void World::set_integrator(const IntegratorChoice& choice) {
   Parts& s = *parts_;
@@ -259,27 +260,6 @@ void World::set_integrator(const IntegratorChoice& choice) {
 }
 
 const IntegratorChoice& World::integrator_choice() const { return parts_->choice; }
-
-void World::set_collision(const collide::Settings& settings, bool default_cell_size) {
-  Parts& s = *parts_;
-  assert(collide::problem(settings).empty());
-  s.settings = s.scene.collision = settings;
-  s.scene.default_cell_size = default_cell_size;
-  s.update_plan();  // self-collision decides whether a lone body needs detection
-  if (default_cell_size) s.settings.cell_size = s.default_cell_size(settings.levels);
-  s.wake_all();
-  s.detect();
-}
-
-void World::set_contact_surface(ContactSurface surface) {
-  Parts& s = *parts_;
-  s.scene.contact_surface = surface;
-  s.update_plan();
-  // Surface contact lets bodies closer than the tolerance. The contact layer grows from 0, or it would throw them
-  // apart.
-  if (surface == ContactSurface::surfaces && s.frame > 0) s.penalty_thickness = 0;
-  s.wake_all();
-}
 
 const collide::Bodies& World::bodies() const { return parts_->shown().bodies; }
 collide::Frame World::positions() const { return parts_->shown().frame(); }

@@ -38,6 +38,8 @@ class World : public BodiesInMotion {
     double least_share = collide::Workers::least_share;  // of work, which each thread is to have: ns
     WorkBudget budget{};
     MaxCandidates max_candidates{};
+    /// Throws SceneError if it would take too long to find the contacts of a frame in this way.
+    std::function<void(const BodiesInMotion&, const collide::Method&, const collide::Settings&)> check_work{};
   };
 
   /// Throws SceneError if a body has too many particles for implicit steps, and these are chosen.
@@ -75,22 +77,18 @@ class World : public BodiesInMotion {
   void grab(const std::optional<Grab>& grab);
   const std::optional<Grab>& grabbed() const;
 
-  // Changes of the scene. They wake all bodies and make a new plan. Values must be within the limits of a scene file.
-  void set_gravity(const glm::dvec3& gravity);  // m/s^2
-  /// Changes a material of the scene. If `index` is the number of materials, adds one for later bodies; its name must
-  /// then be new. Bodies keep their positions, and new bodies start in the same shape as before the change.
-  void set_material(std::size_t index, const Material& material);
-  void set_solids(const Scene& from);  // copies the solids of that scene, the ground included
-  void set_contact_surface(ContactSurface surface);
+  /// Makes `wanted` the scene, all but its bodies and dropper: those of the world stay. Materials are told apart by
+  /// their place in the list; those beyond the end of the wanted list stay, further ones are for later bodies. Bodies
+  /// keep their positions, and new bodies start in the same shape as before the change. Wakes all bodies if anything
+  /// that acts on them is another. Changes nothing if it throws: SceneError for what problem() or Options::check_work
+  /// refuses, or what a detector throws.
+  void apply(const Scene& wanted);
   /// Throws SceneError as the constructor does. The choice's key must be known.
   void set_integrator(const IntegratorChoice& choice);
-  void set_method(std::string_view key);  // of a known method
-  /// problem(settings) must be empty.
-  void set_collision(const collide::Settings& settings, bool default_cell_size);
 
   const Scene& scene() const override;
   const collide::Settings& collision() const override;
-  glm::vec3 default_cell_size(int levels) const override;
+  glm::vec3 automatic_cell_size(int levels) const override;
   const collide::Method& method() const override;
   const IntegratorChoice& integrator_choice() const;
   const Plan& plan() const;

@@ -10,6 +10,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "softbody/mesh/limits.h"
+#include "softbody/scene/scene_keys.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/world_parts.h"
 
@@ -136,6 +137,7 @@ BodyId World::add(const BodySource& source) {
   s.check_capacity(*more.add(source, s.scene.materials), 1);
   s.check_sizes(more, s.choice);
   s.models = std::move(more);
+  s.settings = s.settings_of(s.scene);  // this mesh may be larger than all others
   const BodyId id = s.spawn(source);
   s.bodies_added(1);
   return id;
@@ -196,44 +198,44 @@ double World::Parts::energy() const {
   return sum;
 }
 
-void World::set_gravity(const glm::dvec3& gravity) {
-  parts_->book_change([&] { parts_->scene.gravity = gravity; });
-  parts_->update_plan();
-  parts_->wake_all();
-}
-
-void World::set_material(std::size_t index, const Material& material) {
+void World::apply(const Scene& wanted) {
   Parts& s = *parts_;
-  assert(index <= s.scene.materials.size());
-  if (index == s.scene.materials.size()) {
-    s.scene.materials.push_back(material);
-    return;
-  }
-  BodyModelSet changed = s.models;
-  changed.set_material(int(index), material);
-  s.book_change([&] {
-    for (std::size_t i = 0; i < changed.all().size(); ++i) {
-      const auto &from = s.models.all()[i], &to = changed.all()[i];
+  Scene next = wanted;
+  next.bodies = s.scene.bodies, next.dropper = s.scene.dropper;
+  const std::size_t known = s.scene.materials.size();
+  for (std::size_t i = next.materials.size(); i < known; ++i) next.materials.push_back(s.scene.materials[i]);
+  if (const std::string wrong = problem(next); !wrong.empty()) throw SceneError(wrong);
+
+  BodyModelSet models = s.models;
+  for (std::size_t i = 0; i < known; ++i)
+    if (next.materials[i] != s.scene.materials[i]) models.set_material(int(i), next.materials[i]);
+  const bool materials = models.all() != s.models.all();
+  const bool solids = next.solids != s.scene.solids;
+  const bool detection = next.method != s.scene.method || next.collision != s.scene.collision;
+  const auto on_surfaces = [](const Scene& scene) { return scene.contact_surface == ContactSurface::surfaces; };
+  const bool closer = on_surfaces(next) && !on_surfaces(s.scene) && s.frame > 0;
+  Scene other_values = s.scene;
+  for (const bool of_detection : {true, false}) copy_values(next, other_values, of_detection);
+  const bool wakes = materials || solids || other_values != s.scene;
+  Plan plan = make_plan(next, models.all(), s.added_bodies);
+  if (detection) s.detect_anew(*this, next, plan);
+
+  // Nothing throws from here on.
+  const auto set_values = [&] {
+    for (std::size_t i = 0; i < models.all().size(); ++i) {
+      const auto &from = s.models.all()[i], &to = models.all()[i];
       if (from != to) s.solver.state().replace(from, to);
     }
-  });
-  s.models = std::move(changed);
-  s.scene.materials[index] = material;
-  s.update_plan();
-  s.wake_all();
-}
-
-void World::set_solids(const Scene& from) {
-  Scene& to = parts_->scene;
-  to.spheres = from.spheres;
-  to.planes = from.planes;
-  to.boxes = from.boxes;
-  to.capsules = from.capsules;
-  to.ground = from.ground;
-  for (BodyId b = 0; b < parts_->particles.bodies.count(); ++b)
-    parts_->solver.state().memory(b).may_lie_in_solid = true;
-  parts_->update_plan();
-  parts_->wake_all();
+    s.scene.gravity = next.gravity;
+  };
+  if (materials || next.gravity != s.scene.gravity) s.book_change(set_values);
+  s.models = std::move(models);
+  s.scene = std::move(next);
+  s.plan = std::move(plan);
+  s.solver.set_plan(s.plan);
+  if (closer) s.solver.let_bodies_closer();
+  for (BodyId b = 0; solids && b < s.particles.bodies.count(); ++b) s.solver.state().memory(b).may_lie_in_solid = true;
+  if (wakes) s.wake_all();
 }
 
 }  // namespace softbody

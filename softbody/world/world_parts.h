@@ -19,13 +19,16 @@ struct Coordinates : Points {
   collide::Frame frame(const collide::Bodies& bodies) const { return {x, y, z, &bodies}; }
 };
 
+struct Detection {
+  std::unique_ptr<collide::Detector> detector;
+  collide::Result result;
+};
+
 /// A mesh of each body, where it is now, and the contacts between them.
-struct DetectedMeshes {
+struct DetectedMeshes : Detection {
   collide::Bodies bodies;
   std::vector<BodyId> vertex_body;
   Coordinates positions;
-  std::unique_ptr<collide::Detector> detector;
-  collide::Result result;
 
   void add(const std::shared_ptr<const collide::Shape>& shape) {
     vertex_body.resize(vertex_body.size() + shape->vertex_count(), bodies.count());
@@ -47,10 +50,6 @@ struct WorldValues {
   std::array<double, 2> drop_direction{1, 0};  // x and z
   int frame = 0;
   IntegratorChoice choice;
-  const collide::Method* method;
-  collide::Settings settings;
-  float penalty_thickness;  // m, of the contact layer; grows slowly towards the tolerance, so that a larger tolerance
-                            // throws no bodies about
   StepReport report;
 };
 
@@ -71,6 +70,7 @@ struct World::Parts : WorldValues {
   void count_vertices();
   void update_positions();
   void place_fine_meshes();
+  const collide::Method& method() const { return *collide::find_method(scene.method); }
   const DetectedMeshes& shown() const { return fine ? *fine : particles; }
   void for_each_meshes(const auto& change) {
     change(particles);
@@ -78,7 +78,8 @@ struct World::Parts : WorldValues {
   }
   void detect();
   void wake_all();
-  glm::vec3 default_cell_size(int levels) const;
+  void detect_anew(const World& world, const Scene& next, const Plan& next_plan);
+  collide::Settings settings_of(const Scene& of) const;
   void set_integrator();
   void wake_near(BodyId body);
   void update_plan();
@@ -91,7 +92,9 @@ struct World::Parts : WorldValues {
   bool is_clear(const BodyModel& p, const glm::dvec3& position) const;
   double clear_height(const BodyModel& p, const glm::dvec3& position) const;
 
-  double frame_time;  // s
+  decltype(Options::check_work) check_work;
+  double frame_time;                                // s
+  collide::Settings settings = settings_of(scene);  // in use
   collide::Workers workers;
   Plan plan;
   Solver solver;

@@ -9,6 +9,7 @@
 #include "softbody/forces/springs.h"
 #include "softbody/model/body_model.h"
 #include "tests/app/scenes.h"
+#include "tests/support/change.h"
 
 namespace app {
 namespace {
@@ -141,12 +142,13 @@ class Watched {
 TEST(BlowUpMonitor, AcceptsABodyPushedOutOfASolid) {
   softbody::Scene scene = touching_pair();
   scene.bodies.resize(1);
-  scene.ground.reset();
+  remove_solids<softbody::Ground>(scene);
   Watched watched(scene);
   for (int i = 0; i < 4; ++i) watched.look();
   const double start = softbody::measure(watched.world).energy;
-  scene.spheres.push_back({.centre = watched.world.body(0).origin - glm::dvec3(0.1, 0.3, 0), .radius = 1});
-  watched.world.set_solids(scene);
+  add_solid(scene,
+            {softbody::SolidSphere{.centre = watched.world.body(0).origin - glm::dvec3(0.1, 0.3, 0), .radius = 1}});
+  softbody::change(watched.world, [&](softbody::Scene& s) { s.solids = scene.solids; });
   for (int frame = 0; frame < 5 || softbody::measure(watched.world).deepest_penetration > 0; ++frame) {
     ASSERT_LT(frame, 600);
     watched.look();
@@ -158,8 +160,8 @@ TEST(BlowUpMonitor, AcceptsABodyPushedOutOfASolid) {
 TEST(BlowUpMonitor, AcceptsOverlappingSurfacesThatSeparate) {
   softbody::Scene scene = touching_pair();
   scene.gravity = glm::dvec3(0.0);
-  scene.spheres.clear();
-  scene.ground.reset();
+  remove_solids<softbody::SolidSphere>(scene);
+  remove_solids<softbody::Ground>(scene);
   scene.bodies.resize(24, scene.bodies[0]);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) scene.bodies[b].position = {0.4 * double(b), 0, 0};
   scene.contact_surface = softbody::ContactSurface::surfaces;
@@ -193,7 +195,7 @@ TEST(BlowUpMonitor, AcceptsBodiesThatSwingFast) {
     Session session(scene, {}, 1);
     while (session.world().frame() < 15) session.advance(tick);
     rubber[softbody::GasPressure::inside] = pressure;
-    session.settings.set_material(0, rubber);
+    session.simulation.change_scene("Material", [&](softbody::Scene& s) { s.materials[0] = rubber; });
     while (session.world().frame() < 60 && !session.simulation.stability().blow_up()) session.advance(tick);
     EXPECT_FALSE(session.simulation.stability().blow_up())
         << pressure << " Pa: " << session.simulation.stability().blow_up()->what;

@@ -179,7 +179,7 @@ TEST(CompareView, ShowsWhatTheChosenMethodMisses) {
   collide::Settings settings = rig.session.world().collision();
   settings.cell_size = glm::vec3(0.13f);
   settings.buckets = 1'000'003;
-  rig.session.settings.set_collision(settings, false);
+  rig.session.simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
   rig.ui.lower = ui::LowerView::comparison;
   const std::size_t literal = compare::method_index("multi-level-sb");
   ASSERT_TRUE(wait_until(rig, [&](const auto& rows) { return rows[literal].scored && rows[literal].recall < 1; }));

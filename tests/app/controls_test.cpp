@@ -48,7 +48,7 @@ TEST(BodyControls, ThrowABodyAsFastAsAsked) {
 
 TEST(BodyControls, RefuseAThrowWithoutRoom) {
   softbody::Scene scene = without_solids();
-  scene.spheres.push_back({.centre = {0, 50, 0}, .radius = 30});
+  add_solid(scene, {softbody::SolidSphere{.centre = {0, 50, 0}, .radius = 30}});
   session::Simulation simulation(scene, 1);
   session::BodyControls bodies(simulation);
   bodies.throw_body({0, 50, 0}, {0, 50, 1});
@@ -96,14 +96,14 @@ TEST(BodyControls, AskForASelectionBeforeTheyDelete) {
 TEST(BodyControls, PullOnlyWhatIsGrabbed) {
   session::Simulation simulation(touching_pair(), 1);
   session::BodyControls bodies(simulation);
-  bodies.pull_to({0, 9, 0});
+  simulation.pull_to({0, 9, 0});
   EXPECT_FALSE(simulation.simulated()->grabbed());
-  bodies.grab({.body = 1, .target = {0, 4, 0}});
-  bodies.pull_to({0, 9, 0});
+  simulation.grab({.body = 1, .target = {0, 4, 0}});
+  simulation.pull_to({0, 9, 0});
   ASSERT_TRUE(simulation.simulated()->grabbed());
   EXPECT_EQ(simulation.simulated()->grabbed()->body, 1u);
   EXPECT_EQ(simulation.simulated()->grabbed()->target, glm::dvec3(0, 9, 0));
-  bodies.release();
+  simulation.release();
   EXPECT_FALSE(simulation.simulated()->grabbed());
 }
 
@@ -123,23 +123,22 @@ TEST(SettingControls, KeepGravityMaterialAndSolidsOverAResetUntilTheScenesAreRes
   session::SettingControls controls(simulation);
   softbody::Material heavy = simulation.world().scene().materials[0];
   heavy[softbody::Material::mass] = 3;
-  controls.set_material(0, heavy);
-  controls.set_gravity(2);
-  session::SolidList solids = controls.solids();
-  ASSERT_EQ(solids.size(), 2u);
-  solids[0].on = false;
-  controls.set_solids(solids);
-  EXPECT_TRUE(simulation.world().scene().spheres.empty());
+  simulation.change_scene("Material", [&](softbody::Scene& s) { s.materials[0] = heavy; });
+  simulation.change_scene("Gravity", [&](softbody::Scene& s) { s.gravity = {0, -2, 0}; });
+  ASSERT_EQ(controls.solids().size(), 2u);
+  softbody::Solid solid = controls.solids()[0];
+  solid.enabled = false;
+  controls.set_solid(0, solid);
+  EXPECT_FALSE(simulation.world().scene().solids[0].enabled);
   simulation.reset();
   EXPECT_EQ(simulation.world().scene().materials[0][softbody::Material::mass], 3);
   EXPECT_EQ(simulation.world().scene().gravity, glm::dvec3(0, -2, 0));
-  EXPECT_TRUE(simulation.world().scene().spheres.empty());
+  EXPECT_FALSE(simulation.world().scene().solids[0].enabled);
   ASSERT_EQ(controls.solids().size(), 2u);
   controls.restore_world();
   EXPECT_EQ(simulation.world().scene().materials[0][softbody::Material::mass], 1);
   EXPECT_EQ(simulation.world().scene().gravity, glm::dvec3(0, -9.81, 0));
-  EXPECT_EQ(simulation.world().scene().spheres.size(), 1u);
-  EXPECT_TRUE(controls.solids()[0].on);
+  EXPECT_TRUE(controls.solids()[0].enabled);
 }
 
 TEST(SettingControls, RefuseSettingsWithAProblem) {
@@ -147,10 +146,10 @@ TEST(SettingControls, RefuseSettingsWithAProblem) {
   session::SettingControls controls(simulation);
   collide::Settings bad = simulation.world().collision();
   bad.tolerance = -1;
-  controls.set_collision(bad, true);
+  simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = bad, s.collision.cell_size.reset(); });
   EXPECT_FALSE(simulation.notice.text().empty());
   EXPECT_EQ(simulation.world().collision().tolerance, 0.1f);
-  controls.set_collision(simulation.world().collision(), true);
+  simulation.change_scene("Settings", [](softbody::Scene& s) { s.collision.tolerance = 0.2f; });
   EXPECT_TRUE(simulation.notice.text().empty());
 }
 
@@ -162,7 +161,8 @@ TEST(SettingControls, FindNewContactsWhilePaused) {
   const auto revision = simulation.revision();
   collide::Settings settings = simulation.world().collision();
   settings.tolerance = 0.2f;
-  controls.set_collision(settings, true);
+  simulation.change_scene("Settings",
+                          [&](softbody::Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
   EXPECT_GT(simulation.world().detection().contacts.size(), before);
   EXPECT_NE(simulation.revision(), revision);
 }
@@ -231,47 +231,30 @@ TEST(SceneControls, SayThatThePresetsAreDamaged) {
   EXPECT_TRUE(simulation.notice.is_error()) << "a choice that changes nothing leaves the notice";
 }
 
-TEST(SolidList, MovesWhatHasAnEnd) {
-  softbody::Scene scene = touching_pair();
-  scene.boxes.resize(1);
-  scene.capsules.resize(1);
-  scene.planes.resize(1);
-  for (const session::SolidEntry& entry : session::list_solids(scene)) {
-    const auto there = session::moved(entry.solid, {1, 2, 3}), far = session::moved(entry.solid, {0, 1e3, 0});
-    const bool endless = std::holds_alternative<softbody::Ground>(entry.solid) ||
-                         std::holds_alternative<softbody::SolidPlane>(entry.solid);
-    ASSERT_EQ(there.has_value(), !endless);
-    if (endless) continue;
-    if (const auto* sphere = std::get_if<softbody::SolidSphere>(&*there)) {
-      EXPECT_EQ(sphere->centre, scene.spheres[0].centre + glm::dvec3(1, 2, 3));
-    }
-    if (const auto* box = std::get_if<softbody::SolidBox>(&*far)) {
-      EXPECT_EQ(box->centre.y, session::max_solid_coordinate);
-    }
-    if (const auto* capsule = std::get_if<softbody::SolidCapsule>(&*there)) {
-      EXPECT_EQ(capsule->from, scene.capsules[0].from + glm::dvec3(1, 2, 3));
-      EXPECT_EQ(capsule->to - capsule->from, scene.capsules[0].to - scene.capsules[0].from);
-    }
-  }
-  const auto beyond = session::moved(softbody::SolidSphere{.centre = {50, 0, 0}}, {-1, 0, 0});
-  EXPECT_EQ(std::get<softbody::SolidSphere>(*beyond).centre.x, 49) << "it may come back";
+TEST(MovedSolid, KeepsItsShapeAndItsFirstPlaceWithinTheLimits) {
+  const auto place_of = [](softbody::Solid solid, const glm::dvec3& by) {
+    std::vector<glm::dvec3> places;
+    session::moved(solid, by).values([&]<class Value>(const char*, Value value) {
+      if constexpr (std::is_same_v<Value, softbody::solid::Place>) places.push_back(value.value);
+    });
+    return places;
+  };
+  using Places = std::vector<glm::dvec3>;
+  EXPECT_EQ(place_of({softbody::SolidSphere{}}, {1, 2, 3}), (Places{{1, 2, 3}}));
+  EXPECT_EQ(place_of({softbody::SolidBox{}}, {0, 1e3, 0}), (Places{{0, session::max_solid_coordinate, 0}}));
+  EXPECT_EQ(place_of({softbody::SolidCapsule{}}, {1, 2, 3}), (Places{{0.5, 2, 3}, {1.5, 2, 3}}));
+  EXPECT_EQ(place_of({softbody::SolidCapsule{}}, {1e3, 0, 0}), (Places{{20, 0, 0}, {21, 0, 0}}));
+  EXPECT_EQ(place_of({softbody::SolidSphere{.centre = {50, 0, 0}}}, {-1, 0, 0}), (Places{{49, 0, 0}}))
+      << "it may come back";
 }
 
-TEST(SolidList, NamesSolidsApartAndPutsThemBackAsTheyWere) {
-  softbody::Scene scene = touching_pair();
-  scene.boxes.resize(2);
-  scene.capsules.resize(1);
-  scene.planes.resize(1);
-  const session::SolidList list = session::list_solids(scene);
-  ASSERT_EQ(list.size(), 6u);
+TEST(SolidList, NamesSolidsApartAndListsThoseWithoutAnEndLast) {
+  using namespace softbody;
+  const session::SolidList solids{{SolidSphere()}, {Ground()},   {SolidPlane()},
+                                  {SolidBox()},    {SolidBox()}, {SolidCapsule()}};
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < list.size(); ++i) names.push_back(session::solid_name(list, i));
+  for (const std::size_t i : session::listed(solids)) names.push_back(session::solid_name(solids, i));
   EXPECT_EQ(names, (std::vector<std::string>{"Sphere", "Box 1", "Box 2", "Capsule", "Plane", "Ground"}));
-  softbody::Scene back;
-  session::put_solids(list, back);
-  EXPECT_EQ(back.boxes.size(), 2u);
-  EXPECT_EQ(back.capsules.size() + back.planes.size() + back.spheres.size(), 3u);
-  EXPECT_TRUE(back.ground);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "app/compare/compare.h"
 #include "softbody/world/world.h"
 #include "tests/app/scenes.h"
+#include "tests/support/change.h"
 
 namespace app {
 namespace {
@@ -21,7 +22,7 @@ TEST(CostModel, IsExactForMethodsWithoutAHashTable) {
   collide::Settings settings = world.collision();
   for (const bool self : {true, false}) {
     settings.self_collision = self;
-    world.set_collision(settings, true);
+    softbody::change(world, [&](softbody::Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
     compare::CostModel cost_model;
     cost_model.begin(world.positions(), settings, 1);
     for (const char* key : {"brute-force", "bounding-box"}) {

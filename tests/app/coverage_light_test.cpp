@@ -33,7 +33,7 @@ TEST(CoverageLight, FitsOneLineWithEveryMethodInANarrowWindow) {
       rig.session.settings.set_method(method.key);
       collide::Settings settings = rig.session.world().collision();
       settings.cell_size = glm::vec3(cell);
-      rig.session.settings.set_collision(settings, false);
+      rig.session.simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
       ASSERT_TRUE(rig.frames_until([&] { return rig.session.comparison.driver_row() != nullptr; }));
       rig.frames(2);
       for (const char* light : {"Coverage", "Live recall", "Step light"})
@@ -49,9 +49,11 @@ TEST(SurfaceRemark, WarnsOfAToleranceThatLetsVerticesThroughFaces) {
   EXPECT_LT(safe, 0.19 * 0.5);
   collide::Settings settings = rig.session.world().collision();
   settings.tolerance = 0.05f;
-  rig.session.settings.set_collision(settings, true);
+  rig.session.simulation.change_scene(
+      "Settings", [&](softbody::Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
   EXPECT_NE(ui::surface_remark(rig.session).text.find("slip through faces"), std::string::npos);
-  rig.session.settings.set_contact_surface(softbody::ContactSurface::surfaces);
+  rig.session.simulation.change_scene(
+      "Contact", [&](softbody::Scene& s) { s.contact_surface = softbody::ContactSurface::surfaces; });
   EXPECT_EQ(ui::surface_remark(rig.session).text, "");
 }
 
@@ -75,9 +77,9 @@ TEST(CoverageLight, AgreesWithTheLiteralMethod) {
   for (const float cell : {0.2f, 2.0f}) {
     collide::Settings settings = rig.session.world().collision();
     settings.cell_size = glm::vec3(cell);
-    rig.session.settings.set_collision(settings, false);
+    rig.session.simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
     const bool fits = rig.session.world().detection().coverage == collide::Coverage::covered;
-    const std::string text = ui::box_against_cell(rig.session.inspector.paper_geometry(), settings.cell_size);
+    const std::string text = ui::box_against_cell(rig.session.inspector.paper_geometry(), *settings.cell_size);
     EXPECT_EQ(text.find("Every box fits") != text.npos, fits) << text;
   }
 }

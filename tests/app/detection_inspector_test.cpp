@@ -83,7 +83,8 @@ TEST(DetectionInspector, ShowsSurfaceContactsAtTheClosestPointsOfTwoBodies) {
     EXPECT_GT(glm::dot(apart, glm::dvec3(touch.normal)), 0);
     EXPECT_GT((touch.a == 0 ? -1 : 1) * touch.normal.x, 0.5f);  // body 0 is at the left
   }
-  controls.set_contact_surface(softbody::ContactSurface::vertices);
+  simulation.change_scene("Contact",
+                          [&](softbody::Scene& s) { s.contact_surface = softbody::ContactSurface::vertices; });
   EXPECT_TRUE(inspector.surface_contacts().empty());
 }
 

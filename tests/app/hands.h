@@ -11,7 +11,7 @@ namespace app {
 /// touching_pair() a little apart, in empty space without gravity.
 inline softbody::Scene without_solids() {
   softbody::Scene scene = touching_pair();
-  session::put_solids({}, scene);
+  scene.solids.clear();
   scene.bodies[0].position.x = -0.8;
   scene.bodies[1].position.x = 0.8;
   scene.gravity = glm::dvec3(0.0);

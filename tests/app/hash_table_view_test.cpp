@@ -35,7 +35,8 @@ TEST(BucketView, GroupsEntriesByCellsAndSelectsACell) {
   PanelRig rig;
   collide::Settings settings = rig.session.world().collision();
   settings.buckets = 7;  // few, so that cells share
-  rig.session.settings.set_collision(settings, true);
+  rig.session.simulation.change_scene(
+      "Settings", [&](softbody::Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
   rig.session.simulation.clock.paused = true;
   EXPECT_FALSE(rig.recorder.find("Same cell / aliased"));
   rig.session.inspector.select_bucket(fullest_bucket(rig.session));
@@ -112,7 +113,8 @@ TEST(HashTableView, SelectsTheFullestBucketOfTheClickedSquare) {
   PanelRig rig;
   collide::Settings settings = rig.session.world().collision();
   settings.buckets = 1'000'003;
-  rig.session.settings.set_collision(settings, true);
+  rig.session.simulation.change_scene(
+      "Settings", [&](softbody::Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
   rig.session.simulation.clock.paused = true;
   rig.frames(2);
   const ui::HashTableView& view = rig.interface.hash_table_view();

@@ -171,7 +171,8 @@ TEST(Layout, KeepsLegendsWithinTheirArea) {
   for (const float scale : {1.0f, 2.0f}) {
     PanelRig rig(scale);
     for (const render::OverlayRow& row : render::overlay_table) rig.ui.overlays.*row.shown = true;
-    rig.session.settings.set_contact_surface(softbody::ContactSurface::surfaces);
+    rig.session.simulation.change_scene(
+        "Contact", [&](softbody::Scene& s) { s.contact_surface = softbody::ContactSurface::surfaces; });
     rig.session.choose_ghost(softbody::IntegratorChoice{"semi-implicit-euler", 1234});
     rig.frames(3);
     const float display = 1280 * scale;

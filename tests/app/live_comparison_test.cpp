@@ -7,6 +7,7 @@
 
 #include "softbody/world/world.h"
 #include "tests/app/scenes.h"
+#include "tests/support/change.h"
 
 namespace app {
 namespace {
@@ -45,14 +46,16 @@ TEST(LiveComparison, MeasuresTheRecallOfAWorldThatStandsStillAfterEveryChange) {
   ASSERT_TRUE(rig.wait_for_recall());
   EXPECT_EQ(rig.comparison.driver_row()->recall, 1.0);
   EXPECT_EQ(rig.comparison.recall().size(), 1u);
-  rig.change([](softbody::World& world) { world.set_method("multi-level-sb"); });
+  rig.change([](softbody::World& world) {
+    softbody::change(world, [&](softbody::Scene& s) { s.method = "multi-level-sb"; });
+  });
   EXPECT_EQ(rig.comparison.driver_row(), nullptr) << "what is known of another method says nothing of this one";
   EXPECT_EQ(rig.comparison.recall().size(), 0u);
   rig.change([](softbody::World& world) {
     collide::Settings settings = world.collision();
     settings.cell_size = glm::vec3(0.13f);
     settings.buckets = 1'000'003;
-    world.set_collision(settings, false);
+    softbody::change(world, [&](softbody::Scene& s) { s.collision = settings; });
   });
   ASSERT_TRUE(rig.wait_for_recall());
   EXPECT_LT(rig.comparison.driver_row()->recall, 1.0);
@@ -68,12 +71,13 @@ TEST(LiveComparison, TimesAllMethodsAgainAndAgainWhileAskedTo) {
   const TimeSeries& times = rig.comparison.method_ms()[compare::method_index("grid-hash")];
   ASSERT_TRUE(rig.wait([&] { return times.size() >= 3; }));
   EXPECT_GT(times.median(15), 0.0f);
-  rig.change([](softbody::World& world) { world.set_method("bounding-box"); });
+  rig.change(
+      [](softbody::World& world) { softbody::change(world, [&](softbody::Scene& s) { s.method = "bounding-box"; }); });
   EXPECT_GE(times.size(), 3u) << "another driver changes no times";
   rig.change([](softbody::World& world) {
     collide::Settings settings = world.collision();
     settings.levels = 5;
-    world.set_collision(settings, true);
+    softbody::change(world, [&](softbody::Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
   });
   EXPECT_EQ(times.size(), 0u) << "other settings, other times";
 }

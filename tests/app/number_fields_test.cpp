@@ -51,12 +51,15 @@ struct Field {
 const std::vector<Field>& real_fields() {
   static const std::vector<Field> fields{
       {"World", "Gravity", [](PanelRig& r) { return glm::length(r.session.world().scene().gravity); }},
-      {"World", "Solid position", [](PanelRig& r) { return r.session.world().scene().spheres.at(0).centre.y; }},
-      {"World", "Solid radius", [](PanelRig& r) { return r.session.world().scene().spheres.at(0).radius; }},
-      {"World", "Solid restitution", [](PanelRig& r) { return r.session.world().scene().spheres.at(0).restitution; }},
+      {"World", "Solid position",
+       [](PanelRig& r) { return shape_of<softbody::SolidSphere>(r.session.world().scene()).centre.y; }},
+      {"World", "Solid radius",
+       [](PanelRig& r) { return shape_of<softbody::SolidSphere>(r.session.world().scene()).radius; }},
+      {"World", "Solid restitution",
+       [](PanelRig& r) { return solid_of<softbody::SolidSphere>(r.session.world().scene()).restitution; }},
       {"World", "mass",
        [](PanelRig& r) { return r.session.world().scene().materials.at(0)[softbody::Material::mass]; }},
-      {"Detection", "Cell size", [](PanelRig& r) { return double{r.session.world().collision().cell_size.x}; }},
+      {"Detection", "Cell size", [](PanelRig& r) { return double{r.session.world().collision().cell_size->x}; }},
       {"Detection", "Tolerance", [](PanelRig& r) { return double{r.session.world().collision().tolerance}; }},
       {"Files", "Size of meshes", [](PanelRig& r) { return double{r.ui.import.size}; }},
   };
@@ -111,16 +114,16 @@ TEST(NumberField, OfWholeNumbersRefusesFractionsAndGroups) {
     EXPECT_EQ(rig.notice().find("\"" + text + "\" is not a whole number") == std::string::npos, text == "12 ");
   }
   const int level = levels();
-  rig.type_over("Subdivision level", "2,5");
+  rig.type_over("Subdivision", "2,5");
   EXPECT_EQ(levels(), level);
-  EXPECT_NE(rig.notice().find("Subdivision level: \"2,5\" is not a whole number"), std::string::npos) << rig.notice();
+  EXPECT_NE(rig.notice().find("Subdivision: \"2,5\" is not a whole number"), std::string::npos) << rig.notice();
   rig.type_over("Buckets", "4,5");
   EXPECT_EQ(buckets(), 12u);
 }
 
 TEST(NumberField, KeepsTheValueUnderATextThatWasNotChanged) {
   FieldRig rig("World");
-  rig.session.settings.set_gravity(9.80665);
+  rig.session.simulation.change_scene("Gravity", [&](softbody::Scene& s) { s.gravity = {0, -9.80665, 0}; });
   rig.frames(2);
   rig.type_over("Gravity", "x");
   rig.press_escape();

@@ -83,7 +83,7 @@ TEST(WorldPanel, DragsEverySliderToItsEndsWhileTheWorldRuns) {
     rig.click("Restore world");
     EXPECT_EQ(world.scene().materials[0][softbody::Material::mass], 1) << label;
   }
-  EXPECT_EQ(world.scene().spheres.at(0).radius, 1);
+  EXPECT_EQ(shape_of<softbody::SolidSphere>(world.scene()).radius, 1);
   rig.drag("Gravity", -500);
   EXPECT_EQ(glm::length(world.scene().gravity), 0);
   EXPECT_FALSE(world.plan().has(softbody::Stage::gravity));
@@ -135,14 +135,14 @@ TEST(WorldPanel, SwitchesAndChoosesSolids) {
   rig.click("Detection");
   rig.click("World");
   rig.click("Solid enabled");
-  EXPECT_TRUE(rig.session.world().scene().spheres.empty());
+  EXPECT_FALSE(rig.session.world().scene().solids[0].enabled);
   EXPECT_FALSE(rig.widget("Solid radius").enabled);
   rig.click("Solid");
   rig.click("Ground");
   rig.frames(2);
   rig.drag("Ground height", 30);
-  EXPECT_GT(rig.session.world().scene().ground->height, 0);
-  EXPECT_TRUE(rig.session.world().scene().spheres.empty());
+  EXPECT_GT(shape_of<softbody::Ground>(rig.session.world().scene()).height, 0);
+  EXPECT_FALSE(rig.session.world().scene().solids[0].enabled);
 }
 
 TEST(BodiesPanel, DropsABody) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/ui/panel/panel.h"
+#include "softbody/scene/scene_keys.h"
 #include "tests/app/panel_rig.h"
 
 namespace app {
@@ -58,7 +59,7 @@ TEST(DetectionPanel, EnablesOnlyWhatTheMethodUses) {
   for (const collide::Method& method : collide::method_table()) {
     rig.session.settings.set_method(method.key);
     rig.frames(2);
-    EXPECT_EQ(rig.widget("Subdivision level").enabled, method.uses_levels) << method.key;
+    EXPECT_EQ(rig.widget("Subdivision").enabled, method.uses_levels) << method.key;
     EXPECT_EQ(rig.widget("Buckets").enabled, method.uses_hash) << method.key;
     EXPECT_EQ(rig.widget("Auto").enabled, method.uses_hash) << method.key;
     for (const char* label : {"x prime", "y prime", "z prime", "Default primes"})
@@ -92,9 +93,9 @@ TEST(DetectionPanel, DragsEverySliderToItsEnds) {
   rig.session.settings.set_method("multi-level-sb");
   rig.frames(2);
   const auto& settings = [&]() -> const collide::Settings& { return rig.session.world().collision(); };
-  rig.drag("Subdivision level", -500);
+  rig.drag("Subdivision", -500);
   EXPECT_EQ(settings().levels, 0);
-  rig.drag("Subdivision level", 500);
+  rig.drag("Subdivision", 500);
   EXPECT_EQ(settings().levels, collide::max_levels);
   rig.drag("Buckets", -500);
   EXPECT_EQ(settings().buckets, 1u);
@@ -102,21 +103,21 @@ TEST(DetectionPanel, DragsEverySliderToItsEnds) {
   EXPECT_EQ(settings().buckets, collide::max_buckets);
   rig.drag("Buckets", -500);
   rig.click("Auto");
-  EXPECT_FALSE(rig.session.world().scene().default_cell_size);
+  EXPECT_TRUE(rig.session.world().scene().collision.cell_size);
   rig.drag("Cell size", -500);
-  EXPECT_NEAR(settings().cell_size.x, ui::min_cell, 1e-5);
+  EXPECT_NEAR(settings().cell_size->x, softbody::scene_key::cell_size.slider.least, 1e-5);
   rig.drag("Cell size", 500);
-  EXPECT_NEAR(settings().cell_size.y, ui::max_cell, 1e-5);
+  EXPECT_NEAR(settings().cell_size->y, softbody::scene_key::cell_size.slider.most, 1e-5);
   rig.drag("Tolerance", -500);
-  EXPECT_NEAR(settings().tolerance, ui::min_tolerance, 1e-5);
+  EXPECT_NEAR(settings().tolerance, softbody::scene_key::tolerance.slider.least, 1e-5);
   rig.drag("Tolerance", 500);
-  EXPECT_NEAR(settings().tolerance, ui::max_tolerance, 1e-5);
+  EXPECT_NEAR(settings().tolerance, softbody::scene_key::tolerance.slider.most, 1e-5);
   rig.click("Self-collision");
   EXPECT_FALSE(settings().self_collision);
   rig.click("Restore settings");
   EXPECT_EQ(rig.session.world().method().key, collide::default_method);
   EXPECT_EQ(settings().levels, 3);
-  EXPECT_TRUE(rig.session.world().scene().default_cell_size);
+  EXPECT_FALSE(rig.session.world().scene().collision.cell_size);
 }
 
 TEST(DetectionPanel, RunsEveryMethodAtTheEndsOfEverySlider) {
@@ -124,14 +125,16 @@ TEST(DetectionPanel, RunsEveryMethodAtTheEndsOfEverySlider) {
   for (const collide::Method& method : collide::method_table()) {
     rig.session.settings.set_method(method.key);
     for (const int levels : {0, collide::max_levels}) {
-      for (const float cell : {ui::min_cell, ui::max_cell}) {
-        for (const float tolerance : {ui::min_tolerance, ui::max_tolerance}) {
+      for (const float cell :
+           {softbody::scene_key::cell_size.slider.least, softbody::scene_key::cell_size.slider.most}) {
+        for (const float tolerance :
+             {softbody::scene_key::tolerance.slider.least, softbody::scene_key::tolerance.slider.most}) {
           collide::Settings settings = rig.session.world().collision();
           settings.levels = levels;
           settings.cell_size = glm::vec3(cell);
           settings.tolerance = tolerance;
           settings.buckets = 1;
-          rig.session.settings.set_collision(settings, false);
+          rig.session.simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
           rig.frames(2);
           EXPECT_FALSE(rig.session.simulation.clock.paused)
               << method.key << ": " << rig.session.simulation.notice.text();

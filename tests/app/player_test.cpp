@@ -72,14 +72,14 @@ TEST_F(PlayerTest, StaysAtItsFrameIfTheNextCannotBeRead) {
 }
 
 TEST_F(PlayerTest, HasTheCellSizeOfItsFirstFrameWhateverItShows) {
-  const glm::vec3 at_start = player.collision().cell_size;
+  const glm::vec3 at_start = *player.collision().cell_size;
   collide::Settings settings = player.collision();
-  EXPECT_EQ(at_start, collide::default_cell_size(player.positions(), settings.levels, settings.tolerance));
+  EXPECT_EQ(at_start, collide::automatic_cell_size(player.positions(), settings.levels, settings.tolerance));
   player.show(6);
-  player.set_collision(settings, true);
+  player.apply(player.scene());
   EXPECT_EQ(player.collision().cell_size, at_start);
-  EXPECT_EQ(player.default_cell_size(settings.levels), at_start);
-  EXPECT_LT(player.default_cell_size(9).x, player.default_cell_size(0).x);
+  EXPECT_EQ(player.automatic_cell_size(settings.levels), at_start);
+  EXPECT_LT(player.automatic_cell_size(9).x, player.automatic_cell_size(0).x);
 }
 
 TEST_F(PlayerTest, IsAtRestIfThereIsNoOtherFrame) {
@@ -94,7 +94,7 @@ TEST_F(PlayerTest, FindsTheContactsAgainThatItForgot) {
   EXPECT_FALSE(contacts.empty());
   player.forget_detection();
   EXPECT_TRUE(player.detection().contacts.empty());
-  player.detect();
+  player.apply(player.scene());
   EXPECT_EQ(player.detection().contacts, contacts);
 }
 

@@ -200,6 +200,19 @@ TEST_F(RecordedSession, IsResetAndComesBackByUndo) {
   EXPECT_FALSE(session.simulated());
 }
 
+TEST_F(RecordedSession, TakesBackASettingAndStaysAtItsFrame) {
+  const std::string_view before = session.world().method().key;
+  simulation.rewind_to(6);
+  session.settings.set_method("grid-hash");
+  simulation.rewind_to(7);
+  simulation.undo();
+  EXPECT_EQ(session.world().method().key, before);
+  EXPECT_EQ(frame(), 7);
+  EXPECT_EQ(session.world().detection().contacts, true_contacts());
+  simulation.redo();
+  EXPECT_EQ(session.world().method().key, "grid-hash");
+}
+
 TEST_F(RecordedSession, EndsTheGhostOfTheSceneBefore) {
   Session other(touching_pair(), {}, 1);
   other.choose_ghost(softbody::IntegratorChoice{});

@@ -64,14 +64,15 @@ TEST(Rewind, ForgetsLaterSnapshotsAfterGoingBack) {
 TEST(BlowUpMonitor, AcceptsAWholeSessionOfChanges) {
   for (const auto surface : {softbody::ContactSurface::vertices, softbody::ContactSurface::surfaces}) {
     Session session(touching_pair(), {}, 1);
-    session.settings.set_contact_surface(surface);
+    session.simulation.change_scene("Contact", [&](softbody::Scene& s) { s.contact_surface = surface; });
     for (int round = 0; round < 6; ++round) {
       run(session, 50);
       session.bodies.drop();
       run(session, 10);
       collide::Settings settings = session.world().collision();
       settings.tolerance = round % 2 ? 0.1f : 0.4f;
-      session.settings.set_collision(settings, true);
+      session.simulation.change_scene(
+          "Settings", [&](softbody::Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
     }
     EXPECT_FALSE(session.simulation.stability().blow_up()) << session.simulation.stability().blow_up()->what;
     EXPECT_FALSE(session.simulation.clock.paused);

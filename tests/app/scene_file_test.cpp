@@ -45,9 +45,8 @@ softbody::Scene changed(softbody::Scene scene) {
                      .self_collision = false,
                      .levels = 5,
                      .buckets = 997,
-                     .cell_size = {0.3f, 0.4f, 0.5f},
+                     .cell_size = glm::vec3{0.3f, 0.4f, 0.5f},
                      .primes = {3, 5, 4294967295u}};
-  scene.default_cell_size = false;
   scene.view = {.target = {-0.5, 1.25, 1e-7}, .distance = 7.5, .azimuth = -179.5, .elevation = -12};
   return scene;
 }
@@ -60,7 +59,6 @@ TEST(SceneCommands, ReproduceTheRunningScene) {
       const cli::Options demo = parse(session::demo_command(key, used, {}));
       EXPECT_EQ(demo.command, cli::Command::demo);
       softbody::Scene made = cli::open(demo).scene;
-      if (used.default_cell_size) made.collision.cell_size = used.collision.cell_size;  // not in use
       ASSERT_EQ(made.bodies.size(), used.bodies.size());
       made.bodies = used.bodies;  // meshes from files are read anew
       made.dropper = used.dropper;
@@ -91,41 +89,45 @@ TEST(SceneCommands, ReproduceASavedScene) {
   session.settings.set_method("multi-level-sb");
   ASSERT_EQ(session.scenes.save(file, view), "");
   EXPECT_EQ(session.simulation.loaded.file.name(), file.string());
-  softbody::Scene used = session::scene_in_use(session.simulation);
+  softbody::Scene used = session.world().scene();
   used.view = view;
-  EXPECT_TRUE(session.simulation.loaded.file.reproduces(used));
+  EXPECT_TRUE(session::options_make(used, session.simulation.loaded.scene));
   softbody::Scene made = cli::open(parse(session::demo_command(session.simulation.loaded.file.name(), used, {}))).scene;
   made.key = used.key;
-  made.collision.cell_size = used.collision.cell_size;
   EXPECT_TRUE(made == used);
 }
 
-TEST(SceneFile, TellsWhatOptionsCannotReproduce) {
-  const session::SceneFile file("D", touching_pair());
+TEST(SceneCommands, ReproduceWhatOptionsCanMake) {
+  const softbody::Scene named = touching_pair();
   softbody::Scene used = touching_pair();
-  EXPECT_TRUE(file.reproduces(used));
-  EXPECT_TRUE(file.reproduces(changed(used)));
+  EXPECT_TRUE(session::options_make(used, named));
+  EXPECT_TRUE(session::options_make(changed(used), named));
   used.gravity.y = -1;
-  EXPECT_FALSE(file.reproduces(used));
+  EXPECT_FALSE(session::options_make(used, named));
   used = touching_pair();
   used.bodies.pop_back();
-  EXPECT_FALSE(file.reproduces(used));
+  EXPECT_FALSE(session::options_make(used, named));
 }
 
 TEST(SaveScene, WritesTheSettingsInUse) {
   const TemporaryFolder folder;
   Session session(touching_pair(), {}, 1);
   session.settings.set_method("multi-level-sb");
-  session.settings.set_contact_surface(softbody::ContactSurface::surfaces);
+  session.simulation.change_scene("Contact",
+                                  [&](softbody::Scene& s) { s.contact_surface = softbody::ContactSurface::surfaces; });
   collide::Settings settings = session.world().collision();
   settings = {.tolerance = 0.07f, .self_collision = false, .levels = 6, .buckets = 101, .cell_size = glm::vec3(0.4f)};
-  session.settings.set_collision(settings, false);
+  session::SolidList solids = session.settings.solids();
+  solids[0].enabled = false;
+  session.settings.set_solid(0, solids[0]);
+  session.simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
   ASSERT_EQ(session.scenes.save(folder.path() / "a.toml", {.distance = 3}), "");
   const softbody::Scene saved = softbody::load_scene(folder.path() / "a.toml");
   EXPECT_EQ(saved.method, "multi-level-sb");
   EXPECT_EQ(saved.contact_surface, softbody::ContactSurface::surfaces);
   EXPECT_TRUE(saved.collision == settings);
-  EXPECT_FALSE(saved.default_cell_size);
+  EXPECT_TRUE(saved.collision.cell_size);
+  EXPECT_TRUE(saved.solids == solids) << "also that which is not enabled";
   EXPECT_EQ(saved.view.distance, 3);
   EXPECT_EQ(saved.bodies.size(), 2u);
 }
@@ -145,7 +147,7 @@ TEST(SaveScene, WritesAddedBodiesWithTheirFrames) {
   go_on(session, 30);
   ASSERT_EQ(session.simulated()->added().size(), 4u);
   ASSERT_EQ(session.scenes.save(file, {}), "");
-  EXPECT_TRUE(session.simulation.loaded.file.reproduces(session.scenes.with_added_bodies()));
+  EXPECT_TRUE(session::options_make(session.scenes.with_added_bodies(), session.simulation.loaded.scene));
   Session again(softbody::load_scene(file), {}, 1);
   EXPECT_EQ(again.world().scene().bodies.size(), begin + 4);
   go_on(again, 70);

@@ -11,6 +11,7 @@
 #include "app/window/scene_mouse.h"
 #include "softbody/model/body_model.h"
 #include "tests/app/hands.h"
+#include "tests/support/change.h"
 #include "tests/support/world_test_access.h"
 
 namespace app {
@@ -87,8 +88,8 @@ TEST(Pick, IgnoresBodiesBehindASolid) {
   ASSERT_TRUE(render::pick(ray, bare, {.now = bare.positions()}));
   for (const double z : {5.0, -5.0}) {
     softbody::Scene solids;
-    solids.spheres.push_back({.centre = {-0.5, 3, z}, .radius = 1});
-    bare.set_solids(solids);
+    add_solid(solids, {softbody::SolidSphere{.centre = {-0.5, 3, z}, .radius = 1}});
+    softbody::change(bare, [&](softbody::Scene& s) { s.solids = solids.solids; });
     EXPECT_EQ(render::pick(ray, bare, {.now = bare.positions()}).has_value(), z < 0);
   }
 }
@@ -105,6 +106,7 @@ TEST(Pick, HitsBodiesWhereTheyAreDrawn) {
 
 class SceneMouseTest : public testing::Test {
  protected:
+  explicit SceneMouseTest(const softbody::Scene& scene = without_solids()) : session(scene, {}, 1) {}
   void frame(int times = 1) {
     for (int i = 0; i < times; ++i) {
       session.advance(tick);
@@ -125,7 +127,7 @@ class SceneMouseTest : public testing::Test {
   }
   glm::vec2 body_pixel(softbody::BodyId id) { return pixel_of(camera, glm::vec3(centre(session.world(), id))); }
 
-  Session session{without_solids(), {}, 1};
+  Session session;
   engine::Camera camera = camera_at({0, 3, 0}, 8);
   window::SceneMouse mouse;
   window::MouseInput input;
@@ -202,20 +204,24 @@ TEST_F(SceneMouseTest, ChangesNothingByAClickOnABody) {
   EXPECT_TRUE(session.simulation.can_redo());
 }
 
+softbody::Scene with_solids() {
+  softbody::Scene scene = without_solids();
+  scene.solids = {{softbody::SolidSphere{.centre = {-1.5, 1.5, 0}, .radius = 0.4}},
+                  {softbody::SolidBox{.centre = {0, 1.5, 0}, .half_size = glm::dvec3(0.3)}},
+                  {softbody::SolidCapsule{.from = {1.5, 1.4, 0}, .to = {1.5, 1.7, 0}, .radius = 0.2}},
+                  {softbody::Ground{}}};
+  return scene;
+}
+
 /// The bodies of without_solids(), and below them a sphere, a box and a capsule over the ground.
 class SolidDrag : public SceneMouseTest {
  protected:
-  SolidDrag() {
-    softbody::Scene scene;
-    scene.spheres.push_back({.centre = {-1.5, 1.5, 0}, .radius = 0.4});
-    scene.boxes.push_back({.centre = {0, 1.5, 0}, .half_size = glm::dvec3(0.3)});
-    scene.capsules.push_back({.from = {1.5, 1.4, 0}, .to = {1.5, 1.7, 0}, .radius = 0.2});
-    scene.ground = softbody::Ground{.height = 0};
-    session.settings.set_solids(session::list_solids(scene));
-  }
+  SolidDrag() : SceneMouseTest(with_solids()) {}
   glm::dvec3 place(std::size_t index) const {
     const softbody::Scene& scene = session.world().scene();
-    return index == 0 ? scene.spheres[0].centre : index == 1 ? scene.boxes[0].centre : scene.capsules[0].from;
+    return index == 0   ? shape_of<softbody::SolidSphere>(scene).centre
+           : index == 1 ? shape_of<softbody::SolidBox>(scene).centre
+                        : shape_of<softbody::SolidCapsule>(scene).from;
   }
   const std::array<glm::vec3, 3> middles{glm::vec3(-1.5, 1.5, 0), {0, 1.5, 0}, {1.5, 1.55, 0}};
 };
@@ -272,6 +278,7 @@ TEST_F(SolidDrag, LeavesTheGroundAndSolidsThatAreSwitchedOff) {
     move(pixel_of(camera, at));
     EXPECT_FALSE(mouse.can_drag());
     const session::SolidList before = session.settings.solids();
+    const bool could_undo = session.simulation.can_undo();
     const float azimuth = camera.orbit().azimuth;
     button(0, true);
     move(input.at + glm::vec2(60, 0));
@@ -279,23 +286,23 @@ TEST_F(SolidDrag, LeavesTheGroundAndSolidsThatAreSwitchedOff) {
     camera.finish_glide();
     EXPECT_NE(camera.orbit().azimuth, azimuth);
     EXPECT_TRUE(session.settings.solids() == before);
-    EXPECT_FALSE(session.simulation.can_undo());
+    EXPECT_EQ(session.simulation.can_undo(), could_undo);
     camera = camera_at({0, 3, 0}, 8);
   };
   expect_orbit({0, 0, 1});
-  session::SolidList solids = session.settings.solids();
-  solids[0].on = false;
-  session.settings.set_solids(solids);
+  softbody::Solid solid = session.settings.solids()[0];
+  solid.enabled = false;
+  session.settings.set_solid(0, solid);
   expect_orbit(middles[0]);
 }
 
 TEST_F(SolidDrag, TakesWhatIsInFront) {
   move(body_pixel(1));
-  session::SolidList solids = session.settings.solids();
+  softbody::Solid sphere = session.settings.solids()[0];
   const glm::dvec3 eye(camera.eye()), body = centre(session.world(), 1);
   const auto press_with_sphere_at = [&](double share) {
-    std::get<softbody::SolidSphere>(solids[0].solid) = {.centre = eye + share * (body - eye), .radius = 0.3};
-    session.settings.set_solids(solids);
+    sphere.shape = softbody::SolidSphere{.centre = eye + share * (body - eye), .radius = 0.3};
+    session.settings.set_solid(0, sphere);
     button(0, true);
     const bool solid = mouse.take_pressed_solid().has_value();
     button(0, false);

@@ -25,7 +25,7 @@ class SceneViewTest : public testing::Test {
     session_.settings.set_method("multi-level-sb");
     collide::Settings settings = session_.world().collision();
     settings.cell_size = glm::vec3(0.3f);
-    session_.settings.set_collision(settings, false);
+    session_.simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
   }
 
   std::vector<std::uint8_t> picture(const render::OverlayRequest& request, compare::DrawnPositions positions = {}) {

@@ -3,9 +3,11 @@
 
 #include <limits>
 
-#include "softbody/scene/scene.h"
+#include "tests/solids.h"
 
 namespace app {
+
+using namespace tests;
 
 inline constexpr double tick = 1.0001 / 60;  // s, a little more than a frame
 
@@ -22,8 +24,7 @@ inline softbody::Scene touching_pair() {
   left.position = {-0.51, 3, 0.03};
   right.position = {0.51, 3, 0};
   scene.bodies = {left, right};
-  scene.spheres.push_back({});
-  scene.ground = softbody::Ground{};
+  scene.solids = {{softbody::SolidSphere{}}, {softbody::Ground{}}};
   softbody::BodySource above;
   above.position = {0, 5, 0};
   scene.dropper = softbody::Dropper{.body = above};

@@ -53,7 +53,8 @@ TEST(Session, StandsStillOnceAllHasBeenAtRestForAsLongAsCurvesLast) {
   EXPECT_EQ(session.world().frame(), frame) << "its time stands still";
   collide::Settings settings = session.world().collision();
   ++settings.levels;
-  session.settings.set_collision(settings, true);
+  session.simulation.change_scene("Settings",
+                                  [&](softbody::Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
   EXPECT_FALSE(session.stands_still()) << "curves show the change";
   session.advance(tick);
   EXPECT_EQ(session.world().frame(), frame + 1);
@@ -118,7 +119,8 @@ TEST(Session, KeepsTheSelectedBucketInsideTheTable) {
   session.inspector.select_bucket(900);
   collide::Settings settings = session.world().collision();
   settings.buckets = 101;
-  session.settings.set_collision(settings, true);
+  session.simulation.change_scene("Settings",
+                                  [&](softbody::Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
   EXPECT_FALSE(session.inspector.selected_bucket());
 }
 

@@ -60,7 +60,7 @@ TEST(Simulation, KeepsTheSettingsOverAReset) {
   collide::Settings settings = simulation.world().collision();
   settings.buckets = 77;
   settings.cell_size = glm::vec3(0.25f);
-  controls.set_collision(settings, false);
+  simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
   bodies.drop();
   for (int i = 0; i < 5; ++i) simulation.advance(tick);
   simulation.reset();
@@ -72,7 +72,7 @@ TEST(Simulation, KeepsTheSettingsOverAReset) {
   controls.restore_detection();
   EXPECT_EQ(simulation.world().method().key, collide::default_method);
   EXPECT_EQ(simulation.world().collision().buckets, 1001u);
-  EXPECT_TRUE(simulation.world().scene().default_cell_size);
+  EXPECT_FALSE(simulation.world().scene().collision.cell_size);
 }
 
 TEST(Simulation, KeepsTheContactSurfaceOverAReset) {
@@ -80,7 +80,8 @@ TEST(Simulation, KeepsTheContactSurfaceOverAReset) {
   session::SettingControls controls(simulation);
   const auto surface = [&] { return simulation.world().scene().contact_surface; };
   const auto revision = simulation.revision();
-  controls.set_contact_surface(softbody::ContactSurface::surfaces);
+  simulation.change_scene("Contact",
+                          [&](softbody::Scene& s) { s.contact_surface = softbody::ContactSurface::surfaces; });
   EXPECT_NE(simulation.revision(), revision);
   simulation.advance(tick);
   simulation.reset();
@@ -134,15 +135,16 @@ TEST(Simulation, KeepsTheSettingsInUseWhenItGoesBack) {
   bodies.drop();
   run(simulation, 20);
   controls.set_method("grid-hash");
-  controls.set_contact_surface(softbody::ContactSurface::surfaces);
+  simulation.change_scene("Contact",
+                          [&](softbody::Scene& s) { s.contact_surface = softbody::ContactSurface::surfaces; });
   collide::Settings settings = simulation.world().collision();
   settings.buckets = 77;
-  controls.set_collision(settings, false);
+  simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
   simulation.rewind_to(10);
   EXPECT_EQ(simulation.world().bodies().count(), 2u);
   EXPECT_EQ(simulation.world().method().key, "grid-hash");
   EXPECT_EQ(simulation.world().collision().buckets, 77u);
-  EXPECT_FALSE(simulation.world().scene().default_cell_size);
+  EXPECT_TRUE(simulation.world().scene().collision.cell_size);
   EXPECT_EQ(simulation.world().scene().contact_surface, softbody::ContactSurface::surfaces);
 }
 
@@ -183,7 +185,7 @@ TEST(SimulationUndo, RevertsADropAndAThrowToTheBit) {
   session::BodyControls bodies(simulation);
   for (int i = 0; i < 10; ++i) simulation.advance(tick);
   const std::uint64_t before = simulation.simulated()->state_hash();
-  bodies.grab({.body = 0, .target = {0, 4, 0}});
+  simulation.grab({.body = 0, .target = {0, 4, 0}});
   bodies.drop(20);
   EXPECT_TRUE(simulation.simulated()->grabbed()) << "a drop does not make the hand let go";
   bodies.throw_body({0, 3, 9}, {0, 3, 0});
@@ -198,17 +200,82 @@ TEST(SimulationUndo, RevertsADropAndAThrowToTheBit) {
   EXPECT_FALSE(simulation.can_undo());
 }
 
-TEST(SimulationUndo, KeepsTheSettingsInUse) {
+void set_gravity(session::Simulation& simulation, double strength) {
+  simulation.change_scene("Gravity", [strength](softbody::Scene& scene) { scene.gravity = {0, -strength, 0}; });
+}
+double gravity(const session::Simulation& simulation) { return -simulation.world().scene().gravity.y; }
+
+TEST(SimulationUndo, TakesBackSettingsLikeBodies) {
   session::Simulation simulation(touching_pair(), 1);
   session::SettingControls controls(simulation);
   session::BodyControls bodies(simulation);
+  run(simulation, 5);
+  const std::uint64_t before = simulation.simulated()->state_hash();
   bodies.drop();
   controls.set_method("grid-hash");
-  controls.set_gravity(1.5);
+  set_gravity(simulation, 1.5);
+  controls.set_integrator({.key = "rk4"});
+  run(simulation, 5);
   simulation.undo();
-  EXPECT_EQ(simulation.world().bodies().count(), 2u);
+  EXPECT_EQ(simulation.notice.text(), "Undone: Integrator");
+  EXPECT_EQ(simulation.simulated()->integrator_choice(), softbody::IntegratorChoice());
+  EXPECT_EQ(gravity(simulation), 1.5);
+  simulation.undo();
+  EXPECT_EQ(gravity(simulation), 9.81);
   EXPECT_EQ(simulation.world().method().key, "grid-hash");
-  EXPECT_DOUBLE_EQ(glm::length(simulation.world().scene().gravity), 1.5);
+  simulation.undo();
+  EXPECT_EQ(simulation.world().method().key, collide::default_method);
+  EXPECT_EQ(simulation.world().bodies().count(), 3u);
+  simulation.undo();
+  EXPECT_EQ(simulation.simulated()->state_hash(), before);
+  EXPECT_FALSE(simulation.can_undo());
+  for (int i = 0; i < 4; ++i) simulation.redo();
+  EXPECT_EQ(simulation.world().bodies().count(), 3u);
+  EXPECT_EQ(simulation.world().method().key, "grid-hash");
+  EXPECT_EQ(gravity(simulation), 1.5);
+  EXPECT_EQ(simulation.simulated()->integrator_choice().key, "rk4");
+}
+
+TEST(SimulationUndo, TakesChangesOfOneSettingThatFollowEachOtherAsOne) {
+  session::Simulation simulation(touching_pair(), 1);
+  const auto drag_gravity = [&] {
+    for (const double strength : {3, 4, 5}) {
+      set_gravity(simulation, strength);
+      run(simulation, 1);
+    }
+  };
+  drag_gravity();
+  simulation.change_scene("Subdivision", [](softbody::Scene& scene) { scene.collision.levels = 6; });
+  set_gravity(simulation, 7);
+  simulation.undo();
+  EXPECT_EQ(gravity(simulation), 5);
+  drag_gravity();
+  simulation.undo();
+  EXPECT_EQ(gravity(simulation), 5) << "what follows an undone change is a step of its own";
+  simulation.undo();
+  EXPECT_EQ(simulation.world().collision().levels, 3);
+  simulation.undo();
+  EXPECT_EQ(gravity(simulation), 9.81);
+  EXPECT_EQ(simulation.world().frame(), 0);
+  EXPECT_FALSE(simulation.can_undo());
+}
+
+TEST(SimulationUndo, IgnoresASettingThatIsRefused) {
+  session::Simulation simulation(touching_pair(), 1);
+  const auto revision = simulation.revision();
+  EXPECT_FALSE(simulation.change_scene("Tolerance", [](softbody::Scene& scene) { scene.collision.tolerance = 11; }));
+  EXPECT_NE(simulation.notice.text().find("from 1e-09 to 10"), std::string::npos) << simulation.notice.text();
+  EXPECT_FALSE(simulation.can_undo());
+  EXPECT_EQ(simulation.revision(), revision);
+  EXPECT_EQ(simulation.world().scene(), touching_pair());
+}
+
+TEST(SimulationUndo, GoesBackAsFarAsMemoryReaches) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::BodyControls bodies(simulation);
+  for (int i = 0; i < 20; ++i) bodies.drop();
+  while (simulation.can_undo()) simulation.undo();
+  EXPECT_EQ(simulation.world().bodies().count(), 2u);
 }
 
 TEST(SimulationUndo, IgnoresAThrowThatFailed) {
@@ -249,9 +316,9 @@ TEST(SimulationUndo, RevertsSeveralResetsAndKeepsTheirSolids) {
   session::SettingControls controls(simulation);
   std::vector<std::uint64_t> hashes;
   for (int i = 0; i < 3; ++i) {
-    session::SolidList solids = controls.solids();
-    solids[0].on = i % 2;
-    controls.set_solids(solids);
+    softbody::Solid solid = controls.solids()[0];
+    solid.enabled = i % 2;
+    controls.set_solid(0, solid);
     for (int k = 0; k < 5 + i; ++k) simulation.advance(tick);
     hashes.push_back(simulation.simulated()->state_hash());
     simulation.reset();
@@ -259,11 +326,12 @@ TEST(SimulationUndo, RevertsSeveralResetsAndKeepsTheirSolids) {
   for (int i = 2; i >= 0; --i) {
     simulation.undo();
     EXPECT_EQ(simulation.simulated()->state_hash(), hashes[static_cast<std::size_t>(i)]);
-    EXPECT_EQ(controls.solids()[0].on, i % 2);
+    EXPECT_EQ(controls.solids()[0].enabled, i % 2);
+    simulation.undo();  // the switch
+    EXPECT_EQ(controls.solids()[0].enabled, i % 2 == 0);
   }
   simulation.undo();
   EXPECT_EQ(simulation.notice.text(), "Nothing to undo");
-  EXPECT_EQ(simulation.simulated()->state_hash(), hashes[0]);
 }
 
 TEST(SimulationUndo, BringsBackTheSettingsOfAWorldThatWasLeftForAnotherScene) {
@@ -271,14 +339,13 @@ TEST(SimulationUndo, BringsBackTheSettingsOfAWorldThatWasLeftForAnotherScene) {
   for (session::Simulation* s : {&simulation, &undisturbed}) {
     session::SettingControls controls(*s);
     controls.set_method("grid-hash");
-    controls.set_gravity(3);
+    s->change_scene("Gravity", [](softbody::Scene& scene) { scene.gravity = {0, -3, 0}; });
     controls.set_integrator({.key = "velocity-verlet"});
     run(*s, 20);
   }
   softbody::Scene other = touching_pair();
   other.bodies.resize(1);
-  simulation.enter(session::make_window_world(other, {}, 1), {other, session::SceneFile("other", other), {}},
-                   "choice of scene");
+  simulation.enter(session::make_window_world(other, {}, 1), {other, session::SceneFile("other")}, "choice of scene");
   run(simulation, 5);
   ASSERT_EQ(simulation.world().bodies().count(), 1u);
   simulation.undo();
@@ -308,7 +375,7 @@ TEST(SimulationObserver, IsToldOfStepsAndChanges) {
   run(simulation, 7);
   EXPECT_EQ(witness.steps, 7);
   EXPECT_GE(simulation.step_ms(), 5);
-  controls.set_gravity(3);
+  simulation.change_scene("Gravity", [&](softbody::Scene& s) { s.gravity = {0, -3, 0}; });
   EXPECT_EQ(witness.interventions, 1);
   EXPECT_EQ(witness.detections, 0);
   controls.set_method("grid-hash");
@@ -388,10 +455,10 @@ TEST(SimulationRedo, EndsWithANewChange) {
 TEST(SimulationUndo, UndoesAPullBeforeTheDropThatCameDuringIt) {
   session::Simulation simulation(touching_pair(), 1);
   session::BodyControls bodies(simulation);
-  bodies.grab({.body = 1, .target = {0.5, 3, 0}});
+  simulation.grab({.body = 1, .target = {0.5, 3, 0}});
   run(simulation, 3);
   bodies.drop();
-  bodies.pull_to({1.5, 3, 0});
+  simulation.pull_to({1.5, 3, 0});
   run(simulation, 3);
   simulation.undo();
   EXPECT_EQ(simulation.world().bodies().count(), 3u);
@@ -405,14 +472,14 @@ TEST(SimulationUndo, TakesAPullAsOneChange) {
   session::BodyControls bodies(simulation);
   run(simulation, 5);
   const std::uint64_t before = simulation.simulated()->state_hash();
-  bodies.grab({.body = 1, .target = {0.5, 3, 0}});
+  simulation.grab({.body = 1, .target = {0.5, 3, 0}});
   run(simulation, 2);
   EXPECT_FALSE(simulation.can_undo()) << "a click pulls nothing";
   for (int i = 1; i <= 20; ++i) {
-    bodies.pull_to({0.5 + 0.1 * i, 3, 0});
+    simulation.pull_to({0.5 + 0.1 * i, 3, 0});
     run(simulation, 1);
   }
-  bodies.release();
+  simulation.release();
   run(simulation, 10);
   const std::uint64_t thrown = simulation.simulated()->state_hash();
   simulation.undo();
@@ -431,29 +498,28 @@ TEST(SimulationUndo, TakesADragOfASolidAsOneChangeAndRestoresIt) {
   const std::uint64_t before = simulation.simulated()->state_hash();
   const session::SolidList at_first = controls.solids();
   session::SolidList solids = at_first;
-  controls.begin_drag(0);
-  EXPECT_FALSE(simulation.can_undo());
   for (int i = 0; i < 5; ++i) {
-    solids[0].solid = *session::moved(solids[0].solid, {0.1, 0, 0});
-    controls.set_solids(solids);
+    solids[0] = session::moved(solids[0], {0.1, 0, 0});
+    controls.set_solid(0, solids[0]);
     run(simulation, 1);
   }
-  simulation.end_drag();
-  controls.set_gravity(3);
-  EXPECT_NEAR(simulation.world().scene().spheres[0].centre.x, 0.5, 1e-12);
+  set_gravity(simulation, 3);
+  EXPECT_NEAR(shape_of<softbody::SolidSphere>(simulation.world().scene()).centre.x, 0.5, 1e-12);
   simulation.undo();
-  EXPECT_EQ(simulation.notice.text(), "Undone: move of Sphere");
+  EXPECT_EQ(gravity(simulation), 9.81);
+  EXPECT_NEAR(shape_of<softbody::SolidSphere>(simulation.world().scene()).centre.x, 0.5, 1e-12);
+  simulation.undo();
+  EXPECT_EQ(simulation.notice.text(), "Undone: change of Sphere");
   EXPECT_FALSE(simulation.can_undo());
   EXPECT_EQ(simulation.simulated()->state_hash(), before);
   EXPECT_TRUE(controls.solids() == at_first);
-  EXPECT_EQ(simulation.world().scene().spheres[0].centre, glm::dvec3(0.0));
-  EXPECT_DOUBLE_EQ(glm::length(simulation.world().scene().gravity), 3) << "settings in use stay";
+  EXPECT_EQ(shape_of<softbody::SolidSphere>(simulation.world().scene()).centre, glm::dvec3(0.0));
   simulation.redo();
-  EXPECT_NEAR(simulation.world().scene().spheres[0].centre.x, 0.5, 1e-12);
+  EXPECT_NEAR(shape_of<softbody::SolidSphere>(simulation.world().scene()).centre.x, 0.5, 1e-12);
   EXPECT_TRUE(controls.solids() == solids);
   simulation.reset();
-  EXPECT_NEAR(simulation.world().scene().spheres[0].centre.x, 0.5, 1e-12) << "a reset keeps it";
-  controls.set_solids(at_first);
+  EXPECT_NEAR(shape_of<softbody::SolidSphere>(simulation.world().scene()).centre.x, 0.5, 1e-12) << "a reset keeps it";
+  controls.set_solid(0, at_first[0]);
   bodies.drop();
   simulation.undo();
   EXPECT_TRUE(controls.solids() == at_first) << "the undo of a drop moves no solid";

@@ -14,7 +14,7 @@ void make_it_miss(PanelRig& rig) {
   collide::Settings settings = rig.session.world().collision();
   settings.cell_size = glm::vec3(0.13f);
   settings.buckets = 1'000'003;
-  rig.session.settings.set_collision(settings, false);
+  rig.session.simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
 }
 
 TEST(StoryCard, CountsWhatThePapersMethodMissesBesideAnExactDriver) {

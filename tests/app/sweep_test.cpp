@@ -58,11 +58,11 @@ TEST(SweepConfigurations, CombineAllAxesThatAMethodUses) {
 
 TEST(SweepConfigurations, UseTheWorldsAutomaticCellSize) {
   const softbody::World& world = pair_world();
-  EXPECT_EQ(world.default_cell_size(world.collision().levels), world.collision().cell_size);
-  EXPECT_LT(world.default_cell_size(9).x, world.default_cell_size(0).x);
+  EXPECT_EQ(world.automatic_cell_size(world.collision().levels), world.collision().cell_size);
+  EXPECT_LT(world.automatic_cell_size(9).x, world.automatic_cell_size(0).x);
   for (const compare::Configuration& c : compare::sweep_configurations(world)) {
     if (!collide::method_table()[c.method].uses_hash) continue;
-    EXPECT_EQ(c.settings.cell_size, world.default_cell_size(c.settings.levels) * static_cast<float>(c.cell));
+    EXPECT_EQ(c.settings.cell_size, world.automatic_cell_size(c.settings.levels) * static_cast<float>(c.cell));
   }
 }
 

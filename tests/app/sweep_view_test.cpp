@@ -181,7 +181,7 @@ TEST(SweepView, AppliesTheSettingsOfTheClickedPoint) {
              collide::method_table()[c.method].key == method.key &&
              (!method.uses_levels || c.settings.levels == now.levels) &&
              (!method.uses_hash || (c.settings.buckets == now.buckets && c.settings.cell_size == now.cell_size &&
-                                    (c.cell == 1) == rig.session.world().scene().default_cell_size));
+                                    (c.cell == 1) == !rig.session.world().scene().collision.cell_size));
     });
     EXPECT_TRUE(matches) << "point " << i;
     clicked[compare::method_index(method.key)] = true;

@@ -111,7 +111,7 @@ TEST(TableContents, ReturnsTheGroupOfACellOrTheFullest) {
 
 TEST(PaperStructure, EqualsThatOfAFullDetection) {
   const Points points(30);
-  const collide::Settings settings;
+  const collide::Settings settings{.cell_size = glm::vec3(1.0f)};
   collide::Workers alone(1);
   const auto whole = structure(collide::paper_method, points, settings);
   const auto alone_built = collide::methods::make_paper_structure()(points.frame(), settings, alone);

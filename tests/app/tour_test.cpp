@@ -212,7 +212,7 @@ TEST(ExampleFinder, FindsWhatSmallCellsMiss) {
   collide::Settings settings = session.world().collision();
   settings.cell_size = glm::vec3(0.13f);
   settings.buckets = 1'000'003;
-  session.settings.set_collision(settings, false);
+  session.simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
   const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
   EXPECT_FALSE(found->missed.empty());
   session.settings.set_method("multi-level-sb");
@@ -393,7 +393,7 @@ TEST(Tour, ExplainsAMissOfThePapersMethod) {
   EXPECT_NE(miss.corners[0].bucket, miss.corners[1].bucket);
   ASSERT_TRUE(miss.face);
   const int axis = miss.face->axis;
-  const float at = static_cast<float>(miss.face->index) * session.world().collision().cell_size[axis];
+  const float at = static_cast<float>(miss.face->index) * (*session.world().collision().cell_size)[axis];
   std::array boxes{example.structure.boxes[miss.boxes[0]], example.structure.boxes[miss.boxes[1]]};
   if (boxes[0].lo[axis] > boxes[1].lo[axis]) std::swap(boxes[0], boxes[1]);
   EXPECT_LT(boxes[0].hi[axis], at);
@@ -404,8 +404,7 @@ TEST(Tour, ExplainsAMissOfThePapersMethod) {
 
 TEST(Tour, FramesTheBoxesOfAMissAndNotTheirCells) {
   softbody::Scene scene = touching_pair();
-  scene.collision.cell_size = {2.47f, 60, 60};  // a face at x = 0, between the bodies
-  scene.default_cell_size = false;
+  scene.collision.cell_size = glm::vec3{2.47f, 60, 60};  // a face at x = 0, between the bodies
   Session session(scene, {}, 1);
   ui::Tour tour;
   render::Overlays shown;
@@ -425,7 +424,6 @@ TEST(Tour, ShowsFewCellsOfAFullBucketAndTheCornersOwnFirst) {
   softbody::Scene scene = touching_pair();
   scene.collision.buckets = 1;
   scene.collision.cell_size = glm::vec3(0.3f);
-  scene.default_cell_size = false;
   Session session(scene, {}, 1);
   ui::Tour tour;
   render::Overlays shown;
@@ -451,7 +449,6 @@ TEST(Tour, ShowsTheCellThatALargeBoxSkips) {
   scene.collision.levels = 0;
   scene.collision.cell_size = glm::vec3(0.3f);
   scene.collision.buckets = 1'000'003;
-  scene.default_cell_size = false;
   scene.bodies[1].position = scene.bodies[0].position + glm::dvec3(0.57);  // the boxes overlap
   Session session(scene, {}, 1);
   const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
@@ -495,7 +492,6 @@ TEST(Tour, SaysThatNothingIsMissedAndRunsAheadToAMiss) {
 TEST(Tour, FitsEveryPageIntoSmallWindows) {
   softbody::Scene scene = touching_pair();
   scene.collision.cell_size = glm::vec3(0.13f);
-  scene.default_cell_size = false;
   scene.collision.buckets = collide::max_buckets;
   PanelRig rig(1, scene);
   const ui::FrameWork of_drop_3000{.bodies = 3125,
@@ -564,7 +560,6 @@ TEST(MissedContacts, AreThoseThatTheDetectorMisses) {
       softbody::Scene scene = touching_pair();
       scene.collision.levels = levels;
       scene.collision.cell_size = glm::vec3(cell, 1.1f * cell, 0.9f * cell);
-      scene.default_cell_size = false;
       Session session(scene, {}, 1);
       for (const int frames : {0, 10}) {
         for (int i = 0; i < frames; ++i) session.advance(tick);

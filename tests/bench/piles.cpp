@@ -9,6 +9,7 @@
 
 #include "engine/resources.h"
 #include "softbody/world/world.h"
+#include "tests/solids.h"
 
 namespace bench {
 namespace {
@@ -110,7 +111,7 @@ softbody::Scene block(int columns, int layers, int rows, std::span<const double>
   softbody::Scene scene = softbody::find_scene("drop-3000", engine::find_folder("assets") / "scenes");
   softbody::BodySource body = scene.bodies.front();
   scene.bodies.clear();
-  scene.spheres.clear();
+  tests::remove_solids<softbody::SolidSphere>(scene);
   scene.sleep.speed = 0.05;
   Random random;
   const double spacing = 2.2 * *std::max_element(radii.begin(), radii.end());

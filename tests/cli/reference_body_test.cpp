@@ -8,6 +8,7 @@
 #include "app/reference/reference_trajectory.h"
 #include "softbody/contact/keys.h"
 #include "softbody/forces/model_forces.h"
+#include "tests/solids.h"
 
 namespace app::test {
 namespace {
@@ -101,7 +102,7 @@ TEST(ReferenceBody, HasForcesThatAreTheGradientOfTheEnergy) {
 
 TEST(ReferenceBody, StopsOnTheGroundAndSlowsByFriction) {
   Pair pair(100, 0);
-  pair.scene.ground = softbody::Ground{.height = 0, .friction = 0.5};
+  tests::set_solid(pair.scene, {.shape = softbody::Ground{.height = 0}, .friction = 0.5});
   pair.scene.gravity = {0, -10, 0};
   pair.model.material[softbody::Material::thickness] = 0;
   const reference::BodyState sliding{{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 0, 1}}};
@@ -132,7 +133,7 @@ TEST(ReferenceBody, AgreesWithTheWorldInFreeFlight) {
 TEST(ReferenceBody, AgreesWithTheWorldInContact) {
   softbody::Scene scene = lone_ball(1e3, 0.02);
   scene.gravity = {0, -9.81, 0};
-  scene.ground = softbody::Ground{};
+  tests::set_solid(scene, {softbody::Ground{}});
   scene.bodies[0].position = {0, 0.55, 0};
   EXPECT_LT(difference(scene, 512), 1e-3);
 }
@@ -170,7 +171,7 @@ TEST(UnsettledSpeed, CountsAllMotionUnlessTheBodyIsFree) {
   pair.scene.gravity = {0, -9.81, 0};
   EXPECT_DOUBLE_EQ(reference::unsettled_speed({pair.model, pair.scene}, falling), 1);
   pair.scene.gravity = {};
-  pair.scene.ground = softbody::Ground{};
+  tests::set_solid(pair.scene, {softbody::Ground{}});
   EXPECT_DOUBLE_EQ(reference::unsettled_speed({pair.model, pair.scene}, falling), 1) << "it touches the ground";
 }
 

@@ -81,7 +81,7 @@ TEST(Simulate, NamesEachStageOnceAndWhyOthersAreLeftOut) {
   const json d = simulate({"--scene", scene, "--frames", "1"});
   EXPECT_EQ(d["scene"], "small");
   const json& plan = d["plan"];
-  EXPECT_EQ(keys(plan), (Keys{"stages", "left_out"}));
+  EXPECT_EQ(keys(plan), (Keys{"stages", "shapes", "left_out"}));
   Keys all;
   for (const json& s : plan["stages"]) EXPECT_TRUE(all.insert(s).second);
   for (const json& l : plan["left_out"]) {
@@ -89,34 +89,16 @@ TEST(Simulate, NamesEachStageOnceAndWhyOthersAreLeftOut) {
     EXPECT_TRUE(all.insert(l["stage"]).second);
     EXPECT_FALSE(l["why"].get<std::string>().empty());
   }
-  EXPECT_EQ(all, (Keys{"arrive",
-                       "contact-response",
-                       "surface-contact",
-                       "structural-springs",
-                       "bend-springs",
-                       "shear-springs",
-                       "gas-pressure",
-                       "shape-matching",
-                       "grab",
-                       "gravity",
-                       "integrate",
-                       "restitution",
-                       "solid-spheres",
-                       "ground",
-                       "solid-planes",
-                       "solid-boxes",
-                       "solid-capsules",
-                       "solid-features",
-                       "internal-damping",
-                       "rebound-damping",
-                       "rolling-resistance",
-                       "detect",
-                       "sleep"}));
+  EXPECT_EQ(
+      all, (Keys{"arrive", "contact-response", "surface-contact", "structural-springs", "bend-springs", "shear-springs",
+                 "gas-pressure", "shape-matching", "grab", "gravity", "integrate", "restitution", "solids",
+                 "solid-features", "internal-damping", "rebound-damping", "rolling-resistance", "detect", "sleep"}));
   const auto runs = [&](const char* stage) {
     return std::find(plan["stages"].begin(), plan["stages"].end(), stage) != plan["stages"].end();
   };
-  EXPECT_TRUE(runs("ground") && runs("gas-pressure") && runs("detect"));
-  EXPECT_FALSE(runs("solid-spheres") || runs("arrive") || runs("shear-springs"));
+  EXPECT_TRUE(runs("solids") && runs("gas-pressure") && runs("detect"));
+  EXPECT_EQ(plan["shapes"], json::array({"ground"}));
+  EXPECT_FALSE(runs("arrive") || runs("shear-springs"));
 }
 
 TEST(Simulate, PrintsFiguresThatAgreeWithPhysics) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "app/report/stability/cases.h"
+#include "tests/solids.h"
 
 namespace app::test {
 namespace {
@@ -20,7 +21,7 @@ class SolidPassages : public testing::Test {
   /// Returns the passages of a ball through a box whose middle has been at these points, one look after another.
   static std::size_t count(std::initializer_list<dvec3> middles, const dvec3& half_size = dvec3(1.0)) {
     softbody::Scene scene = report::lone_scene(report::ball_material(1e3, 0.1));
-    scene.boxes = {{.half_size = half_size}};
+    tests::set_solid(scene, {softbody::SolidBox{.half_size = half_size}});
     softbody::World world(scene, {});
     report::SolidPassages passages;
     for (const dvec3& middle : middles) {

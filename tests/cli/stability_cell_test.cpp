@@ -10,6 +10,7 @@
 
 #include "app/report/stability/cases.h"
 #include "softbody/contact/keys.h"
+#include "tests/solids.h"
 
 namespace app::test {
 namespace {
@@ -90,7 +91,7 @@ TEST(StabilityCell, JudgesASceneWhoseBodiesAllJoinLater) {
   EXPECT_EQ(reference::failures(in_order), std::vector<std::string>{});
   EXPECT_GT(in_order.extent, 0) << "its springs tell how far it can be drawn";
 
-  falling.ground = softbody::Ground{};
+  tests::set_solid(falling, {softbody::Ground{}});
   falling.bodies[0].position.y = 0.2;
   EXPECT_GT(run(falling, "auto", 4).transient, reference::stability_bounds.transient);
 

@@ -132,7 +132,7 @@ TEST(Debug, OfTheExactMethodShowsTheLeavesOfItsCuts) {
 
 TEST(Debug, KeepsTheFirstCellsWhereThereAreTooMany) {
   CellList cells;
-  CellHash hash{Settings{}};
+  CellHash hash{metre_cells()};
   for (std::int64_t i = 2'000'000; i-- > 0;) cells.add({i / 2, 0, 0}, hash);
   const auto kept = cells.take();
   ASSERT_EQ(kept.size(), DebugGeometry::debug_cell_limit);

@@ -47,6 +47,7 @@ TEST(CellHash, EqualsValuesComputedByHand) {
 
 TEST(CellHash, DoesNotOverflowWithTheLargestPrimesAndCounts) {
   Settings settings;
+  settings.cell_size = glm::vec3(1);
   settings.buckets = max_buckets - 1;  // 2^24 - 1, so 2^32 - 1 = 255 modulo it
   settings.primes = {0xffffffffu, 0xffffffffu, 0xffffffffu};
   const std::int64_t last = settings.buckets - 1;  // -1 modulo the count

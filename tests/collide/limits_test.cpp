@@ -16,7 +16,7 @@ TEST(Limits, TooManyContactsAreAnErrorAndTheNextFrameIsFound) {
   State crowd;
   crowd.add(std::vector<glm::vec3>(16'400, glm::vec3(0.5f)));
   const State settled = named_states()[1].make();
-  Settings settings;
+  Settings settings = metre_cells();
   settings.tolerance = settled.tolerance;
   Workers workers(2, 0);
   // The rivals count in the same place as the literal method, and each takes a second and a gibibyte.
@@ -81,7 +81,7 @@ TEST(Limits, ContactsAreThoseOfTrueDistances) {
       for (Index b = a + 1; b < state.x.size(); ++b)
         if (closer({state.x[a], state.y[a], state.z[a]}, {state.x[b], state.y[b], state.z[b]}, tolerance))
           expected.push_back({a, b});
-    Settings settings;
+    Settings settings = metre_cells();
     settings.tolerance = tolerance;
     ASSERT_EQ(problem(settings), "");
     for (const Method& method : method_table()) {

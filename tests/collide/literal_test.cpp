@@ -154,11 +154,11 @@ TEST(Literal, TellsAlongEachAxisWhetherABoxExceedsACell) {
   state.add({glm::vec3(0), glm::vec3(1, 2, 3)});
   Settings settings;
   settings.levels = 0;
-  settings.cell_size = {1, 2, 3};
+  settings.cell_size = glm::vec3{1, 2, 3};
   EXPECT_EQ(detect("multi-level-sb", state, settings).coverage, Coverage::covered);
   for (int axis = 0; axis < 3; ++axis) {
     Settings smaller = settings;
-    smaller.cell_size[axis] -= 0.001f;
+    (*smaller.cell_size)[axis] -= 0.001f;
     EXPECT_EQ(detect("multi-level-sb", state, smaller).coverage, Coverage::exceeded) << axis;
   }
 }
@@ -168,11 +168,11 @@ TEST(Literal, MissesAContactAcrossACellFace) {
   State state;
   state.add({glm::vec3(0.96f, 0.5f, 0.5f)});
   state.add({glm::vec3(1.04f, 0.5f, 0.5f)});
-  EXPECT_EQ(oracle(state, Settings{}).size(), 1u);
-  const Result result = detect("multi-level-sb", state, Settings{});
+  EXPECT_EQ(oracle(state, metre_cells()).size(), 1u);
+  const Result result = detect("multi-level-sb", state, metre_cells());
   EXPECT_EQ(result.contacts.size(), 0u);
   EXPECT_EQ(result.coverage, Coverage::covered);
-  EXPECT_EQ(detect("multi-level-sb-complete", state, Settings{}).contacts, oracle(state, Settings{}));
+  EXPECT_EQ(detect("multi-level-sb-complete", state, metre_cells()).contacts, oracle(state, metre_cells()));
 }
 
 }  // namespace

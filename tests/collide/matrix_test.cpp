@@ -20,7 +20,7 @@ std::vector<glm::vec3> cell_sizes(const State& state, int level) {
           glm::vec3(0.25f),
           glm::vec3(1, 0.3f, 2.5f),
           glm::vec3(1e6f, 1e30f, 1e-30f),
-          default_cell_size(state.frame(), level, state.tolerance)};
+          automatic_cell_size(state.frame(), level, state.tolerance)};
 }
 
 std::vector<Settings> all_settings(const State& state, const Method& method) {
@@ -44,7 +44,7 @@ std::vector<Settings> all_settings(const State& state, const Method& method) {
 
 std::string describe(const Method& method, const Settings& settings) {
   return std::string(method.key) + ", levels " + std::to_string(settings.levels) + ", buckets " +
-         std::to_string(settings.buckets) + ", cell " + std::to_string(settings.cell_size.x) +
+         std::to_string(settings.buckets) + ", cell " + std::to_string(settings.cell_size->x) +
          (settings.self_collision ? "" : ", no self-collision");
 }
 

@@ -70,7 +70,7 @@ TEST(Methods, SayWhetherTheyKeepAnythingBetweenFrames) {
     for (glm::vec3& p : points) p = glm::vec3(0.8f * p.x - 0.6f * p.y, 0.6f * p.x + 0.8f * p.y, p.z);
     before.add(shape, points);
   }
-  Settings settings;
+  Settings settings = metre_cells();
   settings.tolerance = 0.08f;
   for (const Method& method : method_table()) {
     const auto says = [&](std::string_view words) { return method.description.find(words) != std::string_view::npos; };
@@ -98,7 +98,7 @@ TEST(Methods, NamesBodiesThatAreNotFinite) {
   state.add({glm::vec3(0, 0.05f, 0)});
   state.add({glm::vec3(0, 0, -INFINITY)});
   for (const Method& method : method_table()) {
-    const Result result = detect(method.key, state, Settings{});
+    const Result result = detect(method.key, state, metre_cells());
     EXPECT_EQ(result.non_finite_bodies, (std::vector<Index>{1, 4})) << method.key;
     EXPECT_EQ(result.contacts, (std::vector<Contact>{{0, 1}, {0, 4}, {1, 4}})) << method.key;
     EXPECT_EQ(result.self_contacts, 1u) << method.key;
@@ -111,7 +111,7 @@ TEST(Methods, LeavesOutEdgesAndPairsNearAtRest) {
   State state;
   state.add(std::make_shared<const Shape>(4, edges, rest), std::vector<glm::vec3>(4, glm::vec3(3)));
   for (const Method& method : method_table()) {
-    EXPECT_EQ(detect(method.key, state, Settings{}).contacts, (std::vector<Contact>{{0, 2}, {0, 3}, {1, 2}, {1, 3}}))
+    EXPECT_EQ(detect(method.key, state, metre_cells()).contacts, (std::vector<Contact>{{0, 2}, {0, 3}, {1, 2}, {1, 3}}))
         << method.key;
   }
 }
@@ -126,7 +126,7 @@ TEST(Methods, FollowASequenceWithJumps) {
     two.push_back(method.make());
   }
   Workers alone(1), both(2, 0);
-  Settings settings;
+  Settings settings = metre_cells();
   settings.tolerance = 0.08f;
   std::mt19937 random(10);
   std::vector<glm::vec3> at = random_points(random, 7, -0.8f, 0.8f);

@@ -40,7 +40,8 @@ TEST(Settings, NameTheProblemAndItsValue) {
   for (const float bad :
        {0.0f, -1.0f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
     EXPECT_NE(problem_after([&](Settings& s) { s.tolerance = bad; }).find("tolerance"), std::string::npos);
-    EXPECT_NE(problem_after([&](Settings& s) { s.cell_size.y = bad; }).find("cell size"), std::string::npos);
+    EXPECT_NE(problem_after([&](Settings& s) { s.cell_size = glm::vec3(1, bad, 1); }).find("cell size"),
+              std::string::npos);
   }
   EXPECT_EQ(problem_after([](Settings& s) { s.tolerance = 5e29f; }), "tolerance is 5e+29; it must be 1e-18 to 1e18 m");
   for (const float beyond :
@@ -66,10 +67,10 @@ TEST(DefaultCellSize, IsTheLargestBoxPlusTheTolerance) {
   state.add({glm::vec3(0), glm::vec3(1, 2, 4)});
   state.add({glm::vec3(10), glm::vec3(13, 11, 11)});
   state.add({glm::vec3(0), glm::vec3(NAN, 100, 100)});
-  EXPECT_EQ(default_cell_size(state.frame(), 0, 0.5f), glm::vec3(3.5f, 2.5f, 4.5f));
-  EXPECT_EQ(default_cell_size(state.frame(), 1, 0.5f), glm::vec3(2.0f, 2.5f, 4.5f));
-  EXPECT_EQ(default_cell_size(state.frame(), 3, 0.5f), glm::vec3(2.0f, 1.5f, 2.5f));
-  EXPECT_EQ(default_cell_size(state.frame(), 9, 0.5f), glm::vec3(0.875f, 0.75f, 1.0f));
+  EXPECT_EQ(automatic_cell_size(state.frame(), 0, 0.5f), glm::vec3(3.5f, 2.5f, 4.5f));
+  EXPECT_EQ(automatic_cell_size(state.frame(), 1, 0.5f), glm::vec3(2.0f, 2.5f, 4.5f));
+  EXPECT_EQ(automatic_cell_size(state.frame(), 3, 0.5f), glm::vec3(2.0f, 1.5f, 2.5f));
+  EXPECT_EQ(automatic_cell_size(state.frame(), 9, 0.5f), glm::vec3(0.875f, 0.75f, 1.0f));
 }
 
 TEST(DefaultCellSize, IsThatAtRestOfBodiesThatKnowIt) {
@@ -78,7 +79,7 @@ TEST(DefaultCellSize, IsThatAtRestOfBodiesThatKnowIt) {
   bodies.add(std::make_shared<Shape>(2, std::span<const std::array<Index, 2>>{}, rest));
   bodies.add(std::make_shared<Shape>(2, std::span<const std::array<Index, 2>>{}));
   const std::vector<float> at{0, 8, 0, 2};
-  EXPECT_EQ(default_cell_size({at, at, at, &bodies}, 0, 0.5f), glm::vec3(4.5f, 2.5f, 2.5f));
+  EXPECT_EQ(automatic_cell_size({at, at, at, &bodies}, 0, 0.5f), glm::vec3(4.5f, 2.5f, 2.5f));
 }
 
 TEST(DefaultCellSize, IsAllowedAndCoversOnEveryState) {
@@ -88,7 +89,7 @@ TEST(DefaultCellSize, IsAllowedAndCoversOnEveryState) {
       Settings settings;
       settings.tolerance = state.tolerance;
       settings.levels = levels;
-      settings.cell_size = default_cell_size(state.frame(), levels, state.tolerance);
+      settings.cell_size = automatic_cell_size(state.frame(), levels, state.tolerance);
       EXPECT_EQ(problem(settings), "") << named.name;
       if (named.name.find("scattered") == 0 || named.name.find("toler") != std::string::npos) continue;  // beyond float
       EXPECT_EQ(detect("multi-level-sb", state, settings).coverage, Coverage::covered) << named.name << levels;

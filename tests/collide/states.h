@@ -43,6 +43,9 @@ std::vector<Contact> oracle(const State& state, const Settings& settings);
 /// Those of the contacts that lie inside one body.
 std::vector<Contact> inside_bodies(const State& state, const std::vector<Contact>& contacts);
 
+/// Returns the default settings with cells of 1 m.
+inline Settings metre_cells() { return {.cell_size = glm::vec3(1.0f)}; }
+
 /// Detects once with a fresh detector.
 Result detect(std::string_view method, const State& state, const Settings& settings, int threads = 1);
 

@@ -22,6 +22,7 @@
 #include "collide/methods.h"
 #include "softbody/forces/material_keys.h"
 #include "softbody/mesh/shortest_text.h"
+#include "softbody/scene/scene_keys.h"
 #include "tests/csv_fields.h"
 
 namespace softbody::test {
@@ -34,19 +35,46 @@ std::string read(const char* file) {
 
 const std::string head = "| key | unit | left out | limits | meaning |\n|---|---|---|---|---|\n";
 
-std::string table_of_keys() {
+std::string row_of(const Key& key, const std::string& left_out) {
+  const auto shown = [&key](double value) {
+    return key.options.is_switch ? std::string(value != 0 ? "true" : "false") : shortest_text(value);
+  };
+  const auto [least, most] = key.limits;
+  std::string text;
+  text.append("| `").append(key.name).append("` | ").append(key.unit).append(" | ").append(left_out).append(" | ");
+  if (least < most) text.append(shown(least)).append(key.options.is_switch ? " or " : " to ").append(shown(most));
+  return text.append(" | ").append(key.summary).append(" |\n");
+}
+
+std::string keys_of_materials() {
   std::string text = head;
   for (const Key* key : material_keys()) {
-    const auto shown = [key](double value) {
-      return key->options.is_switch ? std::string(value != 0 ? "true" : "false") : shortest_text(value);
-    };
-    const std::string left_out =
-        std::isnan(key->fallback) ? std::string(key->options.if_missing) : shown(key->fallback);
-    const char* between = key->options.is_switch ? " or " : " to ";
-    text.append("| `").append(key->name).append("` | ").append(key->unit).append(" | ").append(left_out);
-    text.append(" | ").append(shown(key->limits.least) + between + shown(key->limits.most));
-    text.append(" | ").append(key->summary).append(" |\n");
+    std::string left_out = shortest_text(key->fallback);
+    if (key->options.is_switch) left_out = key->fallback != 0 ? "true" : "false";
+    if (std::isnan(key->fallback)) left_out = key->options.if_missing;
+    text += row_of(*key, left_out);
   }
+  text.pop_back();  // the end of the last line
+  return text;
+}
+
+const std::string scene_head = "<!-- keys of scenes -->\n\n" + head;
+
+std::string keys_of_scenes() {
+  std::string text = scene_head;
+  const Scene scene;
+  const auto add = [&text](const Key& key, const auto& value) {
+    std::string left_out(key.options.if_missing);
+    for (const double number : numbers_of(value))
+      left_out += (left_out.empty() ? "" : ", ") +
+                  (key.options.is_switch ? std::string(number != 0 ? "true" : "false")
+                                         : (number == std::floor(number) ? shortest_text(std::int64_t(number))
+                                                                         : shortest_text(float(number))));
+    if constexpr (std::is_convertible_v<decltype(value), std::string>) left_out = "`" + value + "`";
+    if constexpr (std::is_same_v<decltype(value), const ContactSurface&>) left_out = "`vertex-vertex`";
+    text += row_of(key, left_out);
+  };
+  for_each_value(scene, add);
   text.pop_back();  // the end of the last line
   return text;
 }
@@ -137,7 +165,8 @@ std::vector<Part> tables_of_results(const std::string& page) {
 }
 
 std::vector<Part> parts() {
-  std::vector<Part> all{{SBCOLLIDE_SOURCES "/assets/scenes/README.md", head, "\n\n", table_of_keys()},
+  std::vector<Part> all{{SBCOLLIDE_SOURCES "/assets/scenes/README.md", head, "\n\n", keys_of_materials()},
+                        {SBCOLLIDE_SOURCES "/assets/scenes/README.md", scene_head, "\n\n", keys_of_scenes()},
                         {SBCOLLIDE_SOURCES "/collide/README.md", "### The paper's rivals\n",
                          "## How the paper's method works\n", descriptions_of_methods()},
                         example(SBCOLLIDE_SOURCES "/collide/README.md", "find_contacts.cpp"),

@@ -14,11 +14,12 @@
 #include "random_scene.h"
 #include "require.h"
 #include "softbody/model/body_model.h"
-#include "softbody/scene/limits.h"
+#include "softbody/scene/scene_keys.h"
 #include "softbody/scene/scene_write.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/snapshot.h"
 #include "softbody/world/world.h"
+#include "tests/support/change.h"
 #include "text_file.h"
 
 namespace fuzz {
@@ -56,11 +57,15 @@ void change(softbody::World& world, Bytes& bytes) {
         break;
       case 3: {
         const auto which = std::size_t(bytes.below(int(world.scene().materials.size())));
-        world.set_material(which, read_material(bytes, world.scene().materials[which].name));
+        softbody::change(world, [&](softbody::Scene& s) {
+          s.materials[which] = read_material(bytes, world.scene().materials[which].name);
+        });
         break;
       }
       case 4:
-        world.set_gravity(read_vector(bytes, bytes.one_of({10.0, 0.0, softbody::max_gravity})));
+        softbody::change(world, [&](softbody::Scene& s) {
+          s.gravity = read_vector(bytes, bytes.one_of({10.0, 0.0, softbody::max_gravity}));
+        });
         break;
       case 5: {  // as in a window, whose mouse is not far from the body
         if (count == 0) break;
@@ -72,8 +77,10 @@ void change(softbody::World& world, Bytes& bytes) {
         world.grab({});
         break;
       case 7:
-        world.set_contact_surface(bytes.below(2) == 0 ? softbody::ContactSurface::vertices
-                                                      : softbody::ContactSurface::surfaces);
+        softbody::change(world, [&](softbody::Scene& s) {
+          s.contact_surface =
+              bytes.below(2) == 0 ? softbody::ContactSurface::vertices : softbody::ContactSurface::surfaces;
+        });
         break;
       case 8:
         world.add(read_body(bytes, int(world.scene().materials.size())));

@@ -12,7 +12,8 @@
 #include "softbody/forces/gas.h"
 #include "softbody/forces/material_keys.h"
 #include "softbody/mesh/limits.h"
-#include "softbody/scene/limits.h"
+#include "softbody/scene/scene_keys.h"
+#include "tests/solids.h"
 
 namespace fuzz {
 
@@ -103,44 +104,44 @@ glm::dvec3 read_place(Bytes& bytes) {
   }
 }
 
-template <class Solid>
-void read_surface(Bytes& bytes, Solid& solid) {
-  solid.friction = read(bytes, coefficients);
-  solid.restitution = bytes.below(2) == 0 ? 0 : read(bytes, shares);
-}
-
-void read_solid(Bytes& bytes, Scene& scene) {
+softbody::Solid::Shape read_shape(Bytes& bytes) {
   switch (bytes.below(5)) {
     case 0: {
-      softbody::SolidSphere& s = scene.spheres.emplace_back();
+      softbody::SolidSphere s;
       s.centre = read_place(bytes), s.radius = read(bytes, lengths);
-      return read_surface(bytes, s);
+      return s;
     }
     case 1: {
-      softbody::SolidPlane& p = scene.planes.emplace_back();
+      softbody::SolidPlane p;
       const glm::dvec3 normal = read_vector(bytes, 1);
       p.point = read_place(bytes);
       if (glm::length(normal) > 0.01) p.normal = glm::normalize(normal);
-      return read_surface(bytes, p);
+      return p;
     }
     case 2: {
-      softbody::SolidBox& b = scene.boxes.emplace_back();
+      softbody::SolidBox b;
       b.centre = read_place(bytes);
       for (int axis = 0; axis < 3; ++axis) b.half_size[axis] = 0.5 * read(bytes, lengths);
       const glm::dvec3 x = read_vector(bytes, 1), y = glm::cross(read_vector(bytes, 1), x);
       if (glm::length(y) > 0.01)
         b.axes = glm::dmat3(glm::normalize(x), glm::normalize(y), glm::normalize(glm::cross(x, y)));
-      return read_surface(bytes, b);
+      return b;
     }
     case 3: {
-      softbody::SolidCapsule& c = scene.capsules.emplace_back();
+      softbody::SolidCapsule c;
       c.from = read_place(bytes), c.to = read_place(bytes), c.radius = read(bytes, lengths);
-      return read_surface(bytes, c);
+      return c;
     }
     default:
-      scene.ground.emplace().height = read_place(bytes).y;
-      read_surface(bytes, *scene.ground);
+      return softbody::Ground{read_place(bytes).y};
   }
+}
+
+void read_solid(Bytes& bytes, Scene& scene) {
+  softbody::Solid solid{read_shape(bytes)};
+  solid.friction = read(bytes, coefficients);
+  solid.restitution = bytes.below(2) == 0 ? 0 : read(bytes, shares);
+  solid.traits().single ? tests::set_solid(scene, solid) : tests::add_solid(scene, solid);
 }
 
 void read_collision(Bytes& bytes, Scene& scene) {
@@ -152,10 +153,10 @@ void read_collision(Bytes& bytes, Scene& scene) {
   c.self_collision = bytes.below(2) == 0;
   c.levels = bytes.one_of({3, 0, 6, collide::max_levels});
   c.buckets = bytes.one_of({1001u, 101u, 1u, 65536u});
-  scene.default_cell_size = bytes.below(4) != 0;
-  if (!scene.default_cell_size)
-    for (int axis = 0; axis < 3; ++axis)
-      c.cell_size[axis] = static_cast<float>(read(bytes, {0.1, 1, softbody::min_length, softbody::max_length}));
+  if (bytes.below(4) != 0) return;
+  c.cell_size.emplace();
+  for (int axis = 0; axis < 3; ++axis)
+    (*c.cell_size)[axis] = static_cast<float>(read(bytes, {0.1, 1, softbody::min_length, softbody::max_length}));
 }
 
 }  // namespace

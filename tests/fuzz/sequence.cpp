@@ -147,8 +147,9 @@ collide::Settings read_settings(Bytes& bytes) {
   settings.self_collision = bytes.below(4) != 0;
   settings.levels = bytes.below(collide::max_levels + 1);
   settings.buckets = bytes.one_of({1001u, 101u, 1u, 2u, 65536u, 1 + bytes.word() % 5000});
+  settings.cell_size.emplace();
   for (int axis = 0; axis < 3; ++axis) {
-    settings.cell_size[axis] = bytes.one_of({0.6f, 0.25f, 1.0f, 0.1f, 1e-6f, 1e-38f, 1e6f, 1e30f});
+    (*settings.cell_size)[axis] = bytes.one_of({0.6f, 0.25f, 1.0f, 0.1f, 1e-6f, 1e-38f, 1e6f, 1e30f});
   }
   if (bytes.below(4) == 0) settings.primes = {bytes.word() | 1, bytes.word() | 1, bytes.word() | 1};
   return settings;

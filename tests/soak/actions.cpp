@@ -41,7 +41,7 @@ T end_or_between(Dice& dice, T min, T max) {
 
 void detection(DemoRig& demo, Dice& dice) {
   collide::Settings s = demo.session.world().collision();
-  const bool automatic = dice.heads();
+  if (dice.heads()) s.cell_size.reset();
   switch (dice.pick(5)) {
     case 0:
       s.levels = end_or_between(dice, 0, collide::max_levels);
@@ -58,7 +58,7 @@ void detection(DemoRig& demo, Dice& dice) {
     default:
       s.self_collision = !s.self_collision;
   }
-  demo.session.settings.set_collision(s, automatic);
+  demo.session.simulation.change_scene("Settings", [&](softbody::Scene& scene) { scene.collision = s; });
 }
 
 void drop(DemoRig& demo, Dice& dice) {
@@ -86,7 +86,11 @@ void mouse(DemoRig& demo, Dice& dice) {
   demo.input.wheel = float(dice.between(-2, 2));
 }
 
-void gravity(DemoRig& demo, Dice& dice) { demo.session.settings.set_gravity(end_or_between(dice, 0.0, 30.0)); }
+void gravity(DemoRig& demo, Dice& dice) {
+  demo.session.simulation.change_scene("Gravity", [&](softbody::Scene& s) {
+    s.gravity = {0, -end_or_between(dice, 0.0, 30.0), 0};
+  });
+}
 
 void material(DemoRig& demo, Dice& dice) {
   const auto& all = demo.session.world().scene().materials;
@@ -109,15 +113,16 @@ void material(DemoRig& demo, Dice& dice) {
     default:
       m[softbody::contact::friction] = end_or_between(dice, 0.0, 2.0);
   }
-  demo.session.settings.set_material(index, m);
+  demo.session.simulation.change_scene("Material", [&](softbody::Scene& s) { s.materials[index] = m; });
 }
 
 void solids(DemoRig& demo, Dice& dice) {
-  app::session::SolidList list = demo.session.settings.solids();
+  const app::session::SolidList& list = demo.session.settings.solids();
   if (list.empty()) return;
-  app::session::SolidEntry& one = list[dice.pick(list.size())];
-  one.on = !one.on;
-  demo.session.settings.set_solids(list);
+  const std::size_t index = dice.pick(list.size());
+  softbody::Solid solid = list[index];
+  solid.enabled = !solid.enabled;
+  demo.session.settings.set_solid(index, solid);
 }
 
 /// Any scene but the large one, of which one frame takes as long as a second of the others.

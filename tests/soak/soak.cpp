@@ -182,7 +182,7 @@ class Soak {
       session.settings.set_method(method.key);
       collide::Settings settings = session.world().collision();
       settings.buckets = collide::max_buckets;
-      session.settings.set_collision(settings, false);
+      session.simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
       session.simulation.clock.paused = false;
       for (int i = 0; i < picture_every; ++i) frame(i == 0);
     }

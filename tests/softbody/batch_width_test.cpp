@@ -12,6 +12,7 @@
 #include "softbody/world/snapshot.h"
 #include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
+#include "tests/support/change.h"
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
@@ -206,7 +207,7 @@ Scene large_bodies(ContactSurface surface, int subdivisions = 4) {
   scene.contact_surface = surface;
   scene.collision.self_collision = true;
   scene.gravity = {0, -9.81, 0};
-  scene.ground = Ground{};
+  set_solid(scene, {Ground{}});
   scene.bodies[0].position = {0, 0.51, 0};
   add_body(scene, {0.1, 1.515, 0}, {0, -3, 0});
   scene.bodies[1].material = 1;
@@ -316,7 +317,7 @@ TEST(LargeBodies, AreChangedTheSameAtEitherWidth) {
     run(*world, 4);
     Material soft = scene.materials[0];
     soft[StructuralSprings::stiffness] = 100;
-    world->set_material(0, soft);
+    change(*world, [&](Scene& s) { s.materials[0] = soft; });
     world->grab(Grab{.body = 1, .target = {1, 2, 0}});
     run(*world, 4);
     world->grab({});

@@ -21,9 +21,10 @@ constexpr std::array both{ContactSurface::vertices, ContactSurface::surfaces};
 Scene solid(bool flat, double restitution) {
   Scene scene;
   if (flat)
-    scene.ground = Ground{0, 0, restitution};
+    set_solid(scene, {Ground{0}, 0, restitution});
   else
-    scene.spheres = {{.centre = {0, -1, 0}, .radius = 1, .friction = 0, .restitution = restitution}};
+    set_solid(scene,
+              {.shape = SolidSphere{.centre = {0, -1, 0}, .radius = 1}, .friction = 0, .restitution = restitution});
   return scene;
 }
 
@@ -33,7 +34,7 @@ Scene falling_ball(const Material& material, Scene onto, double speed) {
   scene.gravity = {0, -g, 0};
   scene.bodies[0].mesh.subdivisions = 1;
   scene.bodies[0].position = {0, radius + 0.05, 0};
-  scene.ground = std::move(onto.ground), scene.spheres = std::move(onto.spheres);
+  scene.solids = std::move(onto.solids);
   return scene;
 }
 
@@ -113,7 +114,7 @@ TEST(ImplicitBounce, IsNeverHigherThanTheOneBefore) {
   Material rubber = damped(gas_ball());
   rubber[contact::rebound_speed] = 6;
   Scene scene = falling_ball(rubber, solid(true, 0.8), 0);
-  scene.ground->friction = 0.6;
+  solid_of<Ground>(scene).friction = 0.6;
   scene.bodies[0].position.y = 3;
   World world(std::move(scene), {.integrator = {"implicit", std::nullopt}});
   for (double before = 3, peak; before > radius + 0.1; before = peak) {

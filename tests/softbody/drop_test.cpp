@@ -19,7 +19,7 @@ constexpr double touching = 0.01;  // the bodies keep 5 mm from solids
 
 /// The bodies that lie against the solid sphere.
 std::set<BodyId> on_sphere(const World& world) {
-  const SolidSphere& sphere = world.scene().spheres.front();
+  const SolidSphere& sphere = shape_of<SolidSphere>(world.scene());
   std::set<BodyId> bodies;
   for (const SolidContactPoint& c : solid_contacts(world)) {
     const collide::Frame p = world.positions();
@@ -41,7 +41,7 @@ double stacked(const World& world) {
 
 TEST(Drop, ShowsWhatTheCaptionsSay) {
   World world(drop_scene(), {});
-  const SolidSphere sphere = world.scene().spheres.front();
+  const SolidSphere sphere = shape_of<SolidSphere>(world.scene());
   run(world, 100);  // figure 10: a body above the solid sphere
   const glm::dvec3 first = motion(world, 0).centre;
   EXPECT_GT(first.y - radius, sphere.centre.y + sphere.radius);

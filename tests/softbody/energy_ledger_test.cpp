@@ -16,6 +16,7 @@
 #include "softbody/state/state.h"
 #include "softbody/world/energy_watch.h"
 #include "tests/softbody/surface_rig.h"
+#include "tests/support/change.h"
 
 namespace softbody::test {
 namespace {
@@ -99,21 +100,21 @@ const Case cases[]{
     {"ASolidIsMovedOntoABall", WorkBy::solids, [] { return ball(); },
      [](World& w) {
        Scene with = w.scene();
-       with.ground = Ground{0.03 - radius(), 0};
-       once(w, 3, [&] { w.set_solids(with); });
+       set_solid(with, {Ground{0.03 - radius()}, 0});
+       once(w, 3, [&] { w.apply(with); });
      },
      0.5},
     {"ASphereIsMovedOntoAFace", WorkBy::solids, [] { return by_surfaces(ball()); },
      [](World& w) {
        Scene with = w.scene();
-       with.spheres = {{.centre = {0.05, -0.07 - radius(), 0.03}, .radius = 0.1, .friction = 0}};
-       once(w, 3, [&] { w.set_solids(with); });
+       set_solid(with, {.shape = SolidSphere{.centre = {0.05, -0.07 - radius(), 0.03}, .radius = 0.1}, .friction = 0});
+       once(w, 3, [&] { w.apply(with); });
      },
      0.5},
     {"ABallStartsInASolid", WorkBy::easing,
      [] {
        Scene s = ball(down);
-       s.spheres = {{.centre = {-0.3, -0.2, 0}}};
+       set_solid(s, {SolidSphere{.centre = {-0.3, -0.2, 0}}});
        return s;
      },
      [](World&) {}, 0.1},
@@ -135,7 +136,7 @@ const Case cases[]{
      [](World& w) {
        Material m = w.scene().materials[0];
        m[GasPressure::inside] *= 0.98;
-       once(w, 3, [&] { w.set_material(0, m); });
+       once(w, 3, [&] { change(w, [&](Scene& s) { s.materials[0] = m; }); });
      },
      0.1},
     {"ABodyIsThrownAndAnotherRemoved", WorkBy::user, [] { return pair(6); },
@@ -151,9 +152,9 @@ const Case cases[]{
                       place(w, {1.05, 1, 0.97}, 3);
                     }); }, 0.1},
     {"GravityTurns", WorkBy::user, [] { return ball(down); },
-     [](World& w) { once(w, 30, [&] {
-                      w.set_gravity({20, 0, 0});
-                    }); }, 0.1},
+     [](World& w) { once(w, 30, [&] { change(w, [&](Scene& s) {
+                                        s.gravity = {20, 0, 0};
+                                      }); }); }, 0.1},
 };
 
 /// What the frames of a world come to.
@@ -243,7 +244,7 @@ TEST(EnergyWatch, FindsBlowUpsWithinTenFramesInEveryScene) {
       for (std::size_t i = 0; !too_long && i < world.scene().materials.size(); ++i) {
         Material m = world.scene().materials[i];
         m[StructuralSprings::damping_ratio] = m[BendSprings::damping_ratio] = -3;
-        world.set_material(i, m);
+        change(world, [&](Scene& s) { s.materials[i] = m; });
       }
       int frames = 1;
       while (frames <= 10 && !found()) ++frames;

@@ -7,6 +7,7 @@
 #include "softbody/world/energy_watch.h"
 #include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
+#include "tests/support/change.h"
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
@@ -95,7 +96,7 @@ TEST(WorkBudget, GivesSubstepsInProportion) {
 
 TEST(WorkBudget, CountsImplicitSteps) {
   Scene scene = lone_body(spring_ball());
-  scene.ground.emplace();
+  set_solid(scene, {Ground{}});
   const auto step = [&](double work, std::optional<int> substeps) {
     World world(scene, {.integrator = {"implicit", substeps}, .budget = {.least = work, .per_particle = 0}});
     place(world, glm::dvec3(1.0), 2000);
@@ -114,7 +115,7 @@ TEST(WorkBudget, CountsImplicitSteps) {
 TEST(WorkBudget, CutsAFrameOfImplicitStepsShort) {
   Scene scene = lone_body(spring_ball());
   scene.bodies[0].mesh.subdivisions = 0;
-  scene.ground.emplace();
+  set_solid(scene, {Ground{}});
   World world(scene, {.integrator = {"implicit"}, .budget = {.least = 1e4, .per_particle = 0}});
   place(world, glm::dvec3(1.0), 1e8);
   world.step();
@@ -271,7 +272,7 @@ TEST(MaxCandidates, EndAFrameEarlyIfItHasMoved) {
   add_body(scene, {0, 1.15, 0}, {});
   add_body(scene, {5, 0, 0}, {});
   scene.contact_surface = ContactSurface::surfaces;
-  scene.ground = Ground{-0.6};
+  set_solid(scene, {Ground{-0.6}});
   World whole(scene, {});
   whole.step();
   const std::size_t touching = WorldTestAccess::solver(whole).surface_contact().candidates().search().features().size();
@@ -294,8 +295,8 @@ TEST(PenaltyContact, GrowsByTheSimulatedSecondsOfAShortFrame) {
   add_body(scene, {5, 0, 0}, {});
   World world(scene, {.integrator = {"semi-implicit-euler"}});
   world.step();
-  world.set_contact_surface(ContactSurface::surfaces);  // after which it grows from nothing
-  world.set_contact_surface(ContactSurface::vertices);
+  change(world, [&](Scene& s) { s.contact_surface = ContactSurface::surfaces; });  // after which it grows from nothing
+  change(world, [&](Scene& s) { s.contact_surface = ContactSurface::vertices; });
   double grown = 0;
   for (int frame = 0; frame < 3; ++frame) {
     place(world, glm::dvec3(1.0), 1e5);

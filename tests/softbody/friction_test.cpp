@@ -61,7 +61,7 @@ TEST(Friction, TurnsASlidingBallIntoARollingOne) {
   Scene scene = lone_body(gas_ball(), glm::dvec3(3, 0, 0));
   scene.gravity = down;
   scene.bodies[0].position = {0, 0.53, 0};
-  scene.ground = Ground{0, 0.4};
+  set_solid(scene, {Ground{0}, 0.4});
   World world(scene, {});
   run(world, 150);
   const Motion m = motion(world, 0);

@@ -65,7 +65,7 @@ Scene sheet_on_ground(double friction, const glm::dvec3& gravity, const glm::dve
   mesh.columns = mesh.rows = 4;
   mesh.width = mesh.depth = 1;
   scene.gravity = gravity;
-  scene.ground = Ground{0, friction};
+  set_solid(scene, {Ground{0}, friction});
   return scene;
 }
 

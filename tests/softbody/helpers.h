@@ -9,6 +9,7 @@
 #include "softbody/forces/model_forces.h"
 #include "softbody/state/lanes.h"
 #include "softbody/world/measures.h"
+#include "tests/solids.h"
 #include "tests/temporary_folder.h"
 
 namespace softbody::test {
@@ -67,7 +68,7 @@ double uniform(std::mt19937& random, double lo, double hi);
 /// Components from -size to size, drawn in their order.
 glm::dvec3 random_vector(std::mt19937& random, double size);
 
-using tests::TemporaryFolder;
+using namespace tests;
 
 /// Three components over `particles` particles, one value a lane.
 struct LaneField {

@@ -104,7 +104,7 @@ TEST(ImplicitSpin, RollsOn) {
   for (const double stiffness : {1e5, 1e7}) {
     Scene scene = lone_body(gas_ball(stiffness));
     scene.gravity = {0, -9.81, 0};
-    scene.ground.emplace();
+    set_solid(scene, {Ground{}});
     scene.bodies[0].position = {0, 0.6, 0};
     World world(scene, {.integrator = {"implicit", 1}});
     run(world, 90);
@@ -160,8 +160,8 @@ TEST(ImplicitSpin, LeavesASmoothSolidNoFasterThanItShould) {
         SCOPED_TRACE(testing::Message() << stiffness << " N/m, " << spin << " rad/s, " << dt << " s");
         Scene scene = lone_body(gas_ball(stiffness));
         scene.gravity = {0, -9.81, 0};
-        scene.ground.emplace();
-        scene.ground->friction = 0, scene.ground->restitution = 0.8;
+        set_solid(scene, {Ground{}});
+        solid_of<Ground>(scene).friction = 0, solid_of<Ground>(scene).restitution = 0.8;
         scene.bodies[0].position = {0, 2, 0};
         World world(scene, {.frame_time = dt, .integrator = {"implicit", 1}});
         set_motion(world, glm::dvec3(0.0), {0, 0, spin});

@@ -157,7 +157,7 @@ TEST(FindPlanes, AsksForWhatTheLawOfContactAsksFor) {
 struct PairRig : BatchRig {
   PairRig() {
     start(1, {0, -1, 0});
-    penalty.thickness = 0.1f;
+    penalty.layer.thickness = 0.1f;
     for (const BodyId other : {BodyId(1), BodyId(2)}) {
       x.set(other, 0, x.at(3 + 5, 1) + glm::dvec3(0.01, -0.05, 0));
       v.set(other, 0, {0.5, 0.25, 0});

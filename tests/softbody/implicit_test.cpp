@@ -23,7 +23,7 @@ Scene ball_above_ground(double stiffness, double height) {
   Scene scene = lone_body(damped(m));
   scene.gravity = {0, -9.81, 0};
   scene.bodies[0].position = {0, height, 0};
-  scene.ground.emplace();
+  set_solid(scene, {Ground{}});
   return scene;
 }
 
@@ -192,7 +192,7 @@ TEST(Implicit, ABodyThatKeepsItsShapeGainsNoEnergy) {
 TEST(Implicit, ContactWithSolidsGivesAStiffBodyNoEnergy) {
   for (const double frame_time : {1.0 / 30, 1.0 / 240}) {
     Scene scene = ball_above_ground(1e7, 0.9);
-    scene.spheres.push_back({.centre = {0.1, -0.3, 0}, .radius = 0.5});  // it rolls off this one
+    add_solid(scene, {SolidSphere{.centre = {0.1, -0.3, 0}, .radius = 0.5}});  // it rolls off this one
     scene.bodies[0].velocity = {0, -20, 0};
     World world(scene, {.frame_time = frame_time, .integrator = {"implicit", 1}});
     EXPECT_LT(max_gained(world, int(0.7 / frame_time)), 0.1) << frame_time;
@@ -202,7 +202,7 @@ TEST(Implicit, ContactWithSolidsGivesAStiffBodyNoEnergy) {
 /// What penalty contacts do in a step is not known at its start: particles end behind planes that looked far.
 TEST(Implicit, BodiesThatPushEachOtherIntoASolidGainNoEnergy) {
   Scene scene = ball_above_ground(1e7, 1.6);
-  scene.spheres.push_back({.centre = {0, 0.5, 0}, .radius = 0.5});
+  add_solid(scene, {SolidSphere{.centre = {0, 0.5, 0}, .radius = 0.5}});
   add_body(scene, {0.1, 2.7, 0.05}, {0, -3, 0});
   World world(scene, {.frame_time = 1.0 / 120, .integrator = {"implicit", 1}});
   EXPECT_LT(max_gained(world, 120), 0.1);
@@ -313,7 +313,7 @@ TEST(Auto, TurnsImplicitWhereRoundingWouldKeepBodiesTrembling) {
 /// A sheet is as stiff however long it is made; only the rounding of its positions grows.
 TEST(Auto, ReckonsWithRoundingAlongEveryAxis) {
   Scene scene = sheet_on_ground(0, glm::dvec3(0.0), glm::dvec3(0.0));
-  scene.ground.reset();
+  remove_solids<Ground>(scene);
   scene.materials[0][StructuralSprings::stiffness] = 1e5;
   const auto choice = [&](double width, double depth) {
     scene.bodies[0].mesh.width = width, scene.bodies[0].mesh.depth = depth;

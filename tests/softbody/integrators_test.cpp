@@ -89,7 +89,7 @@ TEST_P(Integrators, AreStableAtTheirBound) {
 TEST_P(Integrators, LetNothingSinkIntoTheGround) {
   Scene scene = swinging_ball(0.3);
   scene.bodies[0].position = {0, 1, 0};
-  scene.ground.emplace();
+  set_solid(scene, {Ground{}});
   World world(scene, {.integrator = {std::string(GetParam().key), about(GetParam(), 100)}});
   for (int frame = 0; frame < 100; ++frame) {
     world.step();

@@ -24,7 +24,7 @@ TEST_P(HeavyBall, DoesNotOverlapTheLightOneThatItFallsOn) {
   light[contact::rebound_speed] = 2;
   Scene scene = ball_in_space(light);
   scene.gravity = {0, -9.81, 0};
-  scene.ground = Ground{};
+  set_solid(scene, {Ground{}});
   scene.bodies[0].position = {0, 0.53, 0};
   Material heavy = light;
   heavy[Material::mass] *= c.ratio;
@@ -36,7 +36,7 @@ TEST_P(HeavyBall, DoesNotOverlapTheLightOneThatItFallsOn) {
   if (c.in_a_well)
     for (const glm::dvec3& inwards :
          {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1)})
-      scene.planes.push_back({-0.6 * inwards, inwards, 0.3, 0});
+      add_solid(scene, {SolidPlane{-0.6 * inwards, inwards}, 0.3, 0});
   World world(scene, {});
   Judge judge(world);
   const double lift = 0.002 * c.ratio * glm::length(scene.gravity);  // J: the heavy one by 2 mm

@@ -82,7 +82,7 @@ TEST(MeshFromFile, ARingComesToRestOnASolidSphereBySurfaceContact) {
     folder.write("meshes/ring.obj", torus(around, across));
     Scene scene = load_scene(folder.write("ring.toml", falling_ring));
     scene.contact_surface = ContactSurface::surfaces;
-    scene.spheres[0].radius = radius;
+    shape_of<SolidSphere>(scene).radius = radius;
     scene.bodies[0].position = {0.02, 1.35 + radius, 0};
     World world(scene, {});
     run(world, 250);

@@ -77,7 +77,7 @@ TEST(StiffBody, ThatIsHeldGetsNoMomentumBesideOneThatFalls) {
 TEST(StiffBody, IsThrownBackByASolid) {
   Scene scene = lone_body(gas_ball(stiffness), {0, -1, 0});
   scene.bodies[0].position = {0, 0.6, 0};
-  scene.ground = Ground{};
+  set_solid(scene, {Ground{}});
   World world(scene, explicit_steps);
   run(world, 30);
   EXPECT_GT(motion(world, 0).velocity.y, -0.1);
@@ -122,7 +122,7 @@ TEST(StiffBodies, FlyTheSameOnEveryProcessor) {
 TEST(StiffBody, FliesTheSameWhateverItsNeighboursTouch) {
   Scene scene = lone_body(gas_ball(stiffness), {1, 0, 0});
   scene.contact_surface = ContactSurface::surfaces;
-  scene.spheres = {{.centre = {0, 5, 0}, .radius = 1}};
+  set_solid(scene, {SolidSphere{.centre = {0, 5, 0}, .radius = 1}});
   add_body(scene, {0, 3.4, 0}, {0, 1, 0});
   World hit(scene, explicit_steps);
   scene.bodies[1].velocity = {0, -1, 0};

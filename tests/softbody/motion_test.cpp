@@ -136,7 +136,7 @@ Scene grazing(double internal_damping) {
   m[Material::internal_damping] = internal_damping;
   Scene scene = lone_body(m, glm::dvec3(3, 0, 0));
   scene.bodies[0].position = {-1.5, 1.35, 0.2};
-  scene.spheres = {{.centre = glm::dvec3(0.0), .radius = 1, .friction = 1}};
+  set_solid(scene, {.shape = SolidSphere{.centre = glm::dvec3(0.0), .radius = 1}, .friction = 1});
   return scene;
 }
 
@@ -200,8 +200,8 @@ TEST(FarFromTheOrigin, ABodyMovesAsItDoesNearIt) {
     Scene scene = lone_body(gas_ball(), glm::dvec3(0.25, 0, 0));
     scene.gravity = {0, -9.81, 0};
     scene.bodies[0].position = at + glm::dvec3(0.125, 2.75, 0.0625);
-    scene.spheres = {{.centre = at + glm::dvec3(0, 1, 0)}};
-    scene.ground = Ground{at.y, 0.6};
+    set_solid(scene, {SolidSphere{.centre = at + glm::dvec3(0, 1, 0)}});
+    set_solid(scene, {Ground{at.y}, 0.6});
     return scene;
   };
   const glm::dvec3 away(1024, 2048, -1024);

@@ -21,7 +21,7 @@ namespace {
 struct Pair {
   explicit Pair(const glm::dvec3& apart, double friction = 0, const glm::vec3& offset = glm::vec3(0.0f)) {
     x.set(0, 0, apart);
-    penalty.thickness = 0.1f;
+    penalty.layer.thickness = 0.1f;
     penalty.pairs.push_back({.contact = {0, 1},
                              .body_a = 0,
                              .body_b = 1,
@@ -259,7 +259,7 @@ struct RandomPairs {
   static constexpr std::size_t particles = 5, count = 203;
   RandomPairs() {
     x.randomise(random, 0.03), v.randomise(random, 0.3);
-    penalty.thickness = 0.05f;
+    penalty.layer.thickness = 0.05f;
     penalty.damper_limit = 200;
     std::uniform_int_distribution<std::uint32_t> slot(0, particles * lanes - 1);
     std::uniform_real_distribution<float> value(0, 1);
@@ -312,7 +312,7 @@ TEST_P(PairsInLanes, FollowTheLaw) {
     const PenaltyPair p = before[i];
     const auto vector = [](const glm::vec3& a) { return Vector{a.x, a.y, a.z}; };
     const Vector d = pairs.way(i, pairs.x) + vector(p.offset), n = vector(p.normal);
-    const PenaltyLaw<double> law{p.stiffness, pairs.penalty.thickness, p.friction,
+    const PenaltyLaw<double> law{p.stiffness, pairs.penalty.layer.thickness, p.friction,
                                  double(pairs.penalty.damper_limit) * p.damped_mass, p.loss};
     const auto energy = [&](const Vector& stretch) {
       const double s = dot(d, n);

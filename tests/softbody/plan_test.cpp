@@ -50,20 +50,17 @@ TEST(Plan, OfAnOpenSheetHasNoGasAndNoRollingButShearSprings) {
   const Plan& plan = world.plan();
   EXPECT_EQ(why(plan, stage_of<GasPressure>), "no closed body with gas");
   EXPECT_EQ(why(plan, Stage::rolling_resistance), "no closed body with rolling resistance");
-  EXPECT_TRUE(plan.has(stage_of<ShearSprings>) && plan.has(Stage::ground) && plan.has(Stage::gravity));
+  EXPECT_TRUE(plan.has(stage_of<ShearSprings>) && plan.has(Stage::solids) && plan.has(Stage::gravity));
   EXPECT_EQ(why(plan, Stage::detect), "one body, and self-collision is off");
   EXPECT_EQ(why(plan, stage_of<PenaltyContact>), "one body, and self-collision is off");
-  EXPECT_EQ(why(plan, Stage::solid_spheres), "the scene has no solid sphere");
+  EXPECT_EQ(plan.shapes, std::vector{&Ground::traits});
 }
 
 TEST(Plan, OfABallAloneInEmptySpace) {
   const World world = world_of("gravity = [0, 0, 0]\n[sleep]\nspeed = 0\n[[material]]\nrebound_speed = 2\n[[body]]\n");
   const Plan& plan = world.plan();
   EXPECT_EQ(why(plan, Stage::gravity), "the scene has none");
-  EXPECT_EQ(why(plan, Stage::ground), "the scene has no ground");
-  EXPECT_EQ(why(plan, Stage::solid_planes), "the scene has no solid plane");
-  EXPECT_EQ(why(plan, Stage::solid_boxes), "the scene has no solid box");
-  EXPECT_EQ(why(plan, Stage::solid_capsules), "the scene has no solid capsule");
+  EXPECT_EQ(why(plan, Stage::solids), "the scene has no solid");
   EXPECT_EQ(why(plan, Stage::restitution), "no solid and no material has restitution");
   EXPECT_EQ(why(plan, Stage::rolling_resistance), "no solid to roll on");
   EXPECT_EQ(why(plan, Stage::rebound_damping), "no solid to rebound from");
@@ -106,8 +103,7 @@ TEST(Plan, OfTheDropSceneHasAllButWhatNoneOfItsBodiesAndSolidsNeeds) {
   std::vector<Stage> left_out;
   for (const LeftOut& l : world.plan().left_out) left_out.push_back(l.stage);
   EXPECT_EQ(left_out, (std::vector{Stage::surface_contact, stage_of<ShearSprings>, stage_of<ShapeMatching>,
-                                   stage_of<Hand>, Stage::restitution, Stage::solid_planes, Stage::solid_boxes,
-                                   Stage::solid_capsules, Stage::solid_features, Stage::rebound_damping}));
+                                   stage_of<Hand>, Stage::restitution, Stage::solid_features, Stage::rebound_damping}));
 }
 
 /// Two scenes that differ by a stage which, where it runs, has nothing to do.
@@ -124,8 +120,8 @@ TEST_P(StageLeftOut, ChangesNoBitOfTheTrajectory) {
   Scene base = lone_body(gas_ball(), glm::dvec3(1.5, 0.25, -1));
   base.gravity = {0, -9.81, 0};
   base.bodies[0].position = {0, 1, 0};
-  base.ground = Ground{0, 0.5};
-  base.spheres = {{.centre = {1, 0, 0.25}, .radius = 0.5}};
+  set_solid(base, {Ground{0}, 0.5});
+  set_solid(base, {SolidSphere{.centre = {1, 0, 0.25}, .radius = 0.5}});
   base.materials[0][Material::start_in_equilibrium] = false;
   Scene absent = base, present = base;
   idle.without(absent);
@@ -151,35 +147,33 @@ void sheet(Scene& s) { s.bodies[0].mesh = {.kind = "grid", .columns = 5, .rows =
 void nothing(Scene&) {}
 
 const Idle idle_stages[]{
-    {"sphere", Stage::solid_spheres, [](Scene& s) { s.spheres.clear(); },
+    {"solids", Stage::solids, [](Scene& s) { s.solids.clear(); },
      [](Scene& s) {
-       s.spheres = {{.centre = {3000, 0, 0}}};
+       s.solids = {{SolidSphere{.centre = {3000, 0, 0}}},
+                   {Ground{.height = -3000}},
+                   {SolidPlane{.point = {0, -3000, 0}, .normal = {0, 0.8, 0.6}}},
+                   {SolidBox{.centre = {3000, 0, 0}}},
+                   {SolidCapsule{.from = {3000, 0, 0}, .to = {3000, 1, 0}}}};
      }},
-    {"ground", Stage::ground, [](Scene& s) { s.ground.reset(); }, [](Scene& s) { s.ground->height = -3000; }},
-    {"planes", Stage::solid_planes, nothing,
+    {"enabled_solids", Stage::solids,
      [](Scene& s) {
-       s.planes = {{.point = {0, -3000, 0}, .normal = {0, 0.8, 0.6}}};
-     }},
-    {"boxes", Stage::solid_boxes, nothing,
+       for (Solid& solid : s.solids) solid.enabled = false;
+     },
      [](Scene& s) {
-       s.boxes = {{.centre = {3000, 0, 0}}};
-     }},
-    {"capsules", Stage::solid_capsules, nothing,
-     [](Scene& s) {
-       s.capsules = {{.from = {3000, 0, 0}, .to = {3000, 1, 0}}};
+       s.solids = {{SolidSphere{.centre = {3000, 0, 0}}}};
      }},
     {"features", Stage::solid_features,
      [](Scene& s) {
        s.contact_surface = ContactSurface::surfaces;
-       s.spheres.clear();
+       remove_solids<SolidSphere>(s);
      },
      [](Scene& s) {
        s.contact_surface = ContactSurface::surfaces;
-       s.spheres = {{.centre = {3000, 0, 0}}};
+       set_solid(s, {SolidSphere{.centre = {3000, 0, 0}}});
      }},
     {"restitution", Stage::restitution, nothing,
      [](Scene& s) {
-       s.spheres.push_back({.centre = {3000, 0, 0}, .restitution = 1});
+       add_solid(s, {.shape = SolidSphere{.centre = {3000, 0, 0}}, .restitution = 1});
      }},
     {"detect", Stage::detect, nothing,
      [](Scene& s) {

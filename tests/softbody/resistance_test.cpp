@@ -36,7 +36,7 @@ Scene shaken(double internal_damping) {
   m[Material::internal_damping] = internal_damping;
   Scene scene = lone_body(m, glm::dvec3(4, 0, 0));
   scene.bodies[0].position = {-2, 1.2, 0};
-  scene.spheres = {{.centre = glm::dvec3(0.0), .radius = 1, .friction = 1}};
+  set_solid(scene, {.shape = SolidSphere{.centre = glm::dvec3(0.0), .radius = 1}, .friction = 1});
   return scene;
 }
 
@@ -90,7 +90,7 @@ Motion rolling(double resistance, int frames) {
   Scene scene = lone_body(m, glm::dvec3(3, 0, 0));
   scene.gravity = {0, -9.81, 0};
   scene.bodies[0].position = {0, 0.51, 0};
-  scene.ground = Ground{0, 1};
+  set_solid(scene, {Ground{0}, 1});
   World world(scene, {});
   run(world, frames);
   return motion(world, 0);
@@ -117,8 +117,8 @@ TEST(RollingResistance, StopsABallAndNeverTurnsItBack) {
 /// Where a sheet ends that falls beside the middle of a solid sphere, with a closed body far off that does resist.
 std::vector<Particle> tumbled_sheet(double resistance) {
   Scene scene = sheet_on_ground(1, {0, -9.81, 0}, glm::dvec3(0.0));
-  scene.ground.reset();
-  scene.spheres = {{.centre = {0.3, -0.5, 0.1}, .radius = 0.4, .friction = 1}};
+  remove_solids<Ground>(scene);
+  set_solid(scene, {.shape = SolidSphere{.centre = {0.3, -0.5, 0.1}, .radius = 0.4}, .friction = 1});
   scene.materials[0][contact::rolling_resistance] = resistance;
   scene.materials.push_back(gas_ball());
   scene.materials[1][contact::rolling_resistance] = 1;
@@ -146,7 +146,7 @@ double rebound(double thrown, double limit) {
   m[contact::rebound_speed] = limit;
   Scene scene = lone_body(m, glm::dvec3(0, -thrown, 0));
   scene.bodies[0].position = {0, 1, 0};
-  scene.ground = Ground{0, 0.5};
+  set_solid(scene, {Ground{0}, 0.5});
   World world(scene, {});
   for (int i = 0; i < 240; ++i) world.step();
   EXPECT_TRUE(solid_contacts(world).empty()) << "it left";
@@ -167,7 +167,7 @@ TEST(ReboundDamping, DoesNothingToABodyInFreeFlight) {
   Material m = gas_ball();
   m[contact::rebound_speed] = 0.5;
   Scene scene = lone_body(m, glm::dvec3(0, 20, 0));
-  scene.ground = Ground{-1, 0.5};
+  set_solid(scene, {Ground{-1}, 0.5});
   World world(scene, {});
   run(world, 60);
   EXPECT_NEAR(motion(world, 0).velocity.y, 20, 1e-4);
@@ -205,7 +205,7 @@ class ResistanceOfABody : public testing::Test {
   void apply(Stage stage, const SolidPush& push = {}) { apply(std::vector<Stage>{stage}, push); }
   void apply(const std::vector<Stage>& stages, const SolidPush& push) {
     Resistance resistance;
-    resistance.set_plan({stages, {}});
+    resistance.set_plan({stages, {}, {}});
     std::array<SolidPush, lanes> pushes;
     std::array<Impact, lanes> impacts{};
     pushes[lane] = push, impacts[lane] = impact;

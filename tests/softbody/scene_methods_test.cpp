@@ -28,8 +28,7 @@ struct Moment {
 /// The cell size that the scene has at this level if it states none.
 glm::vec3 automatic_cell(Scene scene, int level) {
   scene.collision.levels = level;
-  scene.default_cell_size = true;
-  return World(std::move(scene), {}).collision().cell_size;
+  return *World(std::move(scene), {}).collision().cell_size;
 }
 
 /// The scene's tolerance with every level, bucket count and cell size that the method has use for.
@@ -53,7 +52,7 @@ std::vector<collide::Settings> all_settings(const Scene& scene, const collide::M
 
 std::string describe(const collide::Method& method, const collide::Settings& s) {
   return std::string(method.key) + ", levels " + std::to_string(s.levels) + ", buckets " + std::to_string(s.buckets) +
-         ", cell " + std::to_string(s.cell_size.x) + (s.self_collision ? "" : ", no self-collision");
+         ", cell " + std::to_string(s.cell_size->x) + (s.self_collision ? "" : ", no self-collision");
 }
 
 /// How many of the true contacts the literal method found where no box exceeds a cell.

@@ -30,10 +30,9 @@ TEST(SceneFile, OneBodyIsEnoughAndTheRestHasDefaults) {
   EXPECT_EQ(s.collision.buckets, 1001u);
   EXPECT_EQ(s.collision.primes, collide::default_primes);
   EXPECT_TRUE(s.collision.self_collision);
-  EXPECT_TRUE(s.default_cell_size);
-  EXPECT_FALSE(s.ground);
+  EXPECT_FALSE(s.collision.cell_size);
   EXPECT_FALSE(s.dropper);
-  EXPECT_TRUE(s.spheres.empty() && s.captions.empty());
+  EXPECT_TRUE(s.solids.empty() && s.captions.empty());
   ASSERT_EQ(s.materials.size(), 1u);
   ASSERT_EQ(s.bodies.size(), 1u);
   EXPECT_EQ(s.bodies[0].mesh, MeshSource());
@@ -99,6 +98,7 @@ size = [2, 4, 6]
 rotation = {axis = [0, 0, 2], degrees = 90}
 friction = 0.16
 restitution = 0.75
+enabled = false
 
 [[solid_capsule]]
 from = [0, 1, 0]
@@ -160,7 +160,7 @@ TEST(SceneFile, EveryKeyArrivesWhereItBelongs) {
   EXPECT_FALSE(s.collision.self_collision);
   EXPECT_EQ(s.collision.levels, 6);
   EXPECT_EQ(s.collision.buckets, 997u);
-  EXPECT_FALSE(s.default_cell_size);
+  EXPECT_TRUE(s.collision.cell_size);
   EXPECT_EQ(s.collision.cell_size, glm::vec3(0.5f, 0.6f, 0.7f));
   EXPECT_EQ(s.collision.primes, (std::array<std::uint32_t, 3>{1, 4294967295, 83492791}));
   EXPECT_EQ(s.sleep.speed, 0.04);
@@ -193,41 +193,42 @@ TEST(SceneFile, MaterialsAndSolids) {
   EXPECT_EQ(m[contact::rolling_resistance], 0.15);
   EXPECT_EQ(m[contact::stiffness], 55);
   EXPECT_FALSE(m[Material::start_in_equilibrium]);
-  ASSERT_EQ(s.spheres.size(), 2u);
-  EXPECT_EQ(s.spheres[0].centre, glm::dvec3(1, 2, 3));
-  EXPECT_EQ(s.spheres[0].radius, 0.75);
-  EXPECT_EQ(s.spheres[0].friction, 0.45);
-  EXPECT_EQ(s.spheres[0].restitution, 0.5);
-  EXPECT_EQ(s.spheres[1].radius, SolidSphere().radius);
-  EXPECT_EQ(s.spheres[1].restitution, 0);
-  ASSERT_TRUE(s.ground);
-  EXPECT_EQ(s.ground->height, -0.5);
-  EXPECT_EQ(s.ground->friction, 0.65);
-  EXPECT_EQ(s.ground->restitution, 0.125);
+  ASSERT_EQ(count_solids<SolidSphere>(s), 2);
+  EXPECT_EQ(shape_of<SolidSphere>(s).centre, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(shape_of<SolidSphere>(s).radius, 0.75);
+  EXPECT_EQ(solid_of<SolidSphere>(s).friction, 0.45);
+  EXPECT_EQ(solid_of<SolidSphere>(s).restitution, 0.5);
+  EXPECT_EQ(s.solids[1], Solid{SolidSphere()}) << "what the file does not say";
+  EXPECT_EQ(count_solids<Ground>(s), 1);
+  EXPECT_EQ(shape_of<Ground>(s).height, -0.5);
+  EXPECT_EQ(solid_of<Ground>(s).friction, 0.65);
+  EXPECT_EQ(solid_of<Ground>(s).restitution, 0.125);
 }
 
 TEST(SceneFile, PlanesBoxesAndCapsules) {
   const Scene s = read(everything);
-  ASSERT_EQ(s.planes.size(), 1u);
-  EXPECT_EQ(s.planes[0].point, glm::dvec3(0, -1, 0));
-  EXPECT_LT(glm::distance(s.planes[0].normal, glm::dvec3(0.6, 0.8, 0)), 1e-15) << "of length 1";
-  EXPECT_EQ(std::pair(s.planes[0].friction, s.planes[0].restitution), std::pair(0.15, 0.25));
-  ASSERT_EQ(s.boxes.size(), 1u);
-  EXPECT_EQ(s.boxes[0].centre, glm::dvec3(5, 6, 7));
-  EXPECT_EQ(s.boxes[0].half_size, glm::dvec3(1, 2, 3));
-  EXPECT_EQ(s.boxes[0].axes, glm::dmat3(glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1)))
+  ASSERT_EQ(count_solids<SolidPlane>(s), 1);
+  EXPECT_EQ(shape_of<SolidPlane>(s).point, glm::dvec3(0, -1, 0));
+  EXPECT_LT(glm::distance(shape_of<SolidPlane>(s).normal, glm::dvec3(0.6, 0.8, 0)), 1e-15) << "of length 1";
+  EXPECT_EQ(std::pair(solid_of<SolidPlane>(s).friction, solid_of<SolidPlane>(s).restitution), std::pair(0.15, 0.25));
+  ASSERT_EQ(count_solids<SolidBox>(s), 1);
+  EXPECT_EQ(shape_of<SolidBox>(s).centre, glm::dvec3(5, 6, 7));
+  EXPECT_EQ(shape_of<SolidBox>(s).half_size, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(shape_of<SolidBox>(s).axes, glm::dmat3(glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1)))
       << "a quarter turn is exact";
-  EXPECT_EQ(std::pair(s.boxes[0].friction, s.boxes[0].restitution), std::pair(0.16, 0.75));
-  ASSERT_EQ(s.capsules.size(), 1u);
-  EXPECT_EQ(s.capsules[0].from, glm::dvec3(0, 1, 0));
-  EXPECT_EQ(s.capsules[0].to, glm::dvec3(0, 2, 0));
-  EXPECT_EQ(s.capsules[0].radius, 0.125);
-  EXPECT_EQ(std::pair(s.capsules[0].friction, s.capsules[0].restitution), std::pair(0.17, 1.0));
+  EXPECT_EQ(std::pair(solid_of<SolidBox>(s).friction, solid_of<SolidBox>(s).restitution), std::pair(0.16, 0.75));
+  EXPECT_FALSE(solid_of<SolidBox>(s).enabled);
+  ASSERT_EQ(count_solids<SolidCapsule>(s), 1);
+  EXPECT_EQ(shape_of<SolidCapsule>(s).from, glm::dvec3(0, 1, 0));
+  EXPECT_EQ(shape_of<SolidCapsule>(s).to, glm::dvec3(0, 2, 0));
+  EXPECT_EQ(shape_of<SolidCapsule>(s).radius, 0.125);
+  EXPECT_EQ(std::pair(solid_of<SolidCapsule>(s).friction, solid_of<SolidCapsule>(s).restitution), std::pair(0.17, 1.0));
+  EXPECT_TRUE(solid_of<SolidCapsule>(s).enabled);
 }
 
 TEST(SceneFile, ABoxTurnsAboutItsAxisAndStaysOrthonormal) {
   const Scene s = read("[[body]]\n[[solid_box]]\nrotation = {axis = [1, 2, -2], degrees = -73.5}\n");
-  const glm::dmat3& axes = s.boxes[0].axes;
+  const glm::dmat3& axes = shape_of<SolidBox>(s).axes;
   const glm::dvec3 axis = glm::dvec3(1, 2, -2) / 3.0;
   EXPECT_LT(glm::distance(axes * axis, axis), 1e-12) << "the axis stays";
   EXPECT_NEAR(axes[0][0] + axes[1][1] + axes[2][2], 1 + 2 * std::cos(-73.5 / 180 * std::acos(-1.0)), 1e-11);

@@ -64,29 +64,26 @@ class Filler {
     set_body(body);  // it has no frame to appear in
     set_all(spread);
   }
-  void set(SolidSphere& v) {
-    auto& [centre, radius, friction, restitution] = v;
-    set_all(centre, radius, friction, restitution);
+  void set_value(auto v) { set(v.value); }
+  void set_value(solid::Direction v) {
+    set(v.value);
+    v.value = glm::normalize(v.value);
   }
-  void set(SolidPlane& v) {
-    auto& [point, normal, friction, restitution] = v;
-    set_all(point, normal, friction, restitution);
-    normal = glm::normalize(normal);
-  }
-  void set(SolidBox& v) {
-    auto& [centre, half_size, axes, friction, restitution] = v;
-    set_all(centre, half_size, friction, restitution);
+  void set_value(solid::Axes v) {
     glm::dvec3 axis;
     set(axis);
-    axes = glm::dmat3(glm::rotate(glm::dmat4(1.0), 100 * axis.x, glm::normalize(axis)));
+    v.value = glm::dmat3(glm::rotate(glm::dmat4(1.0), 100 * axis.x, glm::normalize(axis)));
   }
-  void set(SolidCapsule& v) {
-    auto& [from, to, radius, friction, restitution] = v;
-    set_all(from, to, radius, friction, restitution);
+  void set(Solid& v) {
+    auto& [shape, friction, restitution, enabled] = v;
+    set_all(friction, restitution, enabled);
+    v.values([this](const char*, auto value) { set_value(value); });
   }
-  void set(Ground& v) {
-    auto& [height, friction, restitution] = v;
-    set_all(height, friction, restitution);
+  void set(std::vector<Solid>& v) {
+    v = {{SolidSphere()}, {SolidSphere()}, {Ground()},       {SolidPlane()},  {SolidPlane()},
+         {SolidBox()},    {SolidBox()},    {SolidCapsule()}, {SolidCapsule()}};
+    if (random_() % 4 == 0) std::erase_if(v, tests::has_shape<Ground>);
+    for (Solid& solid : v) set(solid);
   }
   void set(SleepRule& v) {
     auto& [speed, frames] = v;
@@ -107,13 +104,11 @@ class Filler {
   }
   void set(ContactSurface& v) { v = contact_surfaces[random_() % contact_surfaces.size()].value; }
   void set(Scene& v) {
-    auto& [key, name, look_at, gravity, method, surface, collision, default_cell, list, bodies, spheres, planes, boxes,
-           capsules, ground, dropper, sleep, view, captions] = v;
-    set_all(name, look_at, gravity, surface, collision, default_cell, list, bodies, spheres, planes, boxes, capsules,
-            ground, dropper, sleep, view, captions);
+    auto& [key, name, look_at, gravity, method, surface, collision, list, bodies, solids, dropper, sleep, view,
+           captions] = v;
+    set_all(name, look_at, gravity, surface, collision, list, bodies, solids, dropper, sleep, view, captions);
     key = "saved";
     method = collide::method_table()[random_() % collide::method_table().size()].key;
-    if (default_cell) collision.cell_size = collide::Settings().cell_size;  // nobody reads it, so nobody writes it
   }
 
  private:

@@ -17,7 +17,7 @@ constexpr int frames = 800;
 double free_fall_speed(const World& world) {
   double highest = 0;
   for (const BodySource& b : world.scene().bodies) highest = std::max(highest, b.position.y);
-  return std::sqrt(2 * 9.81 * (highest + world.model(0).radius - world.scene().ground->height));
+  return std::sqrt(2 * 9.81 * (highest + world.model(0).radius - shape_of<Ground>(world.scene()).height));
 }
 
 /// Steps through some frames; fails the test in the first one that is out of bounds. The fastest speed of all, m/s.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/softbody/helpers.h"
+#include "tests/support/change.h"
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
@@ -32,7 +33,7 @@ TEST(Settings, AWideToleranceAllOfASuddenDoesNotThrowBodiesAbout) {
     ASSERT_TRUE(world.all_at_rest());
     collide::Settings wide = world.collision();
     wide.tolerance = 0.5f;
-    world.set_collision(wide, true);
+    change(world, [&](Scene& s) { s.collision = wide, s.collision.cell_size.reset(); });
     EXPECT_FALSE(world.all_at_rest()) << "new settings wake all";
     double fastest = 0, fastest_particle = 0;
     for (int i = 0; i < 120; ++i) {
@@ -56,7 +57,7 @@ TEST(Settings, SelfCollisionOfALoneBodyComesAndGoes) {
   ASSERT_GT(world.detection().self_contacts, 0u);
   collide::Settings settings = world.collision();
   settings.self_collision = false;
-  world.set_collision(settings, true);
+  change(world, [&](Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
   EXPECT_FALSE(world.plan().has(Stage::detect));
   EXPECT_TRUE(world.detection().contacts.empty());
   Scene scene = world.scene();  // as a reset does
@@ -64,7 +65,7 @@ TEST(Settings, SelfCollisionOfALoneBodyComesAndGoes) {
   run(again, 120);
   EXPECT_TRUE(again.detection().contacts.empty());
   settings.self_collision = true;
-  again.set_collision(settings, true);
+  change(again, [&](Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
   EXPECT_TRUE(again.plan().has(Stage::detect));
   EXPECT_GT(again.detection().self_contacts, 0u);
 }
@@ -75,7 +76,7 @@ TEST(Settings, AWiderToleranceWakesAPileThatStaysAwakeWhileTheContactLayerGrows)
   ASSERT_TRUE(world.all_at_rest());
   collide::Settings wide = world.collision();
   wide.tolerance = 0.2f;
-  world.set_collision(wide, true);
+  change(world, [&](Scene& s) { s.collision = wide, s.collision.cell_size.reset(); });
   const std::size_t before = world.detection().contacts.size();
   run(world, 110);  // 0.1 m at 5 cm a second
   EXPECT_FALSE(world.all_at_rest());
@@ -98,13 +99,13 @@ TEST_P(SliderEnd, KeepsTheRunningSceneWhole) {
   for (const collide::Method& method : collide::method_table()) {
     World world(drop_scene(), {.threads = 2});
     run(world, 330);  // about when bodies roll off the solid sphere against each other
-    world.set_method(method.key);
-    collide::Settings s = world.collision();
-    s.levels = end.levels;
-    s.buckets = end.buckets;
-    s.tolerance = end.tolerance;
-    if (end.cell > 0) s.cell_size = glm::vec3(end.cell);
-    world.set_collision(s, end.cell == 0);
+    change(world, [&](Scene& s) { s.method = method.key; });
+    change(world, [&](Scene& s) {
+      s.collision.levels = end.levels;
+      s.collision.buckets = end.buckets;
+      s.collision.tolerance = end.tolerance;
+      if (end.cell > 0) s.collision.cell_size = glm::vec3(end.cell);
+    });
     for (int i = 0; i < 20; ++i) {
       world.step();
       const Measures m = measure(world);
@@ -127,7 +128,6 @@ TEST(Settings, OfExactMethodsDoNotChangeTheTrajectory) {
   const auto hash_with = [](const collide::Settings& settings) {
     Scene scene = drop_scene();
     scene.collision = settings;
-    scene.default_cell_size = false;
     World world(scene, {});
     run(world, 250);
     return world.state_hash();

@@ -89,7 +89,7 @@ Scene one_falls_on_another() {
   Scene scene = lone_body(m);
   scene.gravity = {0, -9.81, 0};
   scene.sleep = {.speed = 0.05, .frames = 20};
-  scene.ground = Ground{};
+  set_solid(scene, {Ground{}});
   scene.bodies[0].position = {0, 0.55, 0};
   add_body(scene, {0.3, 2.5, 0}, glm::dvec3(0.0));
   scene.bodies[1].appear = scene.bodies[1].release = 200;
@@ -149,7 +149,7 @@ TEST(SleepInSurfaceContact, WhoCarriesSomethingThatMovesStaysAwake) {
   smooth[Material::internal_damping] = 10;
   Scene scene = lone_body(smooth, {1, 0, 0});
   scene.gravity = {0, -9.81, 0};
-  scene.ground = Ground{0, 0.6, 0};
+  set_solid(scene, {Ground{0}, 0.6, 0});
   scene.contact_surface = ContactSurface::surfaces;
   scene.collision.tolerance = 1e-4f;
   scene.sleep = {.speed = 0.1, .frames = 10};

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "tests/softbody/helpers.h"
+#include "tests/support/change.h"
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
@@ -81,8 +82,8 @@ TEST(Snapshot, HoldsWhatHandsDid) {
   world.remove(1);
   Material soft = scene.materials[0];
   soft[StructuralSprings::stiffness] = 100;
-  world.set_material(0, soft);
-  world.set_gravity({0, -5, 0});
+  change(world, [&](Scene& s) { s.materials[0] = soft; });
+  change(world, [&](Scene& s) { s.gravity = {0, -5, 0}; });
   world.grab(Grab{.body = 0, .target = {1, 4, 0}});
   run(world, 5);
   expect_the_same_again(world, scene, 10);
@@ -95,11 +96,11 @@ TEST(Snapshot, HoldsWhatWasAskedForSinceTheStart) {
   World world(scene, {.threads = 2});
   run(world, 10);
   world.drop();
-  world.set_method(collide::paper_method);
+  change(world, [&](Scene& s) { s.method = collide::paper_method; });
   collide::Settings settings = world.collision();
   settings.tolerance *= 1.5f;
   settings.buckets = 17;
-  world.set_collision(settings, false);
+  change(world, [&](Scene& s) { s.collision = settings; });
   world.set_integrator({"velocity-verlet", 40});
   run(world, 50);
   const Snapshot snapshot = world.snapshot();
@@ -112,7 +113,7 @@ TEST(Snapshot, HoldsWhatWasAskedForSinceTheStart) {
   EXPECT_EQ(fresh.integrator_choice(), (IntegratorChoice{"velocity-verlet", 40}));
   EXPECT_EQ(fresh.last_step().time, time);
   EXPECT_EQ(fresh.collision(), world.collision());
-  EXPECT_FALSE(fresh.scene().default_cell_size);
+  EXPECT_TRUE(fresh.scene().collision.cell_size);
   fresh.drop();
   EXPECT_TRUE(follow(fresh, 40) == first);
 }

@@ -23,9 +23,8 @@ class SolidContactOverAPlane : public testing::Test {
   const Batch& batch() const { return state.batches()[0]; }
   void begin_frame(double plane_height) {
     solids.begin_frame();
-    const SolidPlane plane{.point = {0, plane_height, 0}, .normal = {0, 1, 0}, .friction = 0.5, .restitution = 0.5};
-    solids.add(batch(), state.extent(batch(), state.x, state.v), plane, {0, -9.81, 0}, 0.02,
-               [](const PlacedBox&) { return glm::dvec3(0, 1, 0); });
+    const Solid plane{SolidPlane{{0, plane_height, 0}}, 0.5, 0.5}, passable{SolidSphere{}, 0.5, 0.5, false};
+    solids.add(batch(), state.extent(batch(), state.x, state.v), std::array{plane, passable}, {0, -9.81, 0}, 0.02);
   }
 
   static constexpr double height = 0.52;

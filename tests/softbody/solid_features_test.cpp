@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "softbody/contact/solid_features.h"
-#include "softbody/scene/solids.h"
+#include "softbody/contact/solid_geometry.h"
+#include "softbody/contact/solid_surface.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -25,7 +25,7 @@ double min_distance(const World& world) {
       for (int i = 0; i <= cuts; ++i) {
         for (int j = 0; i + j <= cuts; ++j) {
           const glm::dvec3 p = (double(i) * c[0] + double(j) * c[1] + double(cuts - i - j) * c[2]) / double(cuts);
-          for_each_solid(world.scene(), [&](const auto& s) { least = std::min(least, surface_at(s, p).distance); });
+          for (const Solid& s : world.scene().solids) least = std::min(least, surface_at(s, p).distance);
         }
       }
     }
@@ -75,30 +75,30 @@ SolidBox box(const glm::dvec3& half, const glm::dvec3& x, const glm::dvec3& y) {
 const Case cases[]{
     {"SmallSphere",
      [](Scene& s) {
-       s.spheres = {{.centre = {0, -0.12, 0}, .radius = 0.1}};
+       set_solid(s, {SolidSphere{.centre = {0, -0.12, 0}, .radius = 0.1}});
      }},
     {"Rod",
      [](Scene& s) {
-       s.capsules = {{.from = {-1, -0.1, 0.3}, .to = {1, -0.1, -0.2}, .radius = 0.05}};
+       set_solid(s, {SolidCapsule{.from = {-1, -0.1, 0.3}, .to = {1, -0.1, -0.2}, .radius = 0.05}});
      }},
     {"Spike",
      [](Scene& s) {
-       s.capsules = {{.from = {0, -1, 0}, .to = {0, -0.07, 0}, .radius = 0.03}};
+       set_solid(s, {SolidCapsule{.from = {0, -1, 0}, .to = {0, -0.07, 0}, .radius = 0.03}});
      }},
     {"Edge",
      [](Scene& s) {
-       s.boxes = {box({0.6, 0.4, 2}, {1, 1, 0}, {-1, 1, 0})};
-       s.boxes[0].centre = {-0.1414, -0.7414, 0};
+       set_solid(s, {box({0.6, 0.4, 2}, {1, 1, 0}, {-1, 1, 0})});
+       shape_of<SolidBox>(s).centre = {-0.1414, -0.7414, 0};
      }},
     {"Corner",
      [](Scene& s) {
-       s.boxes = {box({0.3, 0.3, 0.3}, {1, 1.4, 0}, {-1, 1, 1})};
-       s.boxes[0].centre = {0, -0.55, 0};
+       set_solid(s, {box({0.3, 0.3, 0.3}, {1, 1.4, 0}, {-1, 1, 1})});
+       shape_of<SolidBox>(s).centre = {0, -0.55, 0};
      }},
     {"Plate",
      [](Scene& s) {
-       s.boxes = {box({1, 0.5, 0.01}, {1, 0, 0.3}, {0, 1, 0})};
-       s.boxes[0].centre = {0, -0.55, 0};
+       set_solid(s, {box({1, 0.5, 0.01}, {1, 0, 0.3}, {0, 1, 0})});
+       shape_of<SolidBox>(s).centre = {0, -0.55, 0};
      }},
 };
 INSTANTIATE_TEST_SUITE_P(All, SolidFeatures, testing::ValuesIn(cases),
@@ -109,7 +109,7 @@ TEST(CoresOf, AreTheCornersAndEdgesOfABox) {
   b.centre = {0.5, 0.25, -0.5};
   std::vector<glm::dvec3> corners;
   int edges = 0;
-  for (const SolidCore& core : cores_of(b)) {
+  for (const SolidCore& core : interior_of(b).cores) {
     int across = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const auto along = [&](const glm::dvec3& v) { return glm::dot(v, b.axes[axis]); };
@@ -138,7 +138,8 @@ double rebound(double restitution) {
   Scene scene = lone_body(m, {0, -8, 0});
   scene.bodies[0].position = {0.003, 0.62, 0.002};
   scene.contact_surface = ContactSurface::surfaces;
-  scene.spheres = {{.centre = {0, -0.12, 0}, .radius = 0.1, .friction = 0, .restitution = restitution}};
+  set_solid(scene,
+            {.shape = SolidSphere{.centre = {0, -0.12, 0}, .radius = 0.1}, .friction = 0, .restitution = restitution});
   World world(scene, {});
   double fastest = 0;
   for (int i = 0; i < 60; ++i) {

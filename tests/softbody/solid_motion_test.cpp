@@ -17,9 +17,9 @@ const double deepest_allowed = 0.02 * 0.5;  // m, of bodies of 0.5 m
 /// A sheet that lies flat on a plane, tilted by the angle whose tangent is given towards +x.
 Scene sheet_on_slope(double tangent, double friction) {
   Scene scene = sheet_on_ground(0, {0, -g, 0}, glm::dvec3(0.0));
-  scene.ground.reset();
+  remove_solids<Ground>(scene);
   const glm::dvec3 normal = glm::normalize(glm::dvec3(tangent, 1, 0));
-  scene.planes = {{.point = {7, -7 * tangent, 3}, .normal = normal, .friction = friction}};
+  set_solid(scene, {.shape = SolidPlane{.point = {7, -7 * tangent, 3}, .normal = normal}, .friction = friction});
   return scene;
 }
 
@@ -44,8 +44,8 @@ TEST(SolidMotion, ASlopeHoldsWhatFrictionHolds) {
 /// How high a flat sheet jumps that fell from `height` on a box.
 double jump(double height, double restitution) {
   Scene scene = sheet_on_ground(0.5, {0, -g, 0}, glm::dvec3(0.0));
-  scene.ground.reset();
-  scene.boxes = {{.centre = {0, -1, 0}, .half_size = {2, 1, 2}, .restitution = restitution}};
+  remove_solids<Ground>(scene);
+  set_solid(scene, {.shape = SolidBox{.centre = {0, -1, 0}, .half_size = {2, 1, 2}}, .restitution = restitution});
   scene.bodies[0].position.y = height;
   World world(scene, {});
   double highest = 0;
@@ -69,7 +69,7 @@ TEST(Restitution, LetsSlowImpactsRest) {
   const double height = 0.9 * law::impact_speed * law::impact_speed / (2 * g);
   EXPECT_LT(jump(height, 1), 1.001 * height) << "the start";
   Scene scene = sheet_on_ground(0.5, {0, -g, 0}, glm::dvec3(0.0));
-  scene.ground->restitution = 1;
+  solid_of<Ground>(scene).restitution = 1;
   scene.bodies[0].position.y = height;
   World world(scene, {});
   run(world, 60);
@@ -83,7 +83,7 @@ Scene soft_ball(double restitution, double speed) {
   m[Material::internal_damping] = 10;
   Scene scene = lone_body(m, glm::dvec3(0, -speed, 0));
   scene.bodies[0].position = {0, 1, 0};
-  scene.ground = Ground{0, 0.5, restitution};
+  set_solid(scene, {Ground{0}, 0.5, restitution});
   return scene;
 }
 
@@ -120,9 +120,8 @@ BallBounce bounce(const std::string& integrator, double restitution, bool of_mat
   m[contact::restitution] = of_material ? restitution : 0;
   Scene scene = lone_body(m, {0, -6, 0});
   scene.bodies[0].position = {0, 0.6, 0};
-  scene.ground = onto.ground, scene.spheres = onto.spheres;
-  if (!of_material && scene.ground) scene.ground->restitution = restitution;
-  if (!of_material && !scene.spheres.empty()) scene.spheres[0].restitution = restitution;
+  scene.solids = onto.solids;
+  if (!of_material) scene.solids[0].restitution = restitution;
   World world(scene, {.integrator = {integrator, std::nullopt}});
   const double before = measure(world).energy;
   for (int i = 0; i < 200 && (i < 20 || !solid_contacts(world).empty()); ++i) world.step();
@@ -133,8 +132,8 @@ BallBounce bounce(const std::string& integrator, double restitution, bool of_mat
 /// At 1 it takes none, from the energy that moves and the one that deforms together.
 TEST(Restitution, ReturnsItsSquareOfTheEnergyThatContactTakes) {
   Scene flat, round;
-  flat.ground = Ground{0, 0};
-  round.spheres = {{.centre = {0, -1, 0}, .radius = 1, .friction = 0}};
+  set_solid(flat, {Ground{0}, 0});
+  set_solid(round, {.shape = SolidSphere{.centre = {0, -1, 0}, .radius = 1}, .friction = 0});
   for (const char* integrator : {"semi-implicit-euler", "velocity-verlet", "rk4", "imex-euler"})
     for (const Scene* onto : {&flat, &round}) {
       const BallBounce lost = bounce(integrator, 0, false, *onto);
@@ -177,7 +176,9 @@ TEST(Restitution, DoesNotShakeABallAtRest) {
   scene.bodies[0].position = {0, 0.55, 0};
   // A groove of 70 degrees, in which one plane's impulse drives particles into the other.
   for (const double side : {-1.0, 1.0})
-    scene.planes.push_back({.normal = {side * std::cos(0.61), std::sin(0.61), 0}, .friction = 0.3, .restitution = 0.9});
+    add_solid(scene, {.shape = SolidPlane{.normal = {side * std::cos(0.61), std::sin(0.61), 0}},
+                      .friction = 0.3,
+                      .restitution = 0.9});
   World world(scene, {});
   run(world, 600);
   EXPECT_LT(measure(world).max_speed, 0.02);
@@ -193,36 +194,36 @@ struct Target {
 const Target targets[]{
     {"plane",
      [](Scene& s) {
-       s.planes = {{.normal = {0.28, 0.96, 0}}};
+       set_solid(s, {SolidPlane{.normal = {0.28, 0.96, 0}}});
      },
      -3},
     {"plate",
      [](Scene& s) {
-       s.boxes = {{.half_size = {3, 0.025, 3}}};
+       set_solid(s, {SolidBox{.half_size = {3, 0.025, 3}}});
      },
      -0.6},
     {"tilted_plate",
      [](Scene& s) {
        const glm::dmat3 axes(glm::dvec3(0.8, 0.6, 0), glm::dvec3(-0.6, 0.8, 0), glm::dvec3(0, 0, 1));
-       s.boxes = {{.half_size = {4, 0.025, 4}, .axes = axes}};
+       set_solid(s, {SolidBox{.half_size = {4, 0.025, 4}, .axes = axes}});
      },
      -4},
     {"capsules",
      [](Scene& s) {
        for (int i = -20; i <= 20; ++i)  // a grate that no mesh of 162 vertices fits through
-         s.capsules.push_back({.from = {0.1 * i, 0, -3}, .to = {0.1 * i, 0, 3}, .radius = 0.045});
+         add_solid(s, {SolidCapsule{.from = {0.1 * i, 0, -3}, .to = {0.1 * i, 0, 3}, .radius = 0.045}});
      },
      -0.6},
     {"sphere",
      [](Scene& s) {
-       s.spheres = {{.centre = {0, -2, 0}, .radius = 2}};
+       set_solid(s, {SolidSphere{.centre = {0, -2, 0}, .radius = 2}});
      },
      -3},
     {"pit",  // of four sides, two of which drive particles into one another
      [](Scene& s) {
        for (const glm::dvec3& normal :
             {glm::dvec3(0.8, 0.6, 0), glm::dvec3(-0.8, 0.6, 0), glm::dvec3(0, 0.6, 0.8), glm::dvec3(0, 0.6, -0.8)})
-         s.planes.push_back({.point = {0, -1, 0}, .normal = normal});
+         add_solid(s, {SolidPlane{.point = {0, -1, 0}, .normal = normal}});
      },
      -1},
 };
@@ -239,10 +240,7 @@ TEST_P(FastImpact, GoesNeitherInNorThroughAndDoesNotExplode) {
       scene.gravity = {0, -g, 0};
       scene.bodies[0].position = glm::dvec3(0.03, 0.1, 0.02) - 3.0 * direction;
       GetParam().add(scene);
-      for (auto& p : scene.planes) p.restitution = restitution;
-      for (auto& b : scene.boxes) b.restitution = restitution;
-      for (auto& c : scene.capsules) c.restitution = restitution;
-      for (auto& s : scene.spheres) s.restitution = restitution;
+      for (Solid& s : scene.solids) s.restitution = restitution;
       World world(scene, {});
       for (int i = 0; i < 20; ++i) {
         world.step();
@@ -278,10 +276,10 @@ TEST(SolidMotion, ABallComesToRestInABox) {
   scene.gravity = {0, -g, 0};
   scene.sleep.speed = 0.05;
   scene.bodies[0].position = {0, 1.5, 0};
-  scene.boxes = {{.centre = {0, -0.1, 0}, .half_size = {1.2, 0.1, 1.2}}};
+  set_solid(scene, {SolidBox{.centre = {0, -0.1, 0}, .half_size = {1.2, 0.1, 1.2}}});
   for (const double side : {-1.0, 1.0}) {
-    scene.boxes.push_back({.centre = {1.1 * side, 0.5, 0}, .half_size = {0.1, 0.5, 1.2}});
-    scene.boxes.push_back({.centre = {0, 0.5, 1.1 * side}, .half_size = {1.2, 0.5, 0.1}});
+    add_solid(scene, {SolidBox{.centre = {1.1 * side, 0.5, 0}, .half_size = {0.1, 0.5, 1.2}}});
+    add_solid(scene, {SolidBox{.centre = {0, 0.5, 1.1 * side}, .half_size = {1.2, 0.5, 0.1}}});
   }
   World world(scene, {});
   for (int i = 0; i < 400; ++i) {

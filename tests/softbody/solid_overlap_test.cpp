@@ -7,9 +7,10 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/law.h"
+#include "softbody/contact/solid_geometry.h"
 #include "softbody/contact/solid_overlap.h"
-#include "softbody/scene/solids.h"
 #include "tests/softbody/surface_rig.h"
+#include "tests/support/change.h"
 
 namespace softbody::test {
 namespace {
@@ -26,11 +27,9 @@ bool lies_in_solid(const World& world, BodyId id) {
                         glm::dvec3(0.0),
                         {at[0].data(), at[1].data(), at[2].data(), Index(at[0].size())},
                         model.mean_edge};
-  bool any = false;
-  for_each_solid(world.scene(), [&](const auto& solid) {
-    any = any || overlap(body, solid, world.scene().contact_surface == ContactSurface::surfaces);
+  return std::ranges::any_of(world.scene().solids, [&](const Solid& solid) {
+    return overlap(body, solid, world.scene().contact_surface == ContactSurface::surfaces);
   });
-  return any;
 }
 
 struct Case {
@@ -41,37 +40,37 @@ struct Case {
 const Case cases[]{
     {"BallInASphere",
      [](Scene& s) {
-       s.spheres = {{.centre = {0, 1, 0}}};
+       set_solid(s, {SolidSphere{.centre = {0, 1, 0}}});
        s.bodies[0].position = {0.3, 1.2, 0};
      }},
     {"BallInASphereWithoutItsMiddle",
      [](Scene& s) {
-       s.spheres = {{.centre = {0, 1, 0}, .radius = 1.3}};
+       set_solid(s, {SolidSphere{.centre = {0, 1, 0}, .radius = 1.3}});
        s.bodies[0].position = {0.3, 1.65, 0.3};
      }},
     {"SphereInABall",
      [](Scene& s) {
-       s.spheres = {{.centre = {0, 1, 0}, .radius = 0.35}};
+       set_solid(s, {SolidSphere{.centre = {0, 1, 0}, .radius = 0.35}});
        s.bodies[0].position = {0.05, 1.1, 0.02};
      }},
     {"BallInABox",
      [](Scene& s) {
-       s.boxes = {{.centre = {0, 1, 0}, .half_size = {0.8, 0.7, 0.9}}};
+       set_solid(s, {SolidBox{.centre = {0, 1, 0}, .half_size = {0.8, 0.7, 0.9}}});
        s.bodies[0].position = {0.25, 1.1, 0};
      }},
     {"BallOnARod",
      [](Scene& s) {
-       s.capsules = {{.from = {-2, 1, 0}, .to = {2, 1.2, 0}, .radius = 0.2}};
+       set_solid(s, {SolidCapsule{.from = {-2, 1, 0}, .to = {2, 1.2, 0}, .radius = 0.2}});
        s.bodies[0].position = {0.3, 1.1, 0.1};
      }},
     {"BallUnderTheGround",
      [](Scene& s) {
-       s.ground->height = 1;
+       shape_of<Ground>(s).height = 1;
        s.bodies[0].position = {0, 0.6, 0};
      }},
     {"SheetInASphere",
      [](Scene& s) {
-       s.spheres = {{.centre = {0, 1, 0}, .radius = 0.5}};
+       set_solid(s, {SolidSphere{.centre = {0, 1, 0}, .radius = 0.5}});
        s.bodies[0].mesh = {.kind = "grid", .columns = 10, .rows = 10, .width = 1.6, .depth = 1.6};
        s.bodies[0].position = {0.03, 1.2, 0.02};
        s.materials[0][GasPressure::inside] = s.materials[0][GasPressure::outside] = 0;
@@ -85,7 +84,7 @@ class StartInSolid : public testing::TestWithParam<std::tuple<Case, ContactSurfa
     scene.contact_surface = std::get<1>(GetParam());
     scene.gravity = {0, -g, 0};
     scene.sleep.speed = 0.05;
-    scene.ground = Ground{};
+    set_solid(scene, {Ground{}});
     std::get<0>(GetParam()).put(scene);
     return scene;
   }
@@ -135,15 +134,15 @@ TEST(SolidOverlap, ASolidThatIsMovedOntoASleeperWakesItAndEasesItOut) {
     Scene scene = ball_in_space(damped(rubber()));
     scene.gravity = {0, -g, 0};
     scene.sleep.speed = 0.05;
-    scene.ground = Ground{};
+    set_solid(scene, {Ground{}});
     scene.bodies[0].position = {0, 0.51, 0};
     scene.contact_surface = ContactSurface::vertices;
     World world(scene, {.integrator = {integrator, {}}});
     run(world, 300);
     ASSERT_TRUE(world.all_at_rest());
     const double volume = measure(world).volume_ratio_min;
-    scene.boxes = {{.centre = {0.2, 0.5, 0.1}, .half_size = {0.7, 0.3, 0.5}}};
-    world.set_solids(scene);
+    set_solid(scene, {SolidBox{.centre = {0.2, 0.5, 0.1}, .half_size = {0.7, 0.3, 0.5}}});
+    world.apply(scene);
     for (int i = 0; i < 200; ++i) {
       world.step();
       ASSERT_LT(measure(world).max_speed, 3.5) << integrator << ", " << frame_of(world);
@@ -158,7 +157,7 @@ TEST(SolidOverlap, WhatCannotBeEasedOutStaysAwakeAndWhole) {
   Scene scene = ball_in_space(rubber());
   scene.sleep.speed = 0.05;
   scene.bodies[0].position = {0.02, 0, 0};
-  for (const double side : {-1.0, 1.0}) scene.planes.push_back({{0.3 * side, 0, 0}, {-side, 0, 0}, 0.3, 0});
+  for (const double side : {-1.0, 1.0}) add_solid(scene, {SolidPlane{{0.3 * side, 0, 0}, {-side, 0, 0}}, 0.3, 0});
   World world(scene, {});
   for (int i = 0; i < 200; ++i) {
     world.step();
@@ -171,9 +170,9 @@ TEST(SolidOverlap, LeavesWhatOnlyTouches) {
   const auto touches = [](const glm::dvec3& at) {
     Scene scene = ball_in_space(rubber());
     scene.bodies[0].position = at;
-    scene.spheres = {{.radius = 1}};
-    scene.boxes = {{.centre = {5, 0, 0}, .half_size = {1, 0.01, 1}}};
-    scene.capsules = {{.from = {10, 0, -1}, .to = {10, 0, 1}, .radius = 0.02}};
+    set_solid(scene, {SolidSphere{.radius = 1}});
+    set_solid(scene, {SolidBox{.centre = {5, 0, 0}, .half_size = {1, 0.01, 1}}});
+    set_solid(scene, {SolidCapsule{.from = {10, 0, -1}, .to = {10, 0, 1}, .radius = 0.02}});
     return lies_in_solid(World(scene, {}), 0);
   };
   EXPECT_FALSE(touches({0, 1.51, 0}));
@@ -186,7 +185,7 @@ TEST(SolidOverlap, LeavesWhatOnlyTouches) {
 
 TEST(OverlappingBodies, AreThoseInSolidsAndInEachOther) {
   Scene scene = ball_in_space(rubber());
-  scene.ground = Ground{-3};
+  set_solid(scene, {Ground{-3}});
   add_body(scene, {5, 0, 0}, glm::dvec3(0.0));      // apart
   add_body(scene, {0.8, 0, 0}, glm::dvec3(0.0));    // in the first
   add_body(scene, {10, -2.9, 0}, glm::dvec3(0.0));  // in the ground
@@ -214,14 +213,14 @@ TEST(OverlappingBodies, OfOnePlacePartAtABoundedSpeed) {
 }
 
 TEST(MiddleOf, IsASolidsRectangleSegmentOrPoint) {
-  const auto plate = middle_of(SolidBox{.centre = {1, 2, 3}, .half_size = {0.5, 0.1, 0.7}});
+  const auto plate = interior_of(SolidBox{.centre = {1, 2, 3}, .half_size = {0.5, 0.1, 0.7}}).middle;
   EXPECT_NEAR(plate->depth, 0.1, 1e-12);
   EXPECT_NEAR(glm::length(plate->sides[0]), 0.4, 1e-12);
   EXPECT_NEAR(glm::length(plate->sides[1]), 0.6, 1e-12);
   EXPECT_NEAR(plate->sides[0].y, 0, 1e-12);
-  EXPECT_NEAR(glm::length(middle_of(SolidBox{.half_size = glm::dvec3(2)})->sides[0]), 0, 1e-12);
-  EXPECT_EQ(middle_of(SolidCapsule{.from = {-1, 0, 0}, .to = {3, 0, 0}})->sides[0], glm::dvec3(2, 0, 0));
-  EXPECT_FALSE(middle_of(SolidPlane{}));
+  EXPECT_NEAR(glm::length(interior_of(SolidBox{.half_size = glm::dvec3(2)}).middle->sides[0]), 0, 1e-12);
+  EXPECT_EQ(interior_of(SolidCapsule{.from = {-1, 0, 0}, .to = {3, 0, 0}}).middle->sides[0], glm::dvec3(2, 0, 0));
+  EXPECT_FALSE(interior_of(SolidPlane{}).middle);
 }
 
 /// A ball so soft that it wraps around the edge holds the middle of the box. It came from outside: contact keeps its
@@ -234,7 +233,7 @@ TEST(SolidOverlap, IsNoneOfASlackBallThatIsThrownAroundAnEdge) {
     scene.materials[0][GasPressure::outside] = 0;
     scene.bodies[0].position = {aside, 2.2, 0};
     const double c = std::sqrt(0.5);
-    scene.boxes = {{.half_size = glm::dvec3(1), .axes = glm::dmat3(c, c, 0, -c, c, 0, 0, 0, 1)}};
+    set_solid(scene, {SolidBox{.half_size = glm::dvec3(1), .axes = glm::dmat3(c, c, 0, -c, c, 0, 0, 0, 1)}});
     World world(scene, {.integrator = {"semi-implicit-euler"}});
     for (int i = 0; i < 180; ++i) {
       world.step();

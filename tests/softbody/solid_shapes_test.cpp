@@ -7,9 +7,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "softbody/contact/solid_placement.h"
 #include "softbody/contact/solid_shapes.h"
-#include "softbody/scene/solids.h"
+#include "softbody/contact/solid_surface.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -66,7 +65,6 @@ double nearest(const Points& points, const glm::dvec3& to) {
 }
 
 /// coarse: how far apart the points are at most.
-template <class Solid>
 void expect_distance_to(const Solid& solid, const Points& points, double coarse) {
   std::mt19937 random(21);
   int outside = 0;
@@ -86,38 +84,39 @@ void expect_distance_to(const Solid& solid, const Points& points, double coarse)
   EXPECT_GT(outside, 150);
 }
 
-TEST(SolidShapes, OfASphere) { expect_distance_to(sphere, sphere_points(sphere.centre, sphere.radius), 0.06); }
-TEST(SolidShapes, OfABox) { expect_distance_to(box, box_points(box), 0.06); }
-TEST(SolidShapes, OfACapsule) { expect_distance_to(capsule, capsule_points(capsule), 0.06); }
-TEST(SolidShapes, OfACapsuleWithoutLength) { expect_distance_to(ball, sphere_points(ball.from, ball.radius), 0.06); }
+TEST(SolidShapes, OfASphere) { expect_distance_to({sphere}, sphere_points(sphere.centre, sphere.radius), 0.06); }
+TEST(SolidShapes, OfABox) { expect_distance_to({box}, box_points(box), 0.06); }
+TEST(SolidShapes, OfACapsule) { expect_distance_to({capsule}, capsule_points(capsule), 0.06); }
+TEST(SolidShapes, OfACapsuleWithoutLength) { expect_distance_to({ball}, sphere_points(ball.from, ball.radius), 0.06); }
 
 TEST(SolidShapes, InsideABoxTheNearestFaceCounts) {
   const Points points = box_points(box);
   std::mt19937 random(22);
   for (int i = 0; i < 300; ++i) {
     const glm::dvec3 p = box.centre + box.axes * (random_vector(random, 1) * box.half_size);
-    const SolidSurface s = surface_at(box, p);
+    const SolidSurface s = surface_at({box}, p);
     EXPECT_LE(s.distance, 0);
     EXPECT_LE(-s.distance, nearest(points, p) + 1e-12);
     EXPECT_GT(-s.distance, nearest(points, p) - 0.06);
-    EXPECT_NEAR(surface_at(box, p - s.distance * s.normal).distance, 0, 1e-12);
+    EXPECT_NEAR(surface_at({box}, p - s.distance * s.normal).distance, 0, 1e-12);
   }
 }
 
 TEST(SolidShapes, OfAPlaneAnywhere) {
   const SolidPlane plane{.point = {1e3, 2e3, 0}, .normal = {0.6, 0.8, 0}};
-  EXPECT_NEAR(surface_at(plane, {1e3 + 3, 2e3 + 4, 500}).distance, 5, 1e-9);
-  EXPECT_NEAR(surface_at(plane, {1e3 + 0.8 * 70, 2e3 - 0.6 * 70, -9}).distance, 0, 1e-9);
-  EXPECT_NEAR(surface_at(plane, {1e3, 2e3 - 2, 0}).distance, -1.6, 1e-9);
-  EXPECT_EQ(surface_at(plane, {0, 0, 0}).normal, plane.normal);
+  EXPECT_NEAR(surface_at({plane}, {1e3 + 3, 2e3 + 4, 500}).distance, 5, 1e-9);
+  EXPECT_NEAR(surface_at({plane}, {1e3 + 0.8 * 70, 2e3 - 0.6 * 70, -9}).distance, 0, 1e-9);
+  EXPECT_NEAR(surface_at({plane}, {1e3, 2e3 - 2, 0}).distance, -1.6, 1e-9);
+  EXPECT_EQ(surface_at({plane}, {0, 0, 0}).normal, plane.normal);
 }
 
 /// Edges and corners of a box are as far away as its faces: a rounded box.
 TEST(SolidShapes, KeepTheirThicknessAllRound) {
   const glm::dvec3 corner = box.centre + box.axes * box.half_size;
   for (const glm::dvec3& away : {glm::dvec3(1, 0, 0), glm::dvec3(0, 0.6, 0.8), glm::dvec3(0.48, 0.6, 0.64)}) {
-    const auto seen = as_vec<double>(corner + box.axes * (0.03 * away) - box.centre);
-    EXPECT_NEAR(body::surface_at(shape_of<double>(box, 0.03), seen).distance, 0, 1e-12);
+    const glm::dvec3 seen = corner + box.axes * (0.03 * away) - box.centre;
+    const BoxShape<double> grown = placed<double>(box, 0.03, glm::dvec3(0.0)).shape;
+    EXPECT_NEAR(body::surface_at(grown, body::Vec<double>{seen.x, seen.y, seen.z}).distance, 0, 1e-12);
   }
 }
 

@@ -20,8 +20,8 @@ Scene falling(const glm::dvec3& position, const glm::dvec3& velocity) {
 TEST(Solids, NoParticleIsDeeperThanTenMicrometresInAFall) {
   for (const double speed : {0.0, 10.0, 50.0}) {
     Scene scene = falling({0.1, 4, 0.05}, {0, -speed, 0});
-    scene.spheres = {{.centre = {0, 1, 0}}};
-    scene.ground = Ground{};
+    set_solid(scene, {SolidSphere{.centre = {0, 1, 0}}});
+    set_solid(scene, {Ground{}});
     World world(scene, {});
     std::size_t touched = 0;
     for (int i = 0; i < 240; ++i) {
@@ -36,10 +36,11 @@ TEST(Solids, NoParticleIsDeeperThanTenMicrometresInAFall) {
 /// Its narrow walls push what falls in from one to the other: they are asked in turn until neither is entered.
 TEST(Solids, NoParticleIsPushedThroughOneWallOfAGrooveByTheOther) {
   Scene scene = sheet_on_ground(0, {0, -9.81, 0}, {0.5, -5, 0});
-  scene.ground.reset();
+  remove_solids<Ground>(scene);
   scene.bodies[0].position = {0, 0.3, 0};
   scene.bodies[0].mesh.width = 0.01;
-  for (const double side : {-1.0, 1.0}) scene.planes.push_back({.normal = glm::normalize(glm::dvec3(side, 0.5, 0))});
+  for (const double side : {-1.0, 1.0})
+    add_solid(scene, {SolidPlane{.normal = glm::normalize(glm::dvec3(side, 0.5, 0))}});
   World world(scene, {});
   double deepest = 0;
   std::size_t touched = 0;
@@ -55,7 +56,7 @@ TEST(Solids, NoParticleIsPushedThroughOneWallOfAGrooveByTheOther) {
 TEST(Solids, WhatGravityTakesThereFromRestWithinOneFrameIsStopped) {
   Scene scene = falling({0, 0.6, 0}, glm::dvec3(0.0));
   scene.gravity = {0, -1000, 0};
-  scene.ground = Ground{};
+  set_solid(scene, {Ground{}});
   World world(scene, {});
   world.step();
   EXPECT_LT(measure(world).deepest_penetration, 1e-5);
@@ -78,7 +79,7 @@ TEST(Solids, HoldABodysWeight) {
   scene.materials[0][Material::internal_damping] = 20;
   scene.materials[0][contact::rebound_speed] = 1;
   scene.materials[0][contact::rolling_resistance] = 0.3;
-  scene.ground = Ground{2.0, 0.6};
+  set_solid(scene, {Ground{2.0}, 0.6});
   World world(scene, {});
   run(world, 600);
   const Motion m = motion(world, 0);
@@ -98,7 +99,7 @@ TEST(Solids, HoldABodysWeight) {
 TEST(Solids, KeepParticlesOfAThickMaterialAtADistance) {
   Scene scene = falling({0, 2.6, 0}, glm::dvec3(0.0));
   scene.materials[0][Material::thickness] = 0.03;
-  scene.spheres = {{.centre = {0, 1, 0}}};
+  set_solid(scene, {SolidSphere{.centre = {0, 1, 0}}});
   World world(scene, {});
   double nearest = 1;
   for (int i = 0; i < 60; ++i) {
@@ -130,11 +131,11 @@ TEST(Solids, ContactsAreTheParticlesOnASurfaceWithItsNormal) {
 /// All kinds of solids and 20 balls, of which some lie deep in solids, some touch one, and most are far from all.
 TEST(Solids, AreMeasuredAtAllParticlesThatTheyReach) {
   Scene scene = lone_body(gas_ball(), glm::dvec3(0.0));
-  scene.ground = Ground{};
-  scene.spheres = {{.centre = {0, 1, 0}, .radius = 1.5}};
-  scene.planes = {{.point = {9, 0, 0}, .normal = {-1, 0, 0}}};
-  scene.boxes = {{.centre = {-5, 2, 3}, .half_size = {1, 0.7, 2}}};
-  scene.capsules = {{.from = {3, 3, 3}, .to = {6, 3, 3}, .radius = 0.4}};
+  set_solid(scene, {Ground{}});
+  set_solid(scene, {SolidSphere{.centre = {0, 1, 0}, .radius = 1.5}});
+  set_solid(scene, {SolidPlane{.point = {9, 0, 0}, .normal = {-1, 0, 0}}});
+  set_solid(scene, {SolidBox{.centre = {-5, 2, 3}, .half_size = {1, 0.7, 2}}});
+  set_solid(scene, {SolidCapsule{.from = {3, 3, 3}, .to = {6, 3, 3}, .radius = 0.4}});
   scene.bodies[0].position = {8.502, 5, 0};
   std::mt19937 random(3);
   for (int i = 1; i < 20; ++i) add_body(scene, glm::dvec3(0, 4.5, 0) + random_vector(random, 8), glm::dvec3(0.0));
@@ -159,10 +160,13 @@ TEST(Solids, AreMeasuredAtAllParticlesThatTheyReach) {
 TEST(SolidDepth, IsTheDeepestOfAllSolids) {
   Scene scene;
   EXPECT_EQ(solid_depth(scene, {1, 2, 3}).depth, -std::numeric_limits<double>::infinity());
-  scene.ground = Ground{0.5, 0};
-  scene.spheres = {{.centre = {0, 1, 0}, .radius = 2}, {.centre = {10, 0, 0}, .radius = 1}};
+  set_solid(scene, {Ground{0.5}, 0});
+  set_solid(scene, {SolidSphere{.centre = {0, 1, 0}, .radius = 2}});
+  add_solid(scene, {SolidSphere{.centre = {10, 0, 0}, .radius = 1}});
   EXPECT_NEAR(solid_depth(scene, {20, 0.2, 0}).depth, 0.3, 1e-12);
   EXPECT_NEAR(solid_depth(scene, {0, 2.5, 0}).depth, 0.5, 1e-12);
+  scene.solids[1].enabled = false;
+  EXPECT_NEAR(solid_depth(scene, {10, 0.25, 0}).depth, 0.25, 1e-12) << "of the ground alone";
   EXPECT_NEAR(solid_depth(scene, {0, 4, 0}).depth, -1, 1e-12);
   const SolidDepth side = solid_depth(scene, {1.5, 1, 0});
   EXPECT_NEAR(side.depth, 0.5, 1e-12);

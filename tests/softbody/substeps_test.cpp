@@ -100,7 +100,7 @@ TEST(StepBounds, KeepUpWithASoftBodyNearASolid) {
   const auto substeps = [&](double height) {
     Scene scene = lone_body(soft, {60, 0, 0});
     scene.bodies[0].position = {0, height, 0};
-    scene.ground.emplace();
+    set_solid(scene, {Ground{}});
     add_body(scene, {5, 0.6, 0}, {});
     World world(scene, {.integrator = {"semi-implicit-euler"}});
     world.step();
@@ -114,7 +114,7 @@ TEST(StepController, FollowsABodyThatIsCrushedWithinAFrame) {
   for (const double speed : {30.0, 100.0, 300.0, 1000.0}) {
     Scene scene = lone_body(gas_ball(), {0, -speed, 0});
     scene.bodies[0].position = {0, 1, 0};
-    scene.ground.emplace();
+    set_solid(scene, {Ground{}});
     World world(scene, {});
     const double energy = measure(world).energy;
     for (int frame = 0; frame < 60; ++frame) {
@@ -154,7 +154,7 @@ TEST(StepController, FollowsABodyThatSnapsBack) {
 TEST(StepController, KeepsOtherBodiesStableWhereOneNeedsTooMany) {
   Scene scene = lone_body(gas_ball());
   scene.gravity = {0, -9.81, 0};
-  scene.ground = Ground{};
+  set_solid(scene, {Ground{}});
   scene.contact_surface = ContactSurface::surfaces;
   add_body(scene, {3, 0.1, 0}, {0, -10, 0});
   scene.bodies[1].mesh.radius = 1e-9;
@@ -228,7 +228,7 @@ TEST(StepController, TakesStiffScenesInImplicitSteps) {
     Scene scene = lone_body(ball);
     scene.materials.push_back(sheet);
     scene.gravity = {0, -9.81, 0};
-    scene.ground.emplace();
+    set_solid(scene, {Ground{}});
     scene.bodies[0].position = {0, 1, 0};
     add_body(scene, {0.3, 2.2, 0}, {});
     add_body(scene, {0, 0.3, 0}, {});
@@ -249,7 +249,7 @@ TEST(StepController, KeepsACrushedBodyInOnePiece) {
   for (const double speed : {3.0, 10.0, 30.0}) {
     Scene scene = lone_body(gas_ball(), glm::dvec3(0, -speed, 0));
     scene.bodies[0].position = {0, 1, 0};
-    scene.ground = Ground{};
+    set_solid(scene, {Ground{}});
     World world(scene, {});
     const double before = measure(world).energy, kinetic = 0.5 * speed * speed;
     for (int i = 0; i < 120; ++i) {

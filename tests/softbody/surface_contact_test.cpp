@@ -114,10 +114,10 @@ TEST(SurfaceContact, ABallThrownAtASolidSphereDoesNotPierceItself) {
     Scene scene = load_scene(std::filesystem::path(SBCOLLIDE_SCENES) / "A.toml");
     scene.contact_surface = ContactSurface::surfaces;
     scene.gravity = glm::dvec3(0.0);
-    scene.ground.reset();
+    remove_solids<Ground>(scene);
     scene.bodies.resize(1);
     BodySource& ball = scene.bodies[0];
-    const SolidSphere& solid = scene.spheres.at(0);
+    const SolidSphere& solid = shape_of<SolidSphere>(scene);
     ball.position = solid.centre + glm::dvec3(0.04, solid.radius + 0.8, 0.03);
     ball.velocity = {0, -speed, 0};
     World world(scene, {});
@@ -142,8 +142,8 @@ TEST(SurfaceContact, ASlackBallThatFallsInOnASolidSphereDoesNotPierceItself) {
     slack[Material::thickness] = 0.005;
     Scene scene = ball_in_space(slack, {0, -speed, 0});
     scene.gravity = {0, -9.81, 0};
-    scene.spheres.push_back({.centre = {0, 1, 0}, .radius = 1});
-    scene.ground.emplace();
+    add_solid(scene, {SolidSphere{.centre = {0, 1, 0}, .radius = 1}});
+    set_solid(scene, {Ground{}});
     scene.bodies[0].mesh.subdivisions = 3;
     scene.bodies[0].position = {0.04, 2.55, 0.03};
     World world(scene, {});
@@ -370,13 +370,13 @@ TEST(SurfaceContact, ASheetCarriesMoreBallsThanThereAreColours) {
 TEST(SurfaceContact, AStackInAWellStandsWithoutSinkingIn) {
   Scene scene = ball_in_space(damped(rubber()));
   scene.gravity = {0, -9.81, 0};
-  scene.ground = Ground{0, 0.6};
+  set_solid(scene, {Ground{0}, 0.6});
   scene.bodies[0].position = {0.02, 0.6, 0.01};
   add_body(scene, {-0.03, 1.7, 0.02}, glm::dvec3(0.0));
   add_body(scene, {0.02, 2.8, -0.03}, glm::dvec3(0.0));
   for (const glm::dvec3& inwards :
        {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1)})
-    scene.planes.push_back({-0.55 * inwards, inwards, 0.3, 0});
+    add_solid(scene, {SolidPlane{-0.55 * inwards, inwards}, 0.3, 0});
   World world(scene, {});
   Judge judge(world);
   for (int i = 0; i < 300; ++i) {
@@ -404,7 +404,7 @@ TEST(SurfaceContact, ClothOverASolidSphereNeverPiercesItself) {
 TEST(SurfaceContact, AStarThatFallsOnAStarStaysOutside) {
   Scene scene = load_scene(std::filesystem::path(SBCOLLIDE_SCENES) / "star.toml");
   scene.contact_surface = ContactSurface::surfaces;
-  scene.spheres.clear();
+  remove_solids<SolidSphere>(scene);
   const BodySource star = scene.bodies[0];
   scene.bodies = {star, star};
   scene.bodies[0].position = {0, 0.7, 0};

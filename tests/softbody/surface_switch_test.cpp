@@ -5,6 +5,7 @@
 #include "softbody/integrate/force_stage.h"
 #include "tests/every_target.h"
 #include "tests/softbody/surface_rig.h"
+#include "tests/support/change.h"
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
@@ -14,7 +15,7 @@ namespace {
 Scene crowd() {
   Scene scene = ball_in_space(rubber(), {4, 0, 0});
   scene.gravity = {0, -9.81, 0};
-  scene.ground = Ground{-0.8, 0.5};
+  set_solid(scene, {Ground{-0.8}, 0.5});
   add_body(scene, {1.2, 0.3, 0}, {-4, 0, 0});
   add_body(scene, {0.5, 1.2, 0.2}, {0, -4, 0});
   add_body(scene, {0.6, 2.3, 0.1}, {0, -8, 0});
@@ -33,7 +34,7 @@ Scene sheets() {
   Scene scene = ball_in_space(rubber());
   scene.collision.self_collision = false;
   scene.gravity = {0, -9.81, 0};
-  scene.ground = Ground{};
+  set_solid(scene, {Ground{}});
   scene.bodies.clear();
   for (int i = 0; i < 5; ++i) {
     add_body(scene, {0.03 * i, 0.01 + 0.008 * i, 0.02 * i}, glm::dvec3(0.0));
@@ -68,13 +69,13 @@ TEST(SurfaceContact, MayBeTurnedOnAndOffAtAnyTime) {
   World world(crowd(), {});
   Judge judge(world);
   for (int i = 0; i < 60; ++i) {
-    if (i % 7 == 3) world.set_contact_surface(ContactSurface::vertices);
-    if (i % 7 == 5) world.set_contact_surface(ContactSurface::surfaces);
+    if (i % 7 == 3) change(world, [&](Scene& s) { s.contact_surface = ContactSurface::vertices; });
+    if (i % 7 == 5) change(world, [&](Scene& s) { s.contact_surface = ContactSurface::surfaces; });
     world.step();
     ASSERT_TRUE(measure(world).finite) << frame_of(world);
     ASSERT_LT(measure(world).max_speed, 40) << frame_of(world);
   }
-  world.set_contact_surface(ContactSurface::surfaces);
+  change(world, [&](Scene& s) { s.contact_surface = ContactSurface::surfaces; });
   EXPECT_TRUE(world.plan().has(Stage::surface_contact));
   EXPECT_FALSE(world.plan().has(stage_of<PenaltyContact>));
   run(world, 60);
@@ -87,8 +88,8 @@ TEST(SurfaceContact, LeavesVertexContactAsItIs) {
     scene.contact_surface = ContactSurface::vertices;
     World world(scene, {});
     if (to_and_fro) {
-      world.set_contact_surface(ContactSurface::surfaces);
-      world.set_contact_surface(ContactSurface::vertices);
+      change(world, [&](Scene& s) { s.contact_surface = ContactSurface::surfaces; });
+      change(world, [&](Scene& s) { s.contact_surface = ContactSurface::vertices; });
     }
     run(world, 30);
     return world.state_hash();

@@ -11,6 +11,7 @@
 
 #include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
+#include "tests/support/change.h"
 
 namespace softbody::test {
 namespace {
@@ -37,7 +38,7 @@ TEST_P(Swing, GainsNoEnergyInSubstepsThatTheWorldChooses) {
         World world(lone_body(m), {.integrator = {integrator}});
         run(world, 5);
         m[GasPressure::inside] = pressure;
-        world.set_material(0, m);
+        change(world, [&](Scene& s) { s.materials[0] = m; });
         run(world, 3);  // the sudden force may bring the first substep's work besides
         const auto energy = [&] {
           const BodyMeasures b = measure_bodies(world)[0];

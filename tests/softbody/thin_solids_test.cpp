@@ -29,7 +29,7 @@ Scene cloth(double size, double mass) {
   m[Material::internal_damping] = 2;
   Scene scene = ball_in_space(m);
   scene.gravity = {0, -g, 0};
-  scene.ground = Ground{};
+  set_solid(scene, {Ground{}});
   scene.sleep.speed = 0.03;
   scene.bodies[0].mesh = {.kind = "grid", .columns = 12, .rows = 12, .width = size, .depth = size};
   scene.bodies[0].position = {0.03, 1.2, 0.02};
@@ -39,7 +39,7 @@ Scene cloth(double size, double mass) {
 Scene ball() {
   Scene scene = ball_in_space(damped(rubber()));
   scene.gravity = {0, -g, 0};
-  scene.ground = Ground{-3};
+  set_solid(scene, {Ground{-3}});
   scene.sleep.speed = 0.03;
   scene.bodies[0].position = {0, 1.56, 0};
   return scene;
@@ -53,7 +53,7 @@ struct Case {
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 Case with(Case c, const SolidBox& box) {
-  c.scene.boxes = {box};
+  set_solid(c.scene, {box});
   return c;
 }
 
@@ -105,8 +105,8 @@ TEST(ThinSolidAlone, MovesNothingThatIsBesideIt) {
   for (const double height : {0.03, 0.016, -0.03, 0.2}) {
     for (const double degrees : {0.0, 17.0, 45.0}) {
       Scene scene = beside({0.02, height, 0.01});
-      scene.boxes = {flat};
-      scene.boxes[0].axes = turned({0, 1, 0}, degrees);
+      set_solid(scene, {flat});
+      shape_of<SolidBox>(scene).axes = turned({0, 1, 0}, degrees);
       World world(scene, {});
       run(world, 60);
       EXPECT_LT(measure(world).max_speed, 1e-4) << height << " m above, " << degrees << " degrees";
@@ -120,7 +120,7 @@ TEST(ThinSolidAlone, StopsABallThatIsThrownAtIt) {
   for (const double speed : {3.0, 20.0}) {
     Scene scene = ball_in_space(rubber(), {speed, 0, 0});
     scene.bodies[0].position = {-0.8, 0, 0.02};
-    scene.boxes = {{.half_size = {0.01, 1, 0.01}, .axes = turned({0, 1, 0}, 20)}};
+    set_solid(scene, {SolidBox{.half_size = {0.01, 1, 0.01}, .axes = turned({0, 1, 0}, 20)}});
     World world(scene, {});
     const double start = measure(world).energy;
     for (int i = 0; i < 60; ++i) {

@@ -7,6 +7,7 @@
 #include "softbody/integrate/force_stage.h"
 #include "softbody/mesh/limits.h"
 #include "tests/softbody/helpers.h"
+#include "tests/support/change.h"
 #include "tests/support/world_test_access.h"
 
 namespace softbody {
@@ -16,7 +17,7 @@ namespace {
 Scene pile(int number) {
   Scene scene = test::drop_scene();
   scene.bodies.clear();
-  scene.spheres.clear();
+  tests::remove_solids<SolidSphere>(scene);
   scene.dropper.reset();
   scene.captions.clear();
   for (int i = 0; i < number; ++i) {
@@ -213,11 +214,11 @@ TEST(Drop, WorksInEverySceneAndTwentyComeSideBySideWithoutTouching) {
 TEST(Changes, GravityActsFromTheNextFrameOnAndThePlanFollows) {
   Scene scene = test::lone_body(test::spring_ball());
   World world(scene, {});
-  world.set_gravity({0, 0, 6});
+  change(world, [&](Scene& s) { s.gravity = {0, 0, 6}; });
   EXPECT_TRUE(world.plan().has(Stage::gravity));
   test::run(world, 30);
   EXPECT_NEAR(test::motion(world, 0).velocity.z, 6 * 0.5, 1e-4);
-  world.set_gravity(glm::dvec3(0.0));
+  change(world, [&](Scene& s) { s.gravity = glm::dvec3(0.0); });
   EXPECT_FALSE(world.plan().has(Stage::gravity));
   test::run(world, 30);
   EXPECT_NEAR(test::motion(world, 0).velocity.z, 6 * 0.5, 1e-4);
@@ -227,16 +228,15 @@ TEST(Changes, WakeAllWhoSleep) {
   Scene scene = test::lone_body(test::spring_ball());
   scene.sleep = {0.05, 2};
   const std::pair<const char*, void (*)(World&)> changes[]{
-      {"method", [](World& w) { w.set_method("brute-force"); }},
+      {"method", [](World& w) { change(w, [&](Scene& s) { s.method = "brute-force"; }); }},
       {"integrator", [](World& w) { w.set_integrator({"rk4"}); }},
-      {"collision", [](World& w) { w.set_collision(w.collision(), true); }},
-      {"contact surface", [](World& w) { w.set_contact_surface(ContactSurface::surfaces); }},
-      {"gravity",
-       [](World& w) {
-         w.set_gravity({0, 0, 6});
-       }},
-      {"material", [](World& w) { w.set_material(0, test::gas_ball()); }},
-      {"solids", [](World& w) { w.set_solids(Scene()); }},
+      {"collision", [](World& w) { change(w, [](Scene& s) { s.collision.levels = 5; }); }},
+      {"contact surface", [](World& w) { change(w, [&](Scene& s) { s.contact_surface = ContactSurface::surfaces; }); }},
+      {"gravity", [](World& w) { change(w, [&](Scene& s) {
+                                   s.gravity = {0, 0, 6};
+                                 }); }},
+      {"material", [](World& w) { change(w, [&](Scene& s) { s.materials[0] = test::gas_ball(); }); }},
+      {"solids", [](World& w) { change(w, [](Scene& s) { tests::set_solid(s, {Ground{.height = -9}}); }); }},
   };
   for (const auto& [what, change] : changes) {
     World world(scene, {});
@@ -247,6 +247,58 @@ TEST(Changes, WakeAllWhoSleep) {
   }
 }
 
+TEST(Apply, RefusesTheWholeSceneAndChangesNothing) {
+  struct Refusal {};
+  bool refuse = false;
+  World world(pile(3), {.check_work = [&](const auto&, const auto&, const auto&) {
+                if (refuse) throw Refusal();
+              }});
+  test::run(world, 10);
+  const std::uint64_t hash = world.state_hash();
+  const Scene before = world.scene();
+  const collide::Detector* detector = &world.detector();
+  const auto wrong = [](const auto& edit) {
+    return [&edit](Scene& s) {
+      s.gravity.y = -1;
+      s.materials[0][Material::mass] = 7;
+      s.solids.clear();
+      s.method = "grid-hash";
+      edit(s);
+    };
+  };
+  EXPECT_THROW(change(world, wrong([](Scene& s) { s.collision.tolerance = 11; })), SceneError);
+  EXPECT_THROW(change(world, wrong([](Scene& s) { s.collision.buckets = 0; })), SceneError);
+  EXPECT_THROW(change(world, wrong([](Scene& s) { s.collision.cell_size = glm::vec3(1, 0, 1); })), SceneError);
+  EXPECT_THROW(change(world, wrong([](Scene& s) { s.gravity.x = 1001; })), SceneError);
+  EXPECT_THROW(change(world, wrong([](Scene& s) { s.sleep.frames = 0; })), SceneError);
+  EXPECT_THROW(change(world, wrong([](Scene& s) { s.method = "none"; })), SceneError);
+  EXPECT_THROW(change(world, wrong([](Scene& s) { s.materials[0][contact::friction] = -1; })), SceneError);
+  refuse = true;
+  EXPECT_THROW(change(world, wrong([](Scene&) {})), Refusal);
+  EXPECT_EQ(world.scene(), before);
+  EXPECT_EQ(world.state_hash(), hash);
+  EXPECT_EQ(&world.detector(), detector);
+  change(world, [](Scene& s) { s.gravity.y = -1; });  // no other detection, so nobody asks what it would cost
+  EXPECT_EQ(world.scene().gravity.y, -1);
+}
+
+TEST(Apply, KeepsBodiesAndFurtherMaterialsOfTheWorld) {
+  Scene scene = pile(3);
+  World world(scene, {});
+  change(world, [](Scene& s) { s.materials.emplace_back().name = "later"; });
+  scene.bodies.clear();
+  scene.name = "another";
+  scene.captions = {{3, "text"}};
+  test::run(world, 10);
+  const std::uint64_t hash = world.state_hash();
+  world.apply(scene);
+  EXPECT_EQ(world.scene().bodies.size(), 3u);
+  EXPECT_EQ(world.scene().materials.back().name, "later");
+  EXPECT_EQ(world.scene().name, "another");
+  EXPECT_EQ(world.scene().captions.size(), 1u);
+  EXPECT_EQ(world.state_hash(), hash);
+}
+
 TEST(Changes, AMaterialActsOnTheBodiesThatAreThereAndOnThoseToCome) {
   World world(test::lone_body(test::spring_ball(), {1, 0, 0}), {});
   test::run(world, 3);
@@ -255,7 +307,7 @@ TEST(Changes, AMaterialActsOnTheBodiesThatAreThereAndOnThoseToCome) {
   heavy[Material::mass] = 5;
   heavy[GasPressure::inside] = heavy[GasPressure::outside] = 1000;
   heavy[Material::internal_damping] = 2;
-  world.set_material(0, heavy);
+  change(world, [&](Scene& s) { s.materials[0] = heavy; });
   EXPECT_EQ(positions(world, 0), before);
   EXPECT_TRUE(world.plan().has(stage_of<GasPressure>));
   EXPECT_TRUE(world.plan().has(Stage::internal_damping));
@@ -278,7 +330,7 @@ TEST(Changes, OneOfTwoEqualMaterialsActsOnItsOwnBodiesOnly) {
   for (const std::size_t changed : {0u, 1u}) {
     Material heavy = world.scene().materials[changed];
     heavy[Material::mass] = 3 * mass;
-    world.set_material(changed, heavy);
+    change(world, [&](Scene& s) { s.materials[changed] = heavy; });
     EXPECT_EQ(world.model(0).material[Material::mass], 3 * mass);
     EXPECT_EQ(world.model(1).material[Material::mass], changed == 0 ? mass : 3 * mass);
   }
@@ -289,12 +341,13 @@ TEST(Changes, NoMaterialIsTooStiff) {
   World world(test::lone_body(test::spring_ball()), {.integrator = {"semi-implicit-euler"}});
   const Material soft = world.scene().materials[0];
   Material stiff = soft;
-  stiff[StructuralSprings::stiffness] = 1e12;
-  world.set_material(0, stiff);
+  stiff[StructuralSprings::stiffness] = 1e9;
+  stiff[Material::mass] = 1e-6;
+  change(world, [&](Scene& s) { s.materials[0] = stiff; });
   world.step();
   EXPECT_GT(world.last_step().seconds, 0);
   EXPECT_LT(world.last_step().seconds, world.frame_time());
-  world.set_material(0, soft);
+  change(world, [&](Scene& s) { s.materials[0] = soft; });
   test::run(world, 2);
   EXPECT_EQ(world.last_step().seconds, world.frame_time());
   EXPECT_TRUE(measure(world).finite);
@@ -306,16 +359,15 @@ TEST(Changes, SolidsMoveComeAndGo) {
   ASSERT_TRUE(world.all_at_rest());
   const double low = test::motion(world, 0).centre.y;
   Scene solids = world.scene();
-  solids.ground->height = 0.2;
-  world.set_solids(solids);
+  tests::shape_of<Ground>(solids).height = 0.2;
+  world.apply(solids);
   test::run(world, 200);
   EXPECT_NEAR(test::motion(world, 0).centre.y, low + 0.2, 0.02);
   EXPECT_LT(measure(world).max_speed, 0.1);  // lifted, not thrown
-  solids.ground.reset();
-  solids.spheres.push_back({.centre = {9, 0, 0}});
-  world.set_solids(solids);
-  EXPECT_FALSE(world.plan().has(Stage::ground));
-  EXPECT_TRUE(world.plan().has(Stage::solid_spheres));
+  tests::remove_solids<Ground>(solids);
+  tests::add_solid(solids, {SolidSphere{.centre = {9, 0, 0}}});
+  world.apply(solids);
+  EXPECT_EQ(world.plan().shapes, std::vector{&SolidSphere::traits});
   test::run(world, 60);
   EXPECT_LT(test::motion(world, 0).centre.y, low - 4);
 }
@@ -367,11 +419,11 @@ std::uint64_t hash_after_much(int threads) {
   test::run(world, 10);
   world.grab({});
   world.remove(2);
-  world.set_material(0, material);
-  world.set_gravity({1, -5, 0});
+  change(world, [&](Scene& s) { s.materials[0] = material; });
+  change(world, [&](Scene& s) { s.gravity = {1, -5, 0}; });
   test::run(world, 20);
-  solids.spheres.push_back({.centre = {0, 0.5, 0}, .radius = 0.6});
-  world.set_solids(solids);
+  tests::add_solid(solids, {SolidSphere{.centre = {0, 0.5, 0}, .radius = 0.6}});
+  change(world, [&](Scene& s) { s.solids = solids.solids; });
   test::run(world, 20);
   return world.state_hash();
 }

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/softbody/helpers.h"
+#include "tests/support/change.h"
 
 namespace softbody::test {
 namespace {
@@ -63,10 +64,8 @@ TEST(World, TheContactsAreThoseOfThePositionsThatItShows) {
   while (world.detection().contacts.size() < 20 && world.frame() < 800);
   const auto seen = world.detection().contacts;
   ASSERT_FALSE(seen.empty());
-  world.set_method(world.method().key);
-  EXPECT_EQ(world.detection().contacts, seen);
   const std::uint64_t hash = world.state_hash();
-  world.set_method("brute-force");
+  change(world, [&](Scene& s) { s.method = "brute-force"; });
   EXPECT_EQ(world.detection().contacts, seen);
   EXPECT_EQ(world.state_hash(), hash) << "looking moves nothing";
 }
@@ -89,20 +88,16 @@ TEST(World, NewSettingsAreFollowedAtOnce) {
   World world(drop_scene(), {});
   do world.step();
   while (world.detection().contacts.size() < 20 && world.frame() < 800);
-  EXPECT_TRUE(world.scene().default_cell_size);
-  const glm::vec3 usual = world.collision().cell_size;
-  collide::Settings s = world.collision();
+  EXPECT_FALSE(world.scene().collision.cell_size);
+  const glm::vec3 usual = *world.collision().cell_size;
   const std::size_t before = world.detection().contacts.size();
-  s.tolerance = 0.2f;
-  s.levels = 6;
-  world.set_collision(s, true);
+  change(world, [&](Scene& s) { s.collision.tolerance = 0.2f, s.collision.levels = 6; });
   EXPECT_GT(world.detection().contacts.size(), before);
-  EXPECT_LT(world.collision().cell_size.x, usual.x) << "the default follows the levels";
-  s.cell_size = glm::vec3(0.3f);
-  world.set_collision(s, false);
-  EXPECT_FALSE(world.scene().default_cell_size);
+  EXPECT_LT(world.collision().cell_size->x, usual.x) << "the default follows the levels";
+  change(world, [&](Scene& s) { s.collision.cell_size = glm::vec3(0.3f); });
+  EXPECT_TRUE(world.scene().collision.cell_size);
   EXPECT_EQ(world.collision().cell_size, glm::vec3(0.3f));
-  world.set_method("grid-hash");
+  change(world, [&](Scene& s) { s.method = "grid-hash"; });
   EXPECT_EQ(world.method().key, "grid-hash");
 }
 

@@ -136,7 +136,7 @@ Times measure(World& world, const softbody::Snapshot& start, FrameFacts& facts) 
   std::vector<softbody::BodyId> body;  // of each vertex
   for (softbody::BodyId id = 0; id < world.bodies().count(); ++id) body.insert(body.end(), world.bodies().size(id), id);
   StopWatch watch;
-  s.solver.set_contacts({world.bodies(), body, world.detection().contacts}, WorldTestAccess::penalty_thickness(world));
+  s.solver.set_contacts({world.bodies(), body, world.detection().contacts, world.collision().tolerance}, seconds);
   watch.add(pair_setup);
   s.begin_frame(seconds);
   s.penalty_energy();

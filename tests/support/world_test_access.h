@@ -24,7 +24,7 @@ struct WorldTestAccess {
     return sum;
   }
   /// m, of the penalty force: grows slowly towards the tolerance.
-  static float penalty_thickness(const World& world) { return world.parts_->penalty_thickness; }
+  static float penalty_thickness(const World& world) { return world.parts_->solver.penalty_contact().layer.thickness; }
 };
 
 /// The parts of a solver with which a benchmark takes a frame by itself, stage by stage.

@@ -189,8 +189,7 @@ constexpr double ball_radius = 0.5, gap = 0.3;  // m
 softbody::Scene empty_scene(const std::string& key) {
   softbody::Scene scene = softbody::find_scene("A", files::scene_folder());
   scene.gravity = glm::dvec3(0.0);
-  scene.ground.reset();
-  scene.spheres.clear();
+  scene.solids.clear();
   scene.bodies.clear();
   scene.key = key;
   return scene;
@@ -217,8 +216,9 @@ softbody::Scene at_sphere(double speed) {
 
 softbody::Scene at_solid(double speed) {
   softbody::Scene scene = empty_scene("solid");
-  scene.spheres.emplace_back();
-  add_ball(scene, scene.spheres.front().radius, speed);
+  const softbody::SolidSphere sphere;
+  scene.solids = {{sphere}};
+  add_ball(scene, sphere.radius, speed);
   return scene;
 }
 

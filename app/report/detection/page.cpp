@@ -21,7 +21,7 @@ constexpr std::array coverage_names{"exact", "covered", "exceeded"};  // by valu
 TableRow row_of(std::string_view part, const SceneResult& scene, const StateResult& state, const compare::SweepRow& r) {
   const compare::Configuration& c = r.configuration;
   const collide::Method& method = method_of(c);
-  const glm::vec3 cell = c.settings.cell_size;
+  const glm::vec3 cell = *c.settings.cell_size;
   const bool run = r.not_run.empty(), known = state.sweep.reference.has_value(), scored = run && known;
   TableRow row{{"part", part},
                {"scene", scene.scene},

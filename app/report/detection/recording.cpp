@@ -105,7 +105,7 @@ Recording record_sequence(const ReportOptions& options) {
   for (const std::size_t frame : frames) recording.states.push_back(state(frame));
   const RecordedState begin = state(0);
   recording.configurations = compare::sweep_configurations(
-      settings, [&](int levels) { return collide::default_cell_size(begin.view(), levels, settings.tolerance); });
+      settings, [&](int levels) { return collide::automatic_cell_size(begin.view(), levels, settings.tolerance); });
   return recording;
 }
 

@@ -44,9 +44,9 @@ struct Fall {
   double solve_ms = 0;
 };
 
-Fall fall(const softbody::Scene& scene) {
-  softbody::World world(scene, {});
-  world.set_method("sorted-grid");
+Fall fall(softbody::Scene scene) {
+  scene.method = "sorted-grid";
+  softbody::World world(std::move(scene), {});
   Fall done;
   for (int frame = 1; frame <= fall_frames; ++frame) {
     world.step();

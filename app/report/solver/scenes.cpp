@@ -38,7 +38,7 @@ SolverScene on_the_ground() {
   const softbody::World world(s.scene, {.integrator = one_step()});
   const softbody::Particle lowest = particles_of(world, 0)[0];  // an icosphere's extent is that of any corner
   s.scene.gravity = {0, -9.81, 0};
-  s.scene.ground = softbody::Ground{};
+  s.scene.solids = {{softbody::Ground{}}};
   s.scene.bodies[0].position.y = glm::length(lowest.position) + world.model(0).material[Material::thickness] + 1e-3;
   return s;
 }
@@ -62,7 +62,8 @@ SolverScene cloth() {
   s.scene = lone_scene(m);
   s.scene.bodies[0].mesh = {.kind = "grid", .columns = 16, .rows = 16, .width = 1.2, .depth = 1.2};
   s.scene.gravity = {0, -9.81, 0};
-  s.scene.capsules.push_back({.from = {-100, -0.24, 0.1}, .to = {100, -0.24, 0.1}, .radius = 0.2, .friction = 0.3});
+  const softbody::SolidCapsule bar{.from = {-100, -0.24, 0.1}, .to = {100, -0.24, 0.1}, .radius = 0.2};
+  s.scene.solids = {{.shape = bar, .friction = 0.3}};
   return s;
 }
 
@@ -108,7 +109,7 @@ SolverScene four_balls() {
   const double radius = softbody::World(s.scene, {.integrator = one_step()}).model(0).radius;
   s.promised = 0.01 / radius;  // a centimetre
   s.scene.gravity = {0, -9.81, 0};
-  s.scene.ground = softbody::Ground{};
+  s.scene.solids = {{softbody::Ground{}}};
   const double apart = 2 * radius + 0.1, height = radius + 0.1, up = apart * std::sqrt(2.0 / 3);
   const double across = apart / std::sqrt(3.0);  // from the middle of three
   s.scene.bodies.resize(4, s.scene.bodies[0]);

@@ -70,7 +70,7 @@ double sag(softbody::Scene scene) {
   double lowest = 0;
   for (const softbody::Particle& p : free) lowest = std::min(lowest, p.position.y);
   scene.gravity = {0, -9.81, 0};
-  scene.ground = softbody::Ground{};
+  scene.solids = {{softbody::Ground{}}};
   scene.materials[0][Material::internal_damping] = 10;  // it is to come to rest
   scene.bodies[0].position.y = 0.01 - lowest;
   World world(std::move(scene), {.frame_time = watched.frame_time});

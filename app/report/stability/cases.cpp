@@ -66,7 +66,7 @@ StabilityScene far_away(double k) {
 StabilityScene over_ground(double k, double height) {
   StabilityScene s = lone(k);
   s.scene.gravity = {0, -g, 0};
-  s.scene.ground = softbody::Ground{};
+  s.scene.solids = {{softbody::Ground{}}};
   s.scene.bodies[0].position = {0, height, 0};
   return s;
 }
@@ -116,7 +116,7 @@ StabilityScene tiny_mass(double k) {
 template <int speed>
 StabilityScene impact(double k) {
   StabilityScene s = lone(k);
-  s.scene.boxes.push_back({.centre = {0, -0.05, 0}, .half_size = {1e3, 0.05, 1e3}});
+  s.scene.solids = {{softbody::SolidBox{.centre = {0, -0.05, 0}, .half_size = {1e3, 0.05, 1e3}}}};
   s.scene.bodies[0].position = {0, inflated(k) + 0.3, 0};
   s.scene.bodies[0].velocity = {0, -speed, 0};
   return s;

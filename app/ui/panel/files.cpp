@@ -212,7 +212,7 @@ void draw_files(Widgets& w, Session& session, UiState& ui) {
   if (has_solver) draw_mesh_settings(w, ui.import);
   softbody::Scene used = session.scenes.with_added_bodies();
   used.view = ui.view;
-  const bool saved = session.simulation.loaded.file.reproduces(used);
+  const bool saved = session::options_make(used, session.simulation.loaded.scene);
   if (has_solver) draw_save(w, session, ui, saved);
   draw_command(w, session, used, saved);
 }

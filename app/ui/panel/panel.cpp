@@ -104,7 +104,10 @@ void draw_plan(Widgets& w, Session& session, UiState&) {
   const softbody::World& world = *session.simulated();
   const std::vector<softbody::Stage> as_forces = world.plan().unprojected(world.integrator_choice().integrator());
   for (const softbody::Stage stage : world.plan().stages) {
-    const std::string key(softbody::stage_key(stage));
+    std::string key(softbody::stage_key(stage));
+    if (stage == softbody::Stage::solids)
+      for (const softbody::ShapeTraits* shape : world.plan().shapes)
+        key.append(shape == world.plan().shapes.front() ? ": " : ", ").append(shape->name);
     const bool as_force = std::ranges::find(as_forces, stage) != as_forces.end();
     ImGui::BulletText(as_force ? "%s, as a force" : "%s", key.c_str());
     if (as_force) w.register_item(key.c_str(), "XPBD moves no particles to where it has them.");

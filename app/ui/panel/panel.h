@@ -10,15 +10,13 @@ namespace app::ui {
 
 inline constexpr float panel_width = 330;  // design pixels
 
-// Ends of the sliders, unless the scene is far smaller or larger; typed values are clamped to them too.
-inline constexpr float min_tolerance = 0.005f, max_tolerance = 0.5f;  // m
-inline constexpr float min_cell = 0.02f, max_cell = 5.0f;             // m
-
 /// Draws the panel over `area`, which is `panel_width` wide. `opaque`: as in begin_dock(). Call it between
 /// begin_frame() and end_frame() of the Gui.
 void draw_panel(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area, bool opaque);
 
 // The parts of the panel. Each draws into the current window.
+/// Draws the values of the scene that have a slider in their rows: those of detection, or the others.
+void draw_values(Widgets& widgets, Session& session, const UiState& ui, bool of_detection);
 void draw_detection(Widgets& widgets, Session& session, UiState& ui);
 void draw_bodies(Widgets& widgets, Session& session, UiState& ui);
 void draw_world(Widgets& widgets, Session& session, UiState& ui);

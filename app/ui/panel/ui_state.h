@@ -56,10 +56,11 @@ struct UiState {
   void toggle(LowerView part) { lower = lower == part ? LowerView::none : part; }
   void set_story(bool on) { story = story_at_start = on; }
   session::Import import;
-  std::string save_as = "scene.toml";   // the file that the scene is saved to ...
-  session::FieldNotice save_problem;    // ... why it was not written ...
-  session::FieldNotice save_question;   // ... and what the user must answer first
-  std::size_t material = 0, solid = 0;  // whose values the panel shows
+  std::string save_as = "scene.toml";  // the file that the scene is saved to ...
+  session::FieldNotice save_problem;   // ... why it was not written ...
+  session::FieldNotice save_question;  // ... and what the user must answer first
+  std::size_t material = 0;            // whose values the panel shows
+  std::optional<std::size_t> solid;    // the same; nullopt: those of the first in its list
 };
 
 }  // namespace app::ui

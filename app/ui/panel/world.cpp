@@ -3,21 +3,13 @@
 #include <algorithm>
 #include <cassert>
 
-#include <glm/geometric.hpp>
+#include <fmt/core.h>
 
 #include "app/ui/panel/panel.h"
 #include "softbody/forces/material_keys.h"
 
 namespace app::ui {
 namespace {
-
-void draw_gravity(Widgets& w, Session& session) {
-  double strength = glm::length(session.world().scene().gravity);
-  w.row_label("Gravity", w.px(label_column));
-  if (w.slider("Gravity", strength, 0, 30, "%.2f m/s\u00b2",
-               "Acceleration in the direction of the scene. On Earth it is 9.81.", false))
-    session.settings.set_gravity(strength);
-}
 
 /// Draws a list of `count` items (at least one) and returns the chosen index.
 template <class Name>
@@ -31,6 +23,11 @@ std::size_t choose(Widgets& w, const char* label, const char* tooltip, std::size
     if (w.combo_item(name(i).c_str(), i == chosen, nullptr)) chosen = i;
   ImGui::EndCombo();
   return chosen;
+}
+
+void set_material(Session& session, std::size_t index, std::string_view what, const softbody::Material& material) {
+  session.simulation.change_scene(fmt::format("{} of {}", what, material.name),
+                                  [&](softbody::Scene& scene) { scene.materials[index] = material; });
 }
 
 /// Offers the presets for a material of the scene, which keeps its name.
@@ -52,7 +49,7 @@ void draw_preset(Widgets& w, Session& session, std::size_t index) {
   for (const softbody::Material& preset : presets)
     if (w.combo_item(preset.name.c_str(), renamed(preset) == now, nullptr)) chosen = renamed(preset);
   ImGui::EndCombo();
-  if (chosen != now) session.settings.set_material(index, chosen);
+  set_material(session, index, "Preset", chosen);
 }
 
 void draw_material(Widgets& w, Session& session, UiState& ui) {
@@ -71,83 +68,77 @@ void draw_material(Widgets& w, Session& session, UiState& ui) {
                   s.logarithmic))
       continue;
     changed[*key] = shown * s.unit;
-    session.settings.set_material(ui.material, changed);
+    set_material(session, ui.material, s.text, changed);
   }
 }
 
-constexpr float max_coordinate = 20, min_size = 0.02f, max_size = 10;  // m
+/// Draws the widgets of a shape's values; a value without a widget stays as it is. A shape is moved by its first place.
+struct ShapeWidgets {
+  Widgets& w;
+  std::optional<glm::dvec3> way{};
+  static constexpr float min_size = 0.02f, max_size = 10, max_coordinate = session::max_solid_coordinate;  // m
 
-bool drag_position(Widgets& w, glm::dvec3& position) {
-  w.row_label("Position", w.px(label_column));
-  return w.drag("Solid position", position, -max_coordinate, max_coordinate, "x, y and z in metres.");
-}
-
-bool slide_radius(Widgets& w, double& radius) {
-  w.row_label("Radius", w.px(label_column));
-  return w.slider("Solid radius", radius, min_size, max_size, "%.2f m", "Radius of the solid.", true);
-}
-
-// These draw where a solid is and how large; true if that changed.
-bool draw_shape(Widgets& w, softbody::Ground& ground) {
-  w.row_label("Height", w.px(label_column));
-  return w.slider("Ground height", ground.height, -3, 3, "%.2f m", "Height of the ground.", false);
-}
-bool draw_shape(Widgets& w, softbody::SolidSphere& s) {
-  const bool moved = drag_position(w, s.centre);
-  return slide_radius(w, s.radius) || moved;
-}
-bool draw_shape(Widgets& w, softbody::SolidPlane& p) { return drag_position(w, p.point); }
-bool draw_shape(Widgets& w, softbody::SolidBox& b) {
-  glm::dvec3 size = 2.0 * b.half_size;
-  const bool moved = drag_position(w, b.centre);
-  w.row_label("Size", w.px(label_column));
-  const bool resized =
-      w.drag("Solid size", size, min_size, max_coordinate, "Size along the axes of the box, in metres.");
-  if (resized) b.half_size = 0.5 * size;
-  return moved || resized;
-}
-bool draw_shape(Widgets& w, softbody::SolidCapsule& c) {
-  glm::dvec3 from = c.from;
-  const bool moved = drag_position(w, from);
-  c.to += from - c.from;
-  c.from = from;
-  return slide_radius(w, c.radius) || moved;
-}
-
-template <class Solid>
-bool draw_solid(Widgets& w, Solid& solid) {
-  bool changed = draw_shape(w, solid);
-  const auto slide = [&](const char* text, const char* label, double& value, double max, const char* tooltip) {
-    w.row_label(text, w.px(label_column));
-    changed |= w.slider(label, value, 0, max, "%.2f", tooltip, false);
-  };
-  slide("Friction", "Solid friction", solid.friction, 2, "Coefficient of friction.");
-  slide("Restitution", "Solid restitution", solid.restitution, 1,
-        "Bounce of bodies off the solid. At 0 contact keeps the energy that it takes in an impact, at 1 it gives all "
-        "back.");
-  return changed;
-}
+  void operator()(const char*, softbody::solid::Place p) {
+    if (way) {
+      p.value += *way;
+      return;
+    }
+    const glm::dvec3 before = p.value;
+    w.row_label("Position", w.px(label_column));
+    w.drag("Solid position", p.value, -max_coordinate, max_coordinate, "x, y and z in metres.");
+    way = p.value - before;
+  }
+  void operator()(const char* key, softbody::solid::Length l) {
+    std::string text(key);
+    const std::string label = "Solid " + text;
+    text[0] = static_cast<char>(std::toupper(key[0]));
+    w.row_label(text.c_str(), w.px(label_column));
+    w.slider(label.c_str(), l.value, min_size, max_size, "%.2f m", (text + " of the solid.").c_str(), true);
+  }
+  void operator()(const char*, softbody::solid::Height h) {
+    w.row_label("Height", w.px(label_column));
+    w.slider("Ground height", h.value, -3, 3, "%.2f m", "Height of the ground.", false);
+  }
+  void operator()(const char*, softbody::solid::HalfSize s) {
+    glm::dvec3 size = 2.0 * s.value;
+    w.row_label("Size", w.px(label_column));
+    w.drag("Solid size", size, min_size, max_coordinate, "Size along the axes of the box, in metres.");
+    s.value = 0.5 * size;
+  }
+  void operator()(const char*, auto) {}
+};
 
 void draw_solids(Widgets& w, Session& session, UiState& ui) {
-  if (session.settings.solids().empty()) {
+  const session::SolidList& solids = session.settings.solids();
+  if (solids.empty()) {
     ImGui::TextDisabled("The scene has no solids.");
     return;
   }
-  session::SolidList list = session.settings.solids();
-  ui.solid = choose(w, "Solid", "The solid to edit.", ui.solid, list.size(),
-                    [&](std::size_t i) { return session::solid_name(list, i); });
-  session::SolidEntry& entry = list[ui.solid];
-  bool changed = w.checkbox("Enabled###Solid enabled", entry.on, "Bodies pass through a solid that is not enabled.");
-  ImGui::BeginDisabled(!entry.on);
-  changed |= std::visit([&](auto& solid) { return draw_solid(w, solid); }, entry.solid);
+  const std::vector<std::size_t> order = session::listed(solids);
+  const auto shown = static_cast<std::size_t>(std::ranges::find(order, ui.solid.value_or(order[0])) - order.begin());
+  const std::size_t chosen = choose(w, "Solid", "The solid to edit.", shown, order.size(),
+                                    [&](std::size_t i) { return session::solid_name(solids, order[i]); });
+  if (chosen != shown) ui.solid = order[chosen];
+  softbody::Solid solid = solids[order[chosen]];
+  w.checkbox("Enabled###Solid enabled", solid.enabled, "Bodies pass through a solid that is not enabled.");
+  ImGui::BeginDisabled(!solid.enabled);
+  solid.values(ShapeWidgets{w});
+  w.row_label("Friction", w.px(label_column));
+  w.slider("Solid friction", solid.friction, 0, 2, "%.2f", "Coefficient of friction.", false);
+  w.row_label("Restitution", w.px(label_column));
+  w.slider(
+      "Solid restitution", solid.restitution, 0, 1, "%.2f",
+      "Bounce of bodies off the solid. At 0 contact keeps the energy that it takes in an impact, at 1 it gives all "
+      "back.",
+      false);
   ImGui::EndDisabled();
-  if (changed) session.settings.set_solids(list);
+  session.settings.set_solid(order[chosen], solid);
 }
 
 }  // namespace
 
 void draw_world(Widgets& w, Session& session, UiState& ui) {
-  draw_gravity(w, session);
+  draw_values(w, session, ui, false);
   ImGui::Separator();
   draw_material(w, session, ui);
   ImGui::Separator();

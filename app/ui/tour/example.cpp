@@ -175,7 +175,7 @@ std::optional<HashedCorner> find_aliased_corner(const TourExample& example, cons
   const auto search = [&](const collide::Range& boxes) {
     for (Index box = boxes.begin; box < boxes.end; ++box)
       for (const HashedCorner& corner : hash_corners(example.structure.boxes[box], hash)) {
-        const float reach = reach_of_aliases(example, corner, settings.cell_size);
+        const float reach = reach_of_aliases(example, corner, *settings.cell_size);
         if (reach >= best_reach) continue;
         best_reach = reach;
         best = corner;
@@ -195,8 +195,8 @@ void add_boxes(const softbody::BodiesInMotion& world, TourExample& example) {
   const Index nearest = example.closest ? example.closest->a : world.bodies().first[example.body];
   example.box = box_of(example.structure, example.body, position(world.positions(), nearest));
   example.corners = hash_corners(example.structure.boxes[example.box], hash);
-  example.corner = best_corner(example, settings.cell_size);
-  if (std::isinf(reach_of_aliases(example, example.corners[example.corner], settings.cell_size)))
+  example.corner = best_corner(example, *settings.cell_size);
+  if (std::isinf(reach_of_aliases(example, example.corners[example.corner], *settings.cell_size)))
     example.aliased_corner = find_aliased_corner(example, settings);
 }
 

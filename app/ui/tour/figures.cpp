@@ -38,7 +38,7 @@ std::vector<TourFigure> hash_terms(const TourContext& v) {
     const auto a = static_cast<std::size_t>(axis);
     const std::int64_t index = corner.cell[a];
     sum += index * settings.primes[a];
-    figures.push_back({fmt::format("{}: floor({:.3f} / {:.3f})", axes[a], corner.at[axis], settings.cell_size[axis]),
+    figures.push_back({fmt::format("{}: floor({:.3f} / {:.3f})", axes[a], corner.at[axis], (*settings.cell_size)[axis]),
                        fmt::format("{} * {}", index, settings.primes[a]),
                        fmt::format("Along {}: the corner over the cell's side, rounded down, times {}prime (§2.2).",
                                    axes[a], axes[a])});
@@ -69,7 +69,7 @@ std::vector<TourFigure> figures_of_body(const TourContext& v) {
 
 std::vector<TourFigure> figures_of_boxes(const TourContext& v) {
   const auto& [lo, hi, body] = v.f.structure.boxes[v.f.boxes.begin];
-  const glm::vec3 side = hi - lo, cell = v.world.collision().cell_size;
+  const glm::vec3 side = hi - lo, cell = *v.world.collision().cell_size;
   const bool fits = glm::min(side, cell) == side;
   const int levels = v.world.collision().levels;
   return {
@@ -152,8 +152,9 @@ std::vector<TourFigure> figures_of_miss(const TourContext& v) {
     if (miss->face)
       figures.push_back(
           {"Cell face between the boxes",
-           fmt::format("{} = {}", "xyz"[miss->face->axis],
-                       metres(static_cast<float>(miss->face->index) * v.world.collision().cell_size[miss->face->axis])),
+           fmt::format(
+               "{} = {}", "xyz"[miss->face->axis],
+               metres(static_cast<float>(miss->face->index) * (*v.world.collision().cell_size)[miss->face->axis])),
            "The corners of one box are in cells below it, those of the other in cells above it.", render::cell_colour});
     else
       figures.push_back({"Skipped cell", cell_text(*miss->skipped),

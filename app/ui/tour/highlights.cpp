@@ -42,7 +42,7 @@ engine::Box clip(engine::Box box, const collide::Aabb& framed) {
 engine::Box add_cell(const TourContext& v, const compare::Cell& cell, const glm::vec3& colour,
                      const collide::Aabb& framed, engine::BoxSet& set) {
   return set.boxes.emplace_back(
-      clip(render::cell_box(cell, v.world.collision().cell_size, glm::vec4(colour, 0.8f)), framed));
+      clip(render::cell_box(cell, *v.world.collision().cell_size, glm::vec4(colour, 0.8f)), framed));
 }
 
 engine::BoxSet cell_outlines() { return outlines(1.25f, 0.06f); }
@@ -65,7 +65,7 @@ void add_contacts(const TourContext& v, const std::vector<collide::Contact>& con
 /// Adds the face between the cells of the two corners, or the skipped cell.
 void add_barrier(const TourContext& v, const ExplainedMiss& miss, const collide::Aabb& framed,
                  render::Highlight& highlight) {
-  const glm::vec3& size = v.world.collision().cell_size;
+  const glm::vec3& size = *v.world.collision().cell_size;
   const glm::vec4 colour(render::cell_colour, 1.0f);
   engine::Box barrier;
   if (miss.face) {

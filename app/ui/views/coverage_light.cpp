@@ -86,7 +86,7 @@ void draw_coverage_light(Widgets& w, const Session& session, bool& explained) {
        {collide::Coverage::exact, collide::Coverage::covered, collide::Coverage::exceeded})
     draw_meaning(w, each, each == now);
   w.wrapped_text("Coverage explained",
-                 box_against_cell(session.inspector.paper_geometry(), session.world().collision().cell_size));
+                 box_against_cell(session.inspector.paper_geometry(), *session.world().collision().cell_size));
   ImGui::Separator();
 }
 

@@ -26,7 +26,7 @@ std::string configuration_text(const compare::Configuration& c) {
 
 std::string point_tooltip(const compare::SweepRow& row) {
   std::string text = configuration_text(row.configuration);
-  const glm::vec3& cell = row.configuration.settings.cell_size;
+  const glm::vec3& cell = *row.configuration.settings.cell_size;
   if (collide::method_table()[row.configuration.method].uses_hash) {
     text += fmt::format("\nCells of {:.3g} x {:.3g} x {:.3g} m", cell.x, cell.y, cell.z);
   }
@@ -65,18 +65,14 @@ bool in_use(const compare::SweepRow& row, const softbody::BodiesInMotion& world)
 
 /// Applies the settings that a sweep varies; the others keep their present values.
 void apply(const compare::Configuration& c, Session& session) {
-  const collide::Method& method = collide::method_table()[c.method];
-  collide::Settings settings = session.world().collision();
-  bool automatic = session.world().scene().default_cell_size;
-  if (method.uses_levels) settings.levels = c.settings.levels;
-  if (method.uses_hash) {
-    settings.buckets = c.settings.buckets;
-    settings.cell_size = c.settings.cell_size;
-    automatic = c.cell == 1;
-  }
-  session.settings.set_method(method.key);
-  session.settings.set_collision(settings, automatic);
-  session.settings.set_method(method.key);  // with the settings before, the method may have been refused as too slow
+  session.simulation.change_scene("Settings of the sweep", [&](softbody::Scene& scene) {
+    const collide::Method& method = collide::method_table()[c.method];
+    scene.method = method.key;
+    if (method.uses_levels) scene.collision.levels = c.settings.levels;
+    if (!method.uses_hash) return;
+    scene.collision.buckets = c.settings.buckets;
+    scene.collision.cell_size = c.cell == 1 ? std::nullopt : c.settings.cell_size;
+  });
 }
 
 std::string count_text(const session::SweepState& state) {

@@ -16,7 +16,7 @@ namespace {
 SurfaceAt<double> surface_from(const SolidArguments& s, std::size_t lane, const glm::dvec3& x) {
   const glm::dvec3 from = x - glm::dvec3(s.place[lane]);
   const body::Vec<double> d{from.x, from.y, from.z};
-  return std::visit([&](const auto& shape) { return body::surface_at(shape, d); }, s.shape);
+  return body::surface_at(s.shape, d);
 }
 
 /// Returns the point that a row keeps off a solid, in a lane of a step.

@@ -101,13 +101,15 @@ class Bullet final : public Stepper {
   }
 
   void add_solids(const softbody::Scene& scene) {
-    for (const softbody::SolidSphere& s : scene.spheres)
-      add_solid(std::make_unique<btSphereShape>(btScalar(s.radius)), vector(s.centre), s.friction);
-    if (!scene.ground) return;
     // Soft bodies find their distance to convex shapes only, which Bullet's plane is none of.
     constexpr btScalar side = 100, thickness = 10;  // m, half of it
-    add_solid(std::make_unique<btBoxShape>(btVector3(side, thickness, side)),
-              btVector3(0, btScalar(scene.ground->height) - thickness, 0), scene.ground->friction);
+    for (const softbody::Solid& solid : scene.solids) {
+      if (const auto* s = std::get_if<softbody::SolidSphere>(&solid.shape))
+        add_solid(std::make_unique<btSphereShape>(btScalar(s->radius)), vector(s->centre), solid.friction);
+      if (const auto* ground = std::get_if<softbody::Ground>(&solid.shape))
+        add_solid(std::make_unique<btBoxShape>(btVector3(side, thickness, side)),
+                  btVector3(0, btScalar(ground->height) - thickness, 0), solid.friction);
+    }
   }
 
   void add_links(btSoftBody& body, const std::vector<softbody::Spring>& springs, double particle_mass) {

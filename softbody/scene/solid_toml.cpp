@@ -1,0 +1,123 @@
+#include "softbody/scene/solid_toml.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace softbody {
+namespace {
+
+constexpr double max_coordinate = 1e6;  // m, of positions
+constexpr double tiny = 1e-9;           // m, the smallest length
+
+constexpr double unit_error = 1e-14;  // of the square of a length that was made 1, at most
+
+/// Reads a direction of any length but zero and returns its unit vector. A unit vector is returned unchanged, to the
+/// bit, so that saved scenes are equal.
+glm::dvec3 read_direction(Table& table, const std::string& key, const glm::dvec3& fallback) {
+  const glm::dvec3 v = table.vector(key, fallback, -max_coordinate, max_coordinate);
+  if (glm::length(v) < tiny) table.fail(key, "must have a length, e.g. [0, 1, 0]");
+  return std::abs(glm::dot(v, v) - 1) < unit_error ? v : glm::normalize(v);
+}
+
+/// Reads a rotation as a matrix, column by column. Saved scenes use this form, since it is exact.
+glm::dmat3 read_axes(Table table) {
+  const glm::dmat3 axes = table.matrix("axes");
+  table.close();
+  const glm::dmat3 error = glm::transpose(axes) * axes - glm::dmat3(1.0);
+  for (int k = 0; k < 3; ++k)
+    if (glm::length(error[k]) > 1e-9 || glm::determinant(axes) < 0)
+      table.fail("axes", "must be three directions of length 1, each at right angles to the others, right-handed");
+  return axes;
+}
+
+/// Returns the matrix that rotates by `degrees` about `axis`, counter-clockwise as seen from its tip (Rodrigues). Sine
+/// and cosine are rounded, so that quarter turns are exact and processors agree in the last digits.
+glm::dmat3 read_rotation(Table table) {
+  if (table.has("axes")) return read_axes(std::move(table));
+  const glm::dvec3 axis = read_direction(table, "axis", {0, 1, 0});
+  const double angle = glm::radians(table.number("degrees", 0, -360, 360));
+  table.close();
+  constexpr double digits = 1e12;
+  const double s = std::round(std::sin(angle) * digits) / digits, c = std::round(std::cos(angle) * digits) / digits;
+  glm::dmat3 columns;
+  for (int k = 0; k < 3; ++k) {
+    glm::dvec3 e(0.0);
+    e[k] = 1;
+    columns[k] = c * e + s * glm::cross(axis, e) + (1 - c) * glm::dot(axis, e) * axis;
+  }
+  return columns;
+}
+
+/// Reads the values of a shape. A key that is missing leaves its value as it is.
+struct ShapeReader {
+  Table& table;
+  void operator()(const std::string& key, solid::Place p) const {
+    p.value = table.vector(key, p.value, -max_coordinate, max_coordinate);
+  }
+  void operator()(const std::string& key, solid::Length l) const {
+    l.value = table.number(key, l.value, tiny, max_coordinate);
+  }
+  void operator()(const std::string& key, solid::Height h) const {
+    h.value = table.number(key, h.value, -max_coordinate, max_coordinate);
+  }
+  void operator()(const std::string& key, solid::HalfSize s) const {
+    s.value = 0.5 * table.vector(key, 2.0 * s.value, tiny, max_coordinate);
+  }
+  void operator()(const std::string& key, solid::Direction d) const { d.value = read_direction(table, key, d.value); }
+  void operator()(const std::string& key, solid::Axes a) const { a.value = read_rotation(table.child(key)); }
+};
+
+struct ShapeWriter {
+  TomlLines& out;
+  void operator()(std::string_view key, auto v) const { out.add(key, v.value); }
+  void operator()(std::string_view key, solid::HalfSize s) const { out.add(key, 2.0 * s.value); }
+  void operator()(std::string_view key, solid::Axes a) const {
+    if (a.value != glm::dmat3(1.0)) out.add(key, TomlInline().add("axes", a.value));
+  }
+};
+
+template <class Shape>
+void read_all(Table& root, std::vector<Solid>& solids) {
+  const std::string key(Shape::traits.key);
+  const auto read = [&solids](Table table) {
+    Solid& s = solids.emplace_back(Solid{Shape{}});
+    s.values(ShapeReader{table});
+    s.friction = table.number("friction", s.friction, 0, 10);
+    s.restitution = table.number("restitution", s.restitution, 0, 1);
+    s.enabled = table.boolean("enabled", s.enabled);
+    table.close();
+  };
+  if (!Shape::traits.single)
+    for (const Table& table : root.children(key)) read(table);
+  else if (root.has(key))
+    read(root.child(key));
+}
+
+template <class... Shapes>
+void read_each(Table& root, std::vector<Solid>& solids, const std::variant<Shapes...>&) {
+  (read_all<Shapes>(root, solids), ...);
+}
+
+}  // namespace
+
+std::vector<Solid> read_solids(Table& root) {
+  std::vector<Solid> solids;
+  read_each(root, solids, Solid::Shape());
+  return solids;
+}
+
+void write_solids(TomlLines& out, std::vector<Solid> solids) {
+  for (Solid& s : solids) {
+    const auto& [key, name, friction, half_space, single] = s.traits();
+    std::string heading(single ? "[" : "[[");
+    out.heading(heading.append(key).append(single ? "]" : "]]"));
+    s.values(ShapeWriter{out});
+    out.add("friction", s.friction).add("restitution", s.restitution);
+    if (!s.enabled) out.add("enabled", false);
+  }
+}
+
+}  // namespace softbody
