@@ -9,8 +9,9 @@ namespace app::session {
 using softbody::Scene;
 
 void SettingControls::set_solid(std::size_t index, const softbody::Solid& solid) {
-  if (solid == solids()[index]) return;
-  simulation_.change_scene("change of " + solid_name(solids(), index),
+  const std::vector<softbody::Solid>& solids = simulation_.world().scene().solids;
+  if (solid == solids[index]) return;
+  simulation_.change_scene("change of " + solid_name(solids, index),
                            [&](Scene& scene) { scene.solids[index] = solid; });
 }
 

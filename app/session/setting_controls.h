@@ -12,7 +12,7 @@ class SettingControls {
  public:
   explicit SettingControls(Simulation& simulation) : simulation_(simulation) {}
 
-  const SolidList& solids() const { return simulation_.world().scene().solids; }
+  /// index: in the scene.
   void set_solid(std::size_t index, const softbody::Solid& solid);
   void set_integrator(const softbody::IntegratorChoice& choice);
   bool set_method(std::string_view key);

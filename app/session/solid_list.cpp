@@ -25,7 +25,7 @@ struct Mover {
 
 }  // namespace
 
-std::vector<std::size_t> listed(const SolidList& solids) {
+std::vector<std::size_t> listed(const std::vector<softbody::Solid>& solids) {
   std::vector<std::size_t> order(solids.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(
@@ -38,7 +38,7 @@ softbody::Solid moved(softbody::Solid solid, const glm::dvec3& by) {
   return solid;
 }
 
-std::string solid_name(const SolidList& solids, std::size_t index) {
+std::string solid_name(const std::vector<softbody::Solid>& solids, std::size_t index) {
   assert(index < solids.size());
   std::string name(solids[index].traits().name);
   const auto same = [&](const softbody::Solid& one) { return one.traits().name == name; };

@@ -10,12 +10,12 @@ namespace {
 constexpr float max_click_length = 5;  // pixels: a longer way of the mouse is a drag
 
 struct SolidUnder {
-  std::size_t index;  // of SettingControls::solids()
+  std::size_t index;  // in the scene
   double distance;    // m
 };
 
 /// Returns the first solid that the ray meets, if it can be dragged.
-std::optional<SolidUnder> pick_solid(const engine::Ray& ray, const session::SolidList& solids) {
+std::optional<SolidUnder> pick_solid(const engine::Ray& ray, const std::vector<softbody::Solid>& solids) {
   constexpr double max_distance = 1000;  // m
   SolidUnder nearest{solids.size(), max_distance};
   for (std::size_t i = 0; i < solids.size(); ++i) {
@@ -68,7 +68,7 @@ void SceneMouse::update(const MouseInput& in, Session& session, engine::Camera& 
   const auto something_under = [&] {
     const engine::Ray under = camera.pick_ray(in.at, size);
     return render::pick(under, session.world(), session.simulation.drawn().shown) ||
-           pick_solid(under, session.settings.solids());
+           pick_solid(under, session.world().scene().solids);
   };
   can_drag_ =
       drag_ == Drag::body || drag_ == Drag::solid || (drag_ == Drag::none && in.over_scene && something_under());
@@ -88,10 +88,10 @@ void SceneMouse::press(const MouseInput& in, Session& session, engine::Camera& c
   const auto under = render::pick(ray, session.world(), session.simulation.drawn().shown);
   pressed_on_body_ = under.has_value();
   if (!under) {
-    if (const auto solid = pick_solid(ray, session.settings.solids())) {
+    if (const auto solid = pick_solid(ray, session.world().scene().solids)) {
       drag_ = Drag::solid;
       pressed_solid_ = solid->index;
-      held_solid_ = {solid->index, session.settings.solids()[solid->index],
+      held_solid_ = {solid->index, session.world().scene().solids[solid->index],
                      glm::dvec3(ray.origin) + solid->distance * glm::dvec3(ray.direction),
                      session.simulation.world_number()};
     }

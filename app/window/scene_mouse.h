@@ -37,7 +37,7 @@ class SceneMouse {
 
   /// True if a body or a solid that can be dragged is under the mouse, or is dragged.
   bool can_drag() const { return can_drag_; }
-  /// Returns the solid that was pressed since the last call, an index of SettingControls::solids().
+  /// Returns the solid that was pressed since the last call, its index in the scene.
   std::optional<std::size_t> take_pressed_solid() { return std::exchange(pressed_solid_, std::nullopt); }
   /// Returns the ray from the eye through the mouse, or through the middle if the mouse is not over the scene.
   engine::Ray ray(const engine::Camera& camera, glm::ivec2 size) const;
@@ -45,7 +45,7 @@ class SceneMouse {
  private:
   enum class Drag { none, body, solid, orbit };
   struct HeldSolid {
-    std::size_t index;           // of SettingControls::solids()
+    std::size_t index;           // in the scene
     softbody::Solid solid;       // where it was at the press
     glm::dvec3 point;            // m, where the mouse pressed it
     std::uint64_t world_number;  // of the Simulation

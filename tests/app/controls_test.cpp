@@ -125,8 +125,8 @@ TEST(SettingControls, KeepGravityMaterialAndSolidsOverAResetUntilTheScenesAreRes
   heavy[softbody::Material::mass] = 3;
   simulation.change_scene("Material", [&](softbody::Scene& s) { s.materials[0] = heavy; });
   simulation.change_scene("Gravity", [&](softbody::Scene& s) { s.gravity = {0, -2, 0}; });
-  ASSERT_EQ(controls.solids().size(), 2u);
-  softbody::Solid solid = controls.solids()[0];
+  ASSERT_EQ(simulation.world().scene().solids.size(), 2u);
+  softbody::Solid solid = simulation.world().scene().solids[0];
   solid.enabled = false;
   controls.set_solid(0, solid);
   EXPECT_FALSE(simulation.world().scene().solids[0].enabled);
@@ -134,11 +134,11 @@ TEST(SettingControls, KeepGravityMaterialAndSolidsOverAResetUntilTheScenesAreRes
   EXPECT_EQ(simulation.world().scene().materials[0][softbody::Material::mass], 3);
   EXPECT_EQ(simulation.world().scene().gravity, glm::dvec3(0, -2, 0));
   EXPECT_FALSE(simulation.world().scene().solids[0].enabled);
-  ASSERT_EQ(controls.solids().size(), 2u);
+  ASSERT_EQ(simulation.world().scene().solids.size(), 2u);
   controls.restore_world();
   EXPECT_EQ(simulation.world().scene().materials[0][softbody::Material::mass], 1);
   EXPECT_EQ(simulation.world().scene().gravity, glm::dvec3(0, -9.81, 0));
-  EXPECT_TRUE(controls.solids()[0].enabled);
+  EXPECT_TRUE(simulation.world().scene().solids[0].enabled);
 }
 
 TEST(SettingControls, RefuseSettingsWithAProblem) {
@@ -250,8 +250,8 @@ TEST(MovedSolid, KeepsItsShapeAndItsFirstPlaceWithinTheLimits) {
 
 TEST(SolidList, NamesSolidsApartAndListsThoseWithoutAnEndLast) {
   using namespace softbody;
-  const session::SolidList solids{{SolidSphere()}, {Ground()},   {SolidPlane()},
-                                  {SolidBox()},    {SolidBox()}, {SolidCapsule()}};
+  const std::vector<softbody::Solid> solids{{SolidSphere()}, {Ground()},   {SolidPlane()},
+                                            {SolidBox()},    {SolidBox()}, {SolidCapsule()}};
   std::vector<std::string> names;
   for (const std::size_t i : session::listed(solids)) names.push_back(session::solid_name(solids, i));
   EXPECT_EQ(names, (std::vector<std::string>{"Sphere", "Box 1", "Box 2", "Capsule", "Plane", "Ground"}));

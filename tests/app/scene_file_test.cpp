@@ -117,7 +117,7 @@ TEST(SaveScene, WritesTheSettingsInUse) {
                                   [&](softbody::Scene& s) { s.contact_surface = softbody::ContactSurface::surfaces; });
   collide::Settings settings = session.world().collision();
   settings = {.tolerance = 0.07f, .self_collision = false, .levels = 6, .buckets = 101, .cell_size = glm::vec3(0.4f)};
-  session::SolidList solids = session.settings.solids();
+  std::vector<softbody::Solid> solids = session.world().scene().solids;
   solids[0].enabled = false;
   session.settings.set_solid(0, solids[0]);
   session.simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });

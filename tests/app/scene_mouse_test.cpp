@@ -232,7 +232,7 @@ TEST_F(SolidDrag, MovesEachKindOfSolidInThePlaneThatFacesTheCamera) {
     session.simulation.clock.paused = paused;
     for (std::size_t i = 0; i < middles.size(); ++i) {
       const glm::dvec3 before = place(i);
-      const auto others = session.settings.solids();
+      const auto others = session.world().scene().solids;
       move(pixel_of(camera, middles[i]));
       EXPECT_TRUE(mouse.can_drag());
       button(0, true);
@@ -253,7 +253,8 @@ TEST_F(SolidDrag, MovesEachKindOfSolidInThePlaneThatFacesTheCamera) {
       move(input.at + way);
       EXPECT_EQ(place(i), there);
       EXPECT_EQ(camera.orbit().azimuth, orbit.azimuth);
-      for (std::size_t k = 0; k < others.size(); ++k) EXPECT_EQ(session.settings.solids()[k] == others[k], k != i) << k;
+      for (std::size_t k = 0; k < others.size(); ++k)
+        EXPECT_EQ(session.world().scene().solids[k] == others[k], k != i) << k;
       session.simulation.undo();
       EXPECT_EQ(place(i), before);
       EXPECT_FALSE(session.simulation.can_undo()) << "one step a drag";
@@ -277,7 +278,7 @@ TEST_F(SolidDrag, LeavesTheGroundAndSolidsThatAreSwitchedOff) {
   const auto expect_orbit = [&](const glm::vec3& at) {
     move(pixel_of(camera, at));
     EXPECT_FALSE(mouse.can_drag());
-    const session::SolidList before = session.settings.solids();
+    const std::vector<softbody::Solid> before = session.world().scene().solids;
     const bool could_undo = session.simulation.can_undo();
     const float azimuth = camera.orbit().azimuth;
     button(0, true);
@@ -285,12 +286,12 @@ TEST_F(SolidDrag, LeavesTheGroundAndSolidsThatAreSwitchedOff) {
     button(0, false);
     camera.finish_glide();
     EXPECT_NE(camera.orbit().azimuth, azimuth);
-    EXPECT_TRUE(session.settings.solids() == before);
+    EXPECT_TRUE(session.world().scene().solids == before);
     EXPECT_EQ(session.simulation.can_undo(), could_undo);
     camera = camera_at({0, 3, 0}, 8);
   };
   expect_orbit({0, 0, 1});
-  softbody::Solid solid = session.settings.solids()[0];
+  softbody::Solid solid = session.world().scene().solids[0];
   solid.enabled = false;
   session.settings.set_solid(0, solid);
   expect_orbit(middles[0]);
@@ -298,7 +299,7 @@ TEST_F(SolidDrag, LeavesTheGroundAndSolidsThatAreSwitchedOff) {
 
 TEST_F(SolidDrag, TakesWhatIsInFront) {
   move(body_pixel(1));
-  softbody::Solid sphere = session.settings.solids()[0];
+  softbody::Solid sphere = session.world().scene().solids[0];
   const glm::dvec3 eye(camera.eye()), body = centre(session.world(), 1);
   const auto press_with_sphere_at = [&](double share) {
     sphere.shape = softbody::SolidSphere{.centre = eye + share * (body - eye), .radius = 0.3};

@@ -316,7 +316,7 @@ TEST(SimulationUndo, RevertsSeveralResetsAndKeepsTheirSolids) {
   session::SettingControls controls(simulation);
   std::vector<std::uint64_t> hashes;
   for (int i = 0; i < 3; ++i) {
-    softbody::Solid solid = controls.solids()[0];
+    softbody::Solid solid = simulation.world().scene().solids[0];
     solid.enabled = i % 2;
     controls.set_solid(0, solid);
     for (int k = 0; k < 5 + i; ++k) simulation.advance(tick);
@@ -326,9 +326,9 @@ TEST(SimulationUndo, RevertsSeveralResetsAndKeepsTheirSolids) {
   for (int i = 2; i >= 0; --i) {
     simulation.undo();
     EXPECT_EQ(simulation.simulated()->state_hash(), hashes[static_cast<std::size_t>(i)]);
-    EXPECT_EQ(controls.solids()[0].enabled, i % 2);
+    EXPECT_EQ(simulation.world().scene().solids[0].enabled, i % 2);
     simulation.undo();  // the switch
-    EXPECT_EQ(controls.solids()[0].enabled, i % 2 == 0);
+    EXPECT_EQ(simulation.world().scene().solids[0].enabled, i % 2 == 0);
   }
   simulation.undo();
   EXPECT_EQ(simulation.notice.text(), "Nothing to undo");
@@ -496,8 +496,8 @@ TEST(SimulationUndo, TakesADragOfASolidAsOneChangeAndRestoresIt) {
   session::BodyControls bodies(simulation);
   run(simulation, 5);
   const std::uint64_t before = simulation.simulated()->state_hash();
-  const session::SolidList at_first = controls.solids();
-  session::SolidList solids = at_first;
+  const std::vector<softbody::Solid> at_first = simulation.world().scene().solids;
+  std::vector<softbody::Solid> solids = at_first;
   for (int i = 0; i < 5; ++i) {
     solids[0] = session::moved(solids[0], {0.1, 0, 0});
     controls.set_solid(0, solids[0]);
@@ -512,17 +512,17 @@ TEST(SimulationUndo, TakesADragOfASolidAsOneChangeAndRestoresIt) {
   EXPECT_EQ(simulation.notice.text(), "Undone: change of Sphere");
   EXPECT_FALSE(simulation.can_undo());
   EXPECT_EQ(simulation.simulated()->state_hash(), before);
-  EXPECT_TRUE(controls.solids() == at_first);
+  EXPECT_TRUE(simulation.world().scene().solids == at_first);
   EXPECT_EQ(shape_of<softbody::SolidSphere>(simulation.world().scene()).centre, glm::dvec3(0.0));
   simulation.redo();
   EXPECT_NEAR(shape_of<softbody::SolidSphere>(simulation.world().scene()).centre.x, 0.5, 1e-12);
-  EXPECT_TRUE(controls.solids() == solids);
+  EXPECT_TRUE(simulation.world().scene().solids == solids);
   simulation.reset();
   EXPECT_NEAR(shape_of<softbody::SolidSphere>(simulation.world().scene()).centre.x, 0.5, 1e-12) << "a reset keeps it";
   controls.set_solid(0, at_first[0]);
   bodies.drop();
   simulation.undo();
-  EXPECT_TRUE(controls.solids() == at_first) << "the undo of a drop moves no solid";
+  EXPECT_TRUE(simulation.world().scene().solids == at_first) << "the undo of a drop moves no solid";
 }
 
 TEST(Notice, GoesWithTimeUnlessItIsRenewed) {

@@ -117,7 +117,7 @@ void material(DemoRig& demo, Dice& dice) {
 }
 
 void solids(DemoRig& demo, Dice& dice) {
-  const app::session::SolidList& list = demo.session.settings.solids();
+  const std::vector<softbody::Solid>& list = demo.session.world().scene().solids;
   if (list.empty()) return;
   const std::size_t index = dice.pick(list.size());
   softbody::Solid solid = list[index];

@@ -8,6 +8,15 @@ namespace softbody {
 struct WorldTestAccess {
   static const Solver& solver(const World& world) { return world.parts_->solver; }
   static Solver& solver(World& world) { return world.parts_->solver; }
+  /// Gives bodies a material that may be beyond the limits of a scene.
+  static void set_material(World& world, std::size_t index, const Material& material) {
+    World::Parts& s = *world.parts_;
+    const BodyModelSet before = s.models;
+    s.models.set_material(int(index), material);
+    for (std::size_t i = 0; i < before.all().size(); ++i)
+      if (before.all()[i] != s.models.all()[i]) s.solver.state().replace(before.all()[i], s.models.all()[i]);
+    s.update_plan();
+  }
   /// J, that the penalty pairs of the last frame hold now.
   static double penalty_energy(const World& world) {
     const PenaltyContact& last = solver(world).penalty_contact();

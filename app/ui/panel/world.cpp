@@ -109,7 +109,7 @@ struct ShapeWidgets {
 };
 
 void draw_solids(Widgets& w, Session& session, UiState& ui) {
-  const session::SolidList& solids = session.settings.solids();
+  const std::vector<softbody::Solid>& solids = session.world().scene().solids;
   if (solids.empty()) {
     ImGui::TextDisabled("The scene has no solids.");
     return;
