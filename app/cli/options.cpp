@@ -26,7 +26,7 @@ std::string one_line(std::string text) {
 /// Returns why CLI11 refuses the command line.
 std::string reason(const CLI::ParseError& error) {
   constexpr std::string_view value_of_flag = " was given a disallowed flag override";  // after its bare name
-  constexpr std::string_view no_value = "Could not convert: ";  // NAME = VALUE
+  constexpr std::string_view no_value = "Could not convert: ";                         // NAME = VALUE
   std::string why = one_line(error.what());
   if (why.starts_with(no_value)) return why.substr(no_value.size()) + ": is no number; write e.g. 0.25";
   if (!why.ends_with(value_of_flag)) return why;

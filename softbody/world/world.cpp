@@ -169,7 +169,7 @@ void World::Parts::detect_anew(const World& world, const Scene& next, const Plan
   const auto start = Clock::now();
   std::vector<Detection> found;
   for_each_meshes([&](DetectedMeshes& meshes) {
-    Detection& one = found.emplace_back(another.make());
+    Detection& one = found.emplace_back(Detection{another.make(), {}});
     if (next_plan.has(Stage::detect)) one.detector->detect(meshes.frame(), others, workers, one.result);
   });
   report.detect_ms = ms_since(start);
