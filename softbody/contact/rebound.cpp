@@ -32,7 +32,9 @@ glm::dvec3 rebound(Impact& impact, const glm::dvec3& impulse, double returned, c
   const double little = 0.02 * came;  // what grows by less in a frame does so in a rebound without end, too
   impact.apart = push > 0 ? 0 : impact.apart + float(seconds);
   if (parting < -little && impact.apart > longest_gap) impact = {};  // it has come past, and meets something else next
-  if (parting < -little || (push > 0 && parting > last + little)) return glm::dvec3(0.0);
+  // Two frames, since an implicit step may miss the contact of a body that swings.
+  impact.calm = parting < -little || (push > 0 && (parting > little || parting > last + little)) ? 0 : impact.calm + 1;
+  if (impact.calm < 2) return glm::dvec3(0.0);
   // No faster than it came.
   const double speed = std::min(std::sqrt(parting * parting + 2 * energy / mass), std::max(parting, came));
   impact.given = float(mass / 2 * (speed * speed - parting * parting));

@@ -2,8 +2,8 @@
 // Restitution. A contact stops the particles that come at it, and damps the rebound of the body that they belong to.
 // What energy this takes in an impact is summed. If single particles were thrown back, the springs would turn that into
 // swings and damp them; the body would not leave faster. So the share e^2 of that energy, with the restitution e, is
-// given back to the body as a whole: along the contact's normals, when the two sides part and their speed no longer
-// grows.
+// given back to the body as a whole, along the contact's normals, when for two frames contact has not pushed the two
+// sides apart any more, or they have stopped flat.
 
 #include <vector>
 
@@ -18,7 +18,7 @@ namespace softbody {
 glm::dvec3 rebound(Impact& impact, const glm::dvec3& impulse, double returned, const glm::dvec3& before,
                    const glm::dvec3& after, double mass, double seconds);
 
-/// The impacts of bodies on each other by surface contact.
+/// The impacts of bodies on each other.
 class Rebounds {
  public:
   struct Pair {

@@ -1,6 +1,7 @@
 #include "softbody/forces/penalty_contact.h"
 
 #include <algorithm>
+#include <cassert>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -21,8 +22,7 @@ glm::vec3 between(const PenaltyPair& p, Field<const float> x) {
 
 template <class Real>
 PenaltyLaw<Real> law_of(const PenaltyContact& c, const PenaltyPair& p) {
-  return {Real(p.stiffness), Real(c.layer.thickness), Real(p.friction), Real(c.damper_limit * p.damped_mass),
-          Real(p.loss)};
+  return {Real(p.stiffness), Real(c.layer.thickness), Real(p.friction), Real(c.damper_limit * p.damped_mass)};
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ void PenaltyContact::take(const Share& share, const DetectedContacts& detected, 
     if (!acts(c)) continue;
     pairs.contact[i] = c;
     const BodyId a = pairs.body_a[i] = body(c.a), b = pairs.body_b[i] = body(c.b);
-    pairs.loss[i] = a == b ? 1 : 1 - law::common_restitution(restitution_[a], restitution_[b]);
+    pairs.restitution[i] = a == b ? 0 : law::common_restitution(restitution_[a], restitution_[b]);
     pairs.slot_a[i] = std::uint32_t(state.slot(a, c.a - detected.vertices.first[a]));
     pairs.slot_b[i] = std::uint32_t(state.slot(b, c.b - detected.vertices.first[b]));
     const glm::vec3 offset(state.body(a).origin - state.body(b).origin);
@@ -138,6 +138,10 @@ void PenaltyContact::group(const Share& share, std::size_t slots, std::span<cons
     ends_.resize(all.second);
     force.resize(pairs.a.size());
     stored_.resize(pairs.a.size() / lanes);
+    const bool bounces =
+        std::any_of(pairs.restitution.begin(), pairs.restitution.begin() + std::ptrdiff_t(pairs.size()),
+                    [](float e) { return e > 0; });
+    for (auto* sums : {&impulse_, &returned_}) sums->assign(bounces ? 2 * pairs.a.size() : 0, 0.0f);
     of_batch_.resize(batches.size());
   });
   auto particle = std::uint32_t(first), end = std::uint32_t(first_end);
@@ -208,6 +212,23 @@ void PenaltyContact::add(const ForceBatch& b) const {
 
 double PenaltyContact::energy() const { return std::accumulate(stored_.begin(), stored_.end(), 0.0); }
 
+void PenaltyContact::add_impact(PenaltyEnd end, double impulse, double taken) {
+  assert(bounces());
+  const std::size_t at = end.pair + (end.at_b ? pairs.a.size() : 0);
+  const float e = pairs.restitution[end.pair];
+  impulse_[at] += float(impulse), returned_[at] += e * e * float(taken);
+}
+
+void PenaltyContact::take_impacts(Rebounds& rebounds) {
+  if (!bounces()) return;
+  const std::size_t b = pairs.a.size();
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (pairs.restitution[i] > 0)
+      rebounds.add({pairs.body_a[i], pairs.body_b[i],
+                    glm::dvec3((impulse_[i] + impulse_[b + i]) * read(field(pairs.normal), i)),
+                    double(returned_[i] + returned_[b + i])});
+}
+
 void PenaltyContact::remove(BodyId body, Index first, Index count) {
   PenaltyPairs kept;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -231,8 +252,8 @@ PenaltyContact::Slopes PenaltyContact::slopes(const PenaltyPair& p, Field<const 
           law.sticking_damper() / seconds};
 }
 
-double PenaltyContact::energy(const PenaltyPair& p, Field<const float> x) const {
-  const glm::dvec3 d(between(p, x)), stretch(p.stretch);
+double PenaltyContact::energy(const PenaltyPair& p, Field<const float> x, const glm::dvec3& way) const {
+  const glm::dvec3 d = glm::dvec3(between(p, x)) + way, stretch(p.stretch);
   const double s = glm::dot(d, glm::dvec3(p.normal));
   const PenaltyLaw law = law_of<double>(*this, p);
   return law.stored(s, glm::dot(d, d) - s * s) + law.stored_by_friction(glm::dot(stretch, stretch));

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "collide/core/detector.h"
+#include "softbody/contact/rebound.h"
 #include "softbody/forces/force.h"
 #include "softbody/forces/kernels/penalty.h"
 
@@ -51,6 +52,7 @@ class PenaltyContact {
   /// step of 0.8 times the stable length leaves 4 (1 - 0.8^2). So contacts ask for no shorter steps by their damping.
   static constexpr float max_damped = 0.36f;
   float damper_limit = std::numeric_limits<float>::infinity();  // 1/s, of a damper over the damped mass
+  bool sums_impacts = true;  // evaluate() adds impacts; otherwise who finds other forces calls add_impact()
   ContactLayer layer;
   PenaltyPairs pairs;          // their contacts ascend
   LaneArray<glm::vec4> force;  // on a, of the current substep, N
@@ -72,7 +74,10 @@ class PenaltyContact {
   /// Evaluates the forces of the pairs in `part` on the gathered particles, and stretches their friction springs by
   /// `seconds` of slip.
   void evaluate(collide::Part part, float seconds) {
-    penalty_kernels().evaluate(part, pairs, motion_.data(), {layer.thickness, damper_limit, seconds}, force.data());
+    penalty_kernels().evaluate(part, pairs, motion_.data(),
+                               {layer.thickness, damper_limit, seconds,
+                                sums_impacts && bounces() ? impulse_.data() : nullptr, returned_.data()},
+                               force.data());
   }
   /// Adds the forces that evaluate() has found.
   void add(const ForceBatch& batch) const;
@@ -81,11 +86,18 @@ class PenaltyContact {
     penalty_kernels().measure(part, pairs, motion_.data(), layer.thickness, stored_.data());
   }
   double energy() const;  // J, of all pairs, measured
+  /// Returns true if a pair of the frame has restitution.
+  bool bounces() const { return !impulse_.empty(); }
+  /// Adds what one end of a pair has done to the motion of the two: an impulse (N s) along n, and the energy (J) that
+  /// this has taken. Ends of one pair may be added at the same time.
+  void add_impact(PenaltyEnd end, double impulse, double taken);
+  /// Adds what the pairs with restitution have done in the frame.
+  void take_impacts(Rebounds& rebounds);
 
   /// Returns the ends of pairs that fall to a batch.
   std::span<const PenaltyEnd> ends_of(const Batch& batch) const;
-  /// Returns what the law stores, in J.
-  double energy(const PenaltyPair& pair, Field<const float> x) const;
+  /// Returns what the law stores, in J, when a has moved by `way` (m) along b from x.
+  double energy(const PenaltyPair& pair, Field<const float> x, const glm::dvec3& way = glm::dvec3(0.0)) const;
   /// Returns an upper bound of the work (J) that a pair does on one particle while the other moves by `way` (m).
   double max_work(const PenaltyPair& pair, Field<const float> x, double way) const;
   /// Returns upper bounds of how fast the force on a falls with the motion of a in the coming `seconds`, in N/m.
@@ -116,7 +128,8 @@ class PenaltyContact {
   std::vector<PenaltyEnd> ends_;                // of the pairs of each particle, in their order
   std::vector<collide::Part> of_batch_;         // the particles of each batch
   std::vector<double> stored_;                  // J, of each block of pairs
-  std::vector<float> restitution_;              // of each body
+  LaneArray<float> impulse_, returned_;  // by a's and then by b's ends in the frame, see PenaltyStep; may be empty
+  std::vector<float> restitution_;       // of each body
 };
 
 }  // namespace softbody

@@ -7,10 +7,9 @@
 // in front of the surface. A pair that comes into sight from behind it is pushed out with full force at once: work that
 // nobody has put in, as when solids push out what is in them.
 // h is the thickness of the contact layer, k its stiffness, u the speed at which the two separate: Hunt and Crossley's
-// damping (1975), under which nothing is thrown back faster than v; restitution e leaves 1 - e of it. Friction across n
-// is Cundall and Strack's (1979): a spring of stiffness k that the slip stretches, with a damper, cut off at Coulomb's
-// limit. Both dampers can have a limit, which leaves the push at rest alone. Compiled for each of Highway's targets,
-// see state/simd.h.
+// damping (1975), under which nothing is thrown back faster than v. Friction across n is Cundall and Strack's (1979): a
+// spring of stiffness k that the slip stretches, with a damper, cut off at Coulomb's limit. Both dampers can have a
+// limit, which leaves the push at rest alone. Compiled for each of Highway's targets, see state/simd.h.
 #if defined(SOFTBODY_FORCES_PENALTY_LAW_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOFTBODY_FORCES_PENALTY_LAW_H
 #undef SOFTBODY_FORCES_PENALTY_LAW_H
@@ -34,7 +33,6 @@ struct PenaltyLaw {
   V thickness;                                           // h, m
   V friction = Real(0);                                  // Coulomb's coefficient
   V max_damper = std::numeric_limits<Real>::infinity();  // N s/m
-  V loss = Real(1);                                      // 1 - e
 
   static constexpr Real rebound_speed = 2;   // v, m/s
   static constexpr Real approach_limit = 3;  // upper clamp of the damping factor
@@ -55,8 +53,10 @@ struct PenaltyLaw {
   HWY_INLINE V push(V at_rest, V u) const {
     return at_rest + clamp(-body::smaller(damper(at_rest), max_damper) * u, -at_rest, V(approach_limit - 1) * at_rest);
   }
+  /// Returns what the damper takes, in W.
+  HWY_INLINE V damped(V at_rest, V u) const { return (at_rest - push(at_rest, u)) * u; }
   /// Returns how fast F falls with u between the limits of that if the damper has no limit, in N s/m.
-  HWY_INLINE V damper(V push_at_rest) const { return loss * law::damper(push_at_rest, V(rebound_speed)); }
+  HWY_INLINE V damper(V push_at_rest) const { return law::damper(push_at_rest, V(rebound_speed)); }
   /// Returns the damper (N s/m) across n of a contact that sticks.
   HWY_INLINE V sticking_damper() const {
     return body::smaller(V(Real(0.5)) * law::damper(stiffness * thickness, V(rebound_speed)), max_damper);

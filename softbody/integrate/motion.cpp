@@ -38,6 +38,7 @@ void Motion::begin_substeps(const Integrator& integrator, float h) {
   h_ = h;
   parts_.penalty.damper_limit =
       integrator.implicit ? std::numeric_limits<float>::infinity() : PenaltyContact::max_damped / h;
+  parts_.penalty.sums_impacts = !integrator.implicit;
 }
 
 void Motion::show(const Batch& b) { parts_.penalty.gather(b, field(parts_.state.x), field(parts_.state.v)); }

@@ -46,6 +46,7 @@ struct Impact {
   float speed = 0;         // m/s, the largest with which they came together; 0: it is over, or was slow
   float parting = 0;       // m/s, of the last frame
   float apart = 0;         // s, without contact
+  int calm = 0;            // frames in which its speed has not grown
   float given = 0;         // J, that it gave back in the last frame
 };
 

@@ -129,16 +129,17 @@ TEST(ImplicitBounce, IsNeverHigherThanTheOneBefore) {
 TEST(Bounce, OfTwoBodiesKeepsTheirMomentumAndNearlySwapsTheirVelocities) {
   Material material = gas_ball();
   for (const Key* damping : {&StructuralSprings::damping_ratio, &BendSprings::damping_ratio}) material[*damping] = 0;
-  for (const ContactSurface by : both) {
+  for (const auto& [by, integrator] : {std::pair(both[0], "auto"), std::pair(both[1], "auto"),
+                                       std::pair(both[0], "implicit"), std::pair(both[1], "implicit")}) {
     double before = -1;
     for (const double e : {0.0, 0.5, 1.0}) {
-      SCOPED_TRACE(testing::Message() << int(by) << ", restitution " << e);
+      SCOPED_TRACE(testing::Message() << int(by) << ", " << integrator << ", restitution " << e);
       material[contact::restitution] = e;
       Scene scene = lone_body(material, {3, 0, 0});
       add_body(scene, {1.3, 0, 0}, {-1, 0, 0});
       for (BodySource& body : scene.bodies) body.mesh.subdivisions = 1;
       scene.contact_surface = by;
-      World world(std::move(scene), {});
+      World world(std::move(scene), {.integrator = {integrator, std::nullopt}});
       const double energy = measure(world).energy;
       run(world, 90);
       const glm::dvec3 a = motion(world, 0).velocity, b = motion(world, 1).velocity;

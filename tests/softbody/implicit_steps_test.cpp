@@ -49,7 +49,7 @@ struct BatchRig {
     for (std::size_t i = 0; i < particles(); ++i) lowest = std::min(lowest, x.at(3 + i, int(lane)).y);
     solids[0].place.y[lane] = float(lowest - gap);
   }
-  ImplicitBatch batch(std::span<const PenaltyEnd> ends = {}) const {
+  ImplicitBatch batch(std::span<const PenaltyEnd> ends = {}) {
     return {model, lanes,   0,      implicit_lanes, moves,   x.field(), v.field(),
             base,  gravity, solids, features,       penalty, ends,      [](BodyId id) { return id < 2; }};
   }
@@ -182,7 +182,7 @@ struct PairRig : BatchRig {
 };
 
 TEST(FindPenaltyPairs, LinearisesThemAboutTheFirstVelocities) {
-  const PairRig rig;
+  PairRig rig;
   ImplicitWork work = rig.work();
   EXPECT_EQ(find_penalty_pairs(rig.batch(rig.ends), mask({1, 2}), rig.h, work), mask({1}));
   ASSERT_EQ(work.penalty_pairs.size(), 2u);
@@ -203,7 +203,7 @@ TEST(FindPenaltyPairs, LinearisesThemAboutTheFirstVelocities) {
 }
 
 TEST(FindPenaltyPairs, LeavesOutBodiesThatDoNotMove) {
-  const PairRig rig;
+  PairRig rig;
   ImplicitWork work = rig.work();
   work.penalty_pairs.resize(1);
   EXPECT_EQ(find_penalty_pairs(rig.batch(rig.ends), mask({0}), rig.h, work), LaneMask());

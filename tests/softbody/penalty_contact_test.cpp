@@ -102,17 +102,24 @@ TEST(PenaltyContact, DampsByTheSpeedOfSeparationBetweenNothingAndThreeTimes) {
   EXPECT_EQ(force({0, 0.05, 0}, {0, 9, 0}).y, 0) << "and nothing is pulled back";
 }
 
-TEST(PenaltyContact, DampsLessByItsRestitution) {
+/// The damper makes 1.5 times the push at rest of it, at 1 m/s.
+TEST(PenaltyContact, GivesBackTheShareOfRestitutionOfWhatItsDamperTakes) {
+  constexpr double seconds = 0.01, mass = 1;
   for (const double e : {0.0, 0.4, 1.0}) {
+    Material material = spring_ball();
+    material[Material::mass] = 2 * mass;  // reduced: half of it
+    State state;
+    for (const double y : {1.0, 0.0}) state.add(make_unbalanced_body_model({}, material), {0, y, 0}, {0, -y, 0});
     Pair pair({0, 0.05, 0});
-    const double still = pair.force(glm::dvec3(0.0)).y;
-    PenaltyPair changed = pair.penalty.pairs[0];
-    changed.loss = float(1 - e);
-    pair.penalty.pairs.clear();
-    pair.penalty.pairs.push_back(changed);
-    pair.penalty.group(pair.x.x.size(), {});
-    EXPECT_NEAR(pair.force({0, 1, 0}).y, (1 - 0.5 * (1 - e)) * still, 1e-4) << e;
-    EXPECT_NEAR(pair.force({0, -1, 0}).y, (1 + 0.5 * (1 - e)) * still, 1e-4) << e;
+    pair.penalty.pairs.restitution[0] = float(e);
+    pair.penalty.group(2, {});
+    const double pushed = pair.force({0, -1, 0}, seconds).y, taken = pushed / 3 * seconds;
+    Rebounds rebounds;
+    pair.penalty.take_impacts(rebounds);
+    EXPECT_EQ(rebounds.give_back(state, seconds), 0) << "they come together";
+    for (std::size_t i = 0; i < state.batch_of(0).particles(); ++i) state.field_of(0, state.v).set(i, {0, 0.1, 0});
+    EXPECT_EQ(rebounds.give_back(state, seconds), 0) << "they have just parted";
+    EXPECT_NEAR(rebounds.give_back(state, seconds), e * e * taken, 1e-6) << e;
   }
 }
 
@@ -313,7 +320,7 @@ TEST_P(PairsInLanes, FollowTheLaw) {
     const auto vector = [](const glm::vec3& a) { return Vector{a.x, a.y, a.z}; };
     const Vector d = pairs.way(i, pairs.x) + vector(p.offset), n = vector(p.normal);
     const PenaltyLaw<double> law{p.stiffness, pairs.penalty.layer.thickness, p.friction,
-                                 double(pairs.penalty.damper_limit) * p.damped_mass, p.loss};
+                                 double(pairs.penalty.damper_limit) * p.damped_mass};
     const auto energy = [&](const Vector& stretch) {
       const double s = dot(d, n);
       return law.stored(s, dot(d, d) - s * s) + law.stored_by_friction(dot(stretch, stretch));

@@ -58,11 +58,17 @@ void evaluate(collide::Part part, PenaltyPairs& p, const PenaltyParticle* motion
     for (std::size_t i = std::min(at + ahead, last), end = i + step; i < end; ++i) hwy::Prefetch(motion + p.b[i]);
     const Vec<V> velocity = vector(second(motion, p.a.data() + at)) - vector(second(motion, p.b.data() + at));
     const PenaltyLaw<V> law{load<V>(p.stiffness.data() + at), V(s.thickness), load<V>(p.friction.data() + at),
-                            V(s.damper_limit) * load<V>(p.damped_mass.data() + at), load<V>(p.loss.data() + at)};
+                            V(s.damper_limit) * load<V>(p.damped_mass.data() + at)};
     Vec<V> stretch = load<V>(field(p.stretch), at);
-    const Vec<V> f = law.force(between(p, motion, at), velocity, load<V>(field(p.normal), at), V(s.seconds), stretch);
+    const Vec<V> d = between(p, motion, at), normal = load<V>(field(p.normal), at);
+    const Vec<V> f = law.force(d, velocity, normal, V(s.seconds), stretch);
     store(field(p.stretch), at, stretch);
     store_quads(&force[at].x, Quad<V>{f.x, f.y, f.z, V(0)});
+    if (!s.impulse) return;
+    const V e = load<V>(p.restitution.data() + at), at_rest = law.push_at_rest(dot(d, normal), dot(d, d));
+    const V taken = V(s.seconds) * law.damped(at_rest, dot(velocity, normal));
+    store(s.impulse + at, load<V>(s.impulse + at) + V(s.seconds) * dot(f, normal));
+    store(s.returned + at, load<V>(s.returned + at) + e * e * taken);
   });
 }
 

@@ -14,6 +14,9 @@ struct PenaltyStep {
   float thickness;     // of the contact layer, m
   float damper_limit;  // 1/s, of a damper over the damped mass
   float seconds;       // of slip
+  // Of each pair; not read if no pair has restitution.
+  float* impulse;   // N s along the normal, added to
+  float* returned;  // J, that restitution gives back of what the dampers take, added to
 };
 
 /// The end of a pair that a force acts on.

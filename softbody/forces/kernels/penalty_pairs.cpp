@@ -10,7 +10,7 @@ template <class Pairs, class Use>
 void for_each_value(Pairs& p, const Use& use) {
   for (auto* vectors : {&p.offset, &p.normal, &p.stretch})
     for (auto& component : *vectors) use(component);
-  for (auto* values : {&p.stiffness, &p.friction, &p.damped_mass, &p.loss}) use(*values);
+  for (auto* values : {&p.stiffness, &p.friction, &p.damped_mass, &p.restitution}) use(*values);
 }
 
 glm::vec3 read(const VectorArray& array, std::size_t i) { return softbody::read(field(array), i); }
@@ -39,7 +39,8 @@ void PenaltyPairs::push_back(const PenaltyPair& p) {
   body_a[i] = p.body_a, body_b[i] = p.body_b;
   slot_a[i] = p.slot_a, slot_b[i] = p.slot_b;
   write(offset, i, p.offset), write(normal, i, p.normal), write(stretch, i, p.stretch);
-  stiffness[i] = p.stiffness, friction[i] = p.friction, damped_mass[i] = p.damped_mass, loss[i] = p.loss;
+  stiffness[i] = p.stiffness, friction[i] = p.friction, damped_mass[i] = p.damped_mass;
+  restitution[i] = p.restitution;
 }
 
 PenaltyPair PenaltyPairs::operator[](std::size_t i) const {
@@ -53,7 +54,7 @@ PenaltyPair PenaltyPairs::operator[](std::size_t i) const {
           .stiffness = stiffness[i],
           .friction = friction[i],
           .damped_mass = damped_mass[i],
-          .loss = loss[i],
+          .restitution = restitution[i],
           .stretch = read(stretch, i)};
 }
 

@@ -21,8 +21,8 @@ struct PenaltyPair {
   float stiffness;               // N/m
   float friction;                // Coulomb
   float damped_mass;             // kg, see PenaltyContact::max_damped
-  float loss = 1;                // 1 - restitution
-  glm::vec3 stretch{0.0f};       // of the friction spring, m: how far a has slipped along b
+  float restitution = 0;
+  glm::vec3 stretch{0.0f};  // of the friction spring, m: how far a has slipped along b
 };
 
 /// A list of pairs. What kernels use fills whole blocks of `lanes`: the last ones stand for no pair, but join particle
@@ -34,7 +34,7 @@ class PenaltyPairs {
   std::vector<std::uint32_t> slot_a, slot_b;
   LaneArray<std::uint32_t> a, b;  // in the list of particles
   VectorArray offset, normal, stretch;
-  LaneArray<float> stiffness, friction, damped_mass, loss;
+  LaneArray<float> stiffness, friction, damped_mass, restitution;
 
   std::size_t size() const { return contact.size(); }
   bool empty() const { return contact.empty(); }

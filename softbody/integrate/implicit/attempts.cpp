@@ -133,6 +133,8 @@ LaneMask rigid_fallback_step(const ImplicitStep& step, ImplicitWork& work, LaneM
     if (tried[l]) move_without_gain(step, work, l);
   for (PlaneContact& c : work.planes)
     if (tried[c.point.lane()]) c.force = glm::dvec3(0.0);
+  for (LinearPenaltyPair& s : work.penalty_pairs)
+    if (tried[s.at % implicit_lanes]) s.share = 0;
   return tried;
 }
 

@@ -93,10 +93,10 @@ LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, I
     const std::size_t at = in_batch / std::size_t(b.width) * implicit_lanes + lane;
     const PenaltyContact::Slopes slopes = b.penalty.slopes(pair, b.x, b.v, float(h));
     if (slopes.spring <= 0) continue;
-    LinearPenaltyPair s{.at = at, .normal = double(end.sign()) * glm::dvec3(pair.normal), .slopes = slopes};
+    LinearPenaltyPair s{.end = end, .at = at, .normal = double(end.sign()) * glm::dvec3(pair.normal), .slopes = slopes};
     s.force = double(end.sign()) * glm::dvec3(b.penalty.force[end.pair]);
     s.friction = double(pair.friction);
-    s.partner = b.is_moving(end.at_b ? pair.body_a : pair.body_b) ? h * velocity(other_slot) : glm::dvec3(0.0);
+    if (b.is_moving(end.at_b ? pair.body_a : pair.body_b)) s.partner = h * velocity(other_slot), s.share = 0.5;
     s.start_separation = h * velocity(slot) - s.partner;
     s.max_work = b.penalty.max_work(pair, b.x, glm::length(s.partner));
     work.penalty_pairs.push_back(s);

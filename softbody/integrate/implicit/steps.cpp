@@ -37,11 +37,11 @@ void write_end(const ImplicitWork& work, LaneMask moving, double h, const Implic
   }
 }
 
-void add_impulses(const ImplicitStep& step, const ImplicitWork& work, std::size_t first_lane,
+void add_impulses(const ImplicitStep& step, const ImplicitWork& work, const ImplicitBatch& b,
                   const ImplicitResult& result) {
-  const BodyField sum{result.impulse, first_lane, 1};
+  const BodyField sum{result.impulse, b.first_lane, 1};
   for (const PlaneContact& c : work.planes) {
-    const std::size_t own = c.point.lane(), lane = first_lane + own;
+    const std::size_t own = c.point.lane(), lane = b.first_lane + own;
     const double push = glm::dot(c.force, c.normal);
     if (push == 0) continue;
     sum.add(own, step.h * push * c.normal);
@@ -52,6 +52,18 @@ void add_impulses(const ImplicitStep& step, const ImplicitWork& work, std::size_
     const double after = glm::dot(of_point(work.end_v), c.normal);
     result.returned[lane] += float(law::bounce_energy(step.h * push, before, after, c.restitution));
     result.energy[lane] += float(push * c.out());
+  }
+  if (!b.penalty.bounces()) return;
+  for (const LinearPenaltyPair& s : work.penalty_pairs) {
+    const glm::dvec3 moved = read(work.end_x, s.at) - read(work.x, s.at);
+    const double push = glm::dot(s.force_after(moved), s.normal);
+    const double before = glm::dot(s.start_separation, s.normal) / step.h;
+    const double after = glm::dot(read(work.end_v, s.at) - s.partner / step.h, s.normal);
+    const double impulse = s.share * step.h * push;
+    const PenaltyPair pair = b.penalty.pairs[s.end.pair];
+    const glm::dvec3 apart = double(s.end.sign()) * (moved - s.partner);
+    const double stored = b.penalty.energy(pair, b.x, apart) - b.penalty.energy(pair, b.x);
+    b.penalty.add_impact(s.end, impulse, law::bounce_energy(impulse, before, after, 1.0) - s.share * stored);
   }
 }
 
@@ -94,7 +106,7 @@ void ImplicitSteps::advance_part(ImplicitWork& work, const ImplicitBatch& b, con
     if (open.any()) open &= ~attempt.advance(step, work, open);
   assert(open.none());
   write_end(work, moving, h, b, result);
-  add_impulses(step, work, b.first_lane, result);
+  add_impulses(step, work, b, result);
 }
 
 double ImplicitSteps::take_work() {

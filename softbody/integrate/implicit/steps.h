@@ -26,7 +26,7 @@ struct ImplicitBatch {
   glm::dvec3 gravity;                   // m/s^2
   std::span<const SolidArguments> near_solids;
   std::span<const ContactRow> features;   // of the bodies, which may meet these solids between vertices
-  const PenaltyContact& penalty;          // evaluated at x, v
+  PenaltyContact& penalty;                // evaluated at x, v; is told what its pairs do
   std::span<const PenaltyEnd> ends;       // of its pairs, those that fall to this batch
   std::function<bool(BodyId)> is_moving;  // false for bodies that are held or asleep
 
