@@ -141,18 +141,6 @@ class Run {
   double time_ = 0;
 };
 
-reference::ReferenceDeviation compare(const World& world, const StabilityStart& start) {
-  const softbody::BodyModel& p = world.model(0);
-  const reference::BodyState end = reference::state_of(world, 0);
-  reference::ReferenceDeviation r{
-      .shape = reference::shape_distance(end.x, start.reference.x) / p.radius,
-      .rest = std::max(0.0, reference::deformation_speed(end) - reference::deformation_speed(start.reference))};
-  if (p.mesh.closed)
-    r.volume = std::abs(
-        reference::volume_of(end.x, p.mesh.triangles) / reference::volume_of(start.reference.x, p.mesh.triangles) - 1);
-  return r;
-}
-
 }  // namespace
 
 reference::StabilityFigures run_cell(const StabilityStart& start, const softbody::Integrator& integrator, double dt) {
@@ -168,7 +156,8 @@ reference::StabilityFigures run_cell(const StabilityStart& start, const softbody
     World world = run.make(dt, integrator, particles);
     while (!run.lost() && run.time() < start.limits.seconds - dt / 2) run.step(world);
     reference::StabilityFigures figures = run.figures();
-    if (start.not_judged.empty() && !run.lost()) figures.reference = compare(world, start);
+    if (start.not_judged.empty() && !run.lost())
+      figures.reference = deviation(world.model(0), reference::state_of(world, 0), start.reference);
     return figures;
   } catch (const softbody::SceneError& error) {
     return {.refused = error.what()};

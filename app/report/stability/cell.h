@@ -46,6 +46,10 @@ std::vector<Particles> all_particles(const softbody::World& world);
 /// Returns the energy (J) of gravity on one body, 0 at the origin.
 double height_energy(const softbody::World& world, const Particles& particles, softbody::BodyId body);
 
+/// Returns how a state of the body differs from the reference's.
+reference::ReferenceDeviation deviation(const softbody::BodyModel& model, const reference::BodyState& state,
+                                        const reference::BodyState& reference);
+
 /// Runs and judges a cell. A named integrator takes one step of its own per frame; `auto` chooses its steps. `dt`: s,
 /// the length of a frame.
 reference::StabilityFigures run_cell(const StabilityStart& start, const softbody::Integrator& integrator, double dt);
