@@ -10,6 +10,7 @@
 
 #include "collide/core/frame.h"
 #include "softbody/mesh/file_mesh.h"
+#include "softbody/mesh/points.h"
 #include "softbody/mesh/polygon.h"
 
 namespace app::files {
@@ -50,11 +51,6 @@ struct BodyMeshes {
   std::vector<Edge> edges(std::size_t body) const;
 };
 
-/// Positions of vertices, in metres.
-struct VertexPositions {
-  std::vector<float> x, y, z;
-};
-
 /// Cuts a polygon into triangles. corners: numbers of vertices; position(corner): m. Calls take(triangle) for each.
 template <class Position, class Take>
 void for_each_triangle(std::span<const collide::Index> corners, const Position& position, const Take& take) {
@@ -70,11 +66,11 @@ void for_each_triangle(std::span<const collide::Index> corners, const Position& 
 
 /// Returns the polygons of a body, cut into triangles by the positions of all vertices: a list of local indices,
 /// without triangles that have a vertex twice. Nothing is welded, turned or dropped.
-std::vector<softbody::Triangle> triangles_of(const BodyMeshes& meshes, std::size_t body, const VertexPositions& at);
+std::vector<softbody::Triangle> triangles_of(const BodyMeshes& meshes, std::size_t body, const softbody::Points& at);
 
 struct BodyFile {
   BodyMeshes meshes;
-  VertexPositions at;              // of the vertices of `meshes`
+  softbody::Points at;             // of the vertices of `meshes`
   std::vector<std::string> notes;  // one line each: what the author may have meant differently
 };
 
@@ -90,6 +86,6 @@ BodyMeshes divide(const softbody::FileMesh& mesh, BodiesBy by, const std::filesy
                   std::vector<std::string>& notes);
 
 /// Returns the positions of a mesh relative to `origin`, in the order of the bodies' vertices.
-VertexPositions positions_of(const softbody::FileMesh& mesh, const BodyMeshes& bodies, const glm::dvec3& origin = {});
+softbody::Points positions_of(const softbody::FileMesh& mesh, const BodyMeshes& bodies, const glm::dvec3& origin = {});
 
 }  // namespace app::files

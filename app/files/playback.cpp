@@ -18,7 +18,7 @@ namespace app::files {
 namespace {
 
 /// Returns the mesh of a body with these triangles, in the shape that it has in this frame.
-softbody::Mesh mesh_of(const BodyMeshes& meshes, std::size_t body, const VertexPositions& at,
+softbody::Mesh mesh_of(const BodyMeshes& meshes, std::size_t body, const softbody::Points& at,
                        std::vector<softbody::Triangle> triangles) {
   softbody::Mesh mesh;
   const collide::Index vertices = meshes.first[body + 1] - meshes.first[body];
@@ -147,8 +147,7 @@ std::shared_ptr<const RecordedFrame> Playback::record(int number, SequenceFrame 
     }
     ++count;
   }
-  return std::make_shared<RecordedFrame>(
-      RecordedFrame{count, std::move(frame.at.x), std::move(frame.at.y), std::move(frame.at.z)});
+  return std::make_shared<RecordedFrame>(RecordedFrame{std::move(frame.at), count});
 }
 
 float Playback::usual_tolerance() {
@@ -156,9 +155,7 @@ float Playback::usual_tolerance() {
   std::vector<float> lengths;
   std::size_t begin = 0;
   for (std::uint32_t body = 0; body < first->body_count; ++body) {
-    const auto at = [&](softbody::Index v) {
-      return glm::vec3(first->x[begin + v], first->y[begin + v], first->z[begin + v]);
-    };
+    const auto at = [&](softbody::Index v) { return softbody::ConstPoints(*first)[begin + v]; };
     for (const auto& [a, b] : models_[body]->mesh.edges) lengths.push_back(glm::distance(at(a), at(b)));
     begin += models_[body]->mesh.vertices.size();
   }

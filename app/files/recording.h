@@ -10,15 +10,16 @@
 
 #include <glm/vec3.hpp>
 
+#include "softbody/mesh/points.h"
 #include "softbody/model/body_model.h"
 #include "softbody/scene/scene.h"
 
 namespace app::files {
 
 /// A frame of a recording: the first bodies of the recording, and where their vertices are.
-struct RecordedFrame {
+/// Points are in the world, one body after another, and finite.
+struct RecordedFrame : softbody::Points {
   std::uint32_t body_count = 0;
-  std::vector<float> x, y, z;  // m, in the world, one body after another; finite
 };
 
 class Recording {

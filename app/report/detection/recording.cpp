@@ -17,14 +17,14 @@ namespace {
 constexpr std::uint64_t large_scene = 50'000;  // vertices
 
 RecordedState copy(const softbody::World& world) {
-  RecordedState state{world.frame(), {}, world.bodies()};
-  state.at.copy(world.positions());
+  RecordedState state{{}, world.frame()};
+  state.copy(world.positions());
   return state;
 }
 
 glm::dvec3 middle(const RecordedState& state, collide::Index begin, collide::Index end) {
   glm::dvec3 sum{0.0};
-  for (collide::Index v = begin; v < end; ++v) sum += glm::dvec3(state.at.x[v], state.at.y[v], state.at.z[v]);
+  for (collide::Index v = begin; v < end; ++v) sum += glm::dvec3(position(state.view(), v));
   return sum / std::max(1.0, static_cast<double>(end - begin));
 }
 
@@ -75,8 +75,7 @@ Recording record_sequence(const ReportOptions& options) {
   settings.tolerance = static_cast<float>(options.tolerance);
   const auto state = [&](std::size_t frame) {
     files::SequenceFrame read = sequence.read(frame);
-    return RecordedState{
-        static_cast<int>(frame), {std::move(read.at.x), std::move(read.at.y), std::move(read.at.z)}, read.of->bodies};
+    return RecordedState{{{std::move(read.at)}, read.of->bodies}, static_cast<int>(frame)};
   };
   const std::size_t count = sequence.count(), last = count - 1;
   std::size_t busiest = 0, max_contacts = 0;
@@ -119,7 +118,7 @@ RecordedState middle_bodies(const RecordedState& state, collide::Index count) {
   nearest.resize(std::min<std::size_t>(count, nearest.size()));
   std::ranges::sort(nearest, {}, &std::pair<double, collide::Index>::second);
 
-  RecordedState part{state.frame, {}, {}};
+  RecordedState part{{}, state.frame};
   for (const auto& [distance, b] : nearest) {
     part.bodies.add(all.shape[b]);
     for (collide::Index v = all.first[b]; v < all.first[b + 1]; ++v) {

@@ -7,13 +7,9 @@
 
 namespace app::report {
 
-/// One frame, copied.
-struct RecordedState {
+/// A copy of a frame, and its number.
+struct RecordedState : compare::FrameCopy {
   int frame = 0;
-  compare::Positions at;
-  collide::Bodies bodies;
-
-  collide::Frame view() const { return {at.x, at.y, at.z, &bodies}; }
 };
 
 struct Recording {

@@ -20,9 +20,7 @@ class Ghost {
   const softbody::IntegratorChoice& choice() const { return choice_; }
   const softbody::World& world() const { return world_; }
   /// Returns positions `part` of the way from the frame before to the present one.
-  compare::DrawnPositions drawn_positions(float part) const {
-    return {world_.positions(), before_.x, before_.y, before_.z, part};
-  }
+  compare::DrawnPositions drawn_positions(float part) const { return {world_.positions(), before_, part}; }
   /// Returns the root mean square distance of all vertices to those of `of`, which has the same bodies; each distance
   /// over the radius of its body.
   double distance(const softbody::World& of) const;
