@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "app/files/forest.h"
-#include "app/files/inputs.h"
 
 namespace app::files {
 namespace {
@@ -171,15 +170,6 @@ softbody::Points positions_of(const FileMesh& mesh, const BodyMeshes& bodies, co
   for (std::vector<float>* axis : {&at.x, &at.y, &at.z}) axis->reserve(mesh.x.size());
   for (const Index v : bodies.file_vertex) at.add(std::array{mesh.position(v) - origin});
   return at;
-}
-
-BodyFile read_bodies(const std::filesystem::path& file, std::optional<BodiesBy> by) {
-  protect_input(file);
-  const FileMesh mesh = softbody::read_file_mesh(file);
-  BodyFile read;
-  read.meshes = divide(mesh, by.value_or(default_bodies_by(mesh)), file, read.notes);
-  read.at = positions_of(mesh, read.meshes);
-  return read;
 }
 
 std::vector<BodyMeshes::Edge> BodyMeshes::edges(std::size_t body) const {

@@ -68,20 +68,11 @@ void for_each_triangle(std::span<const collide::Index> corners, const Position& 
 /// without triangles that have a vertex twice. Nothing is welded, turned or dropped.
 std::vector<softbody::Triangle> triangles_of(const BodyMeshes& meshes, std::size_t body, const softbody::Points& at);
 
-struct BodyFile {
-  BodyMeshes meshes;
-  softbody::Points at;             // of the vertices of `meshes`
-  std::vector<std::string> notes;  // one line each: what the author may have meant differently
-};
-
 /// Returns objects for an OBJ file, components for a PLY file.
 BodiesBy default_bodies_by(const softbody::FileMesh& mesh);
 
-/// Reads a file, which no output may replace from now on. by: left out, the default of its format. Throws MeshFileError
-/// if a face names vertices of several objects that are bodies, and wherever softbody::read_file_mesh() does.
-BodyFile read_bodies(const std::filesystem::path& file, std::optional<BodiesBy> by = {});
-
-/// Divides a mesh that was read from `file`. Throws MeshFileError as read_bodies() does.
+/// Divides a mesh that was read from `file`. Throws MeshFileError if a face names vertices of several objects that are
+/// bodies. notes: gets a line for each thing that the author may have meant differently.
 BodyMeshes divide(const softbody::FileMesh& mesh, BodiesBy by, const std::filesystem::path& file,
                   std::vector<std::string>& notes);
 
