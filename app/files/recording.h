@@ -48,7 +48,4 @@ struct Opened {
   std::shared_ptr<Recording> recording;  // nullptr: the scene is simulated
 };
 
-/// Returns the automatic cell size (§2.2) for the shapes that the bodies have in the first frame.
-glm::vec3 automatic_cell_size(Recording& recording, int levels, float tolerance);
-
 }  // namespace app::files
