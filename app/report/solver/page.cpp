@@ -105,14 +105,14 @@ Plot error_against_time(const SolverCase& c, double bound) {
 constexpr std::array bounds{1e-1, 1e-2, 5e-3, 2e-3, 1e-3, 1e-4};  // R
 
 void add_introduction(Page& page, const SolverResults& r) {
-  page.introduction(
-      "solver", fmt::arg("command", r.command), fmt::arg("seconds", r.run.seconds()),
-      fmt::arg("frame_rate", 1 / r.run.frame_time), fmt::arg("repetitions", r.effort.repetitions),
-      fmt::arg("run_seconds", r.effort.seconds), fmt::arg("lanes", softbody::lanes), fmt::arg("bound", r.effort.bound),
-      fmt::arg("substeps", r.effort.max_substeps), fmt::arg("order_error", SolverCase::max_order_error),
-      fmt::arg("clear_fall", SolverCase::clear_fall), fmt::arg("least_order", -std::log2(SolverCase::clear_fall)),
-      fmt::arg("quick", r.quick
-                            ? "This is the quick report: fewer scenes, steps and repetitions, and a coarser reference."
+  page.add("introduction", fmt::arg("command", r.command), fmt::arg("seconds", r.run.seconds()),
+           fmt::arg("frame_rate", 1 / r.run.frame_time), fmt::arg("repetitions", r.effort.repetitions),
+           fmt::arg("run_seconds", r.effort.seconds), fmt::arg("lanes", softbody::lanes),
+           fmt::arg("bound", r.effort.bound), fmt::arg("substeps", r.effort.max_substeps),
+           fmt::arg("order_error", SolverCase::max_order_error), fmt::arg("clear_fall", SolverCase::clear_fall),
+           fmt::arg("least_order", -std::log2(SolverCase::clear_fall)),
+           fmt::arg("quick",
+                    r.quick ? "This is the quick report: fewer scenes, steps and repetitions, and a coarser reference."
                             : ""));
 }
 
@@ -151,11 +151,7 @@ void add_overview(Page& page, const SolverResults& r) {
     }
     table.add(row);
   }
-  page.text("## All scenes");
-  page.text(
-      "ms per simulated second and body, in a batch where there is one, for an error of at most {:g} R. In brackets "
-      "the steps per frame (`auto` chooses its own), or instead the least error seen:",
-      bound);
+  page.add("overview", fmt::arg("bound", bound));
   page.table(table);
 }
 
@@ -174,11 +170,7 @@ void add_promise(Page& page, const SolverResults& r) {
     row.push_back({"promise", c.keeps_promise() ? "kept" : "MISSED"});
     table.add(row);
   }
-  page.text("## What `auto` promises");
-  page.text(
-      "Errors, and substeps per frame on average, with the steps that each chooses itself. `auto` promises an error of "
-      "at most 0.01 R, of balls on a floor 1 cm in each centre, or twice that of semi-implicit Euler, whichever is "
-      "larger.");
+  page.add("promise");
   page.table(table);
 }
 
@@ -197,10 +189,7 @@ void add_stiffness(Page& page, const SolverResults& r) {
                  {"beside it", beside_first(s.period, c.meshes[0].period)}});
     }
   if (table.empty()) return;
-  page.text("## Stiffness against resolution");
-  page.text(
-      "Bodies of one shape and material in meshes from coarse to fine. Sag: how much lower a body is at rest on the "
-      "ground than in free flight. Period: of its strongest swing in free flight, after it was stretched by 3 %.");
+  page.add("stiffness");
   page.table(table);
 }
 
@@ -213,14 +202,7 @@ void add_coarse(Page& page, const CoarseResults& coarse) {
                {"middle, R", two_digits(run.middle)},
                {"shape, R", two_digits(run.shape)},
                {"run time", fmt::format("{:.2g}", run.cost)}});
-  page.text("## Coarse against fine");
-  page.text(
-      "A creature of {} vertices falls on a solid sphere, simulated by so many particles, with contact by surfaces, "
-      "for "
-      "one second. Surfaces apart: the largest distance of the simulated surface from the creature's, at rest. Middle, "
-      "shape: the largest differences from the last row, of the middle of its vertices, and of the vertices about it "
-      "(RMS). Run time: of the solver, without detection, in that of the last row.",
-      whole(double(coarse.vertices)));
+  page.add("coarse", fmt::arg("vertices", whole(double(coarse.vertices))));
   page.table(table);
 }
 
@@ -283,7 +265,7 @@ void add_left_out(Page& page, const SolverResults& r, const SolverCase& c) {
 }  // namespace
 
 Page solver_page(const SolverResults& results) {
-  Page page;
+  Page page("solver");
   add_introduction(page, results);
   page.warn(warn_of_busy_machine(results.timed));
   add_overview(page, results);
@@ -291,12 +273,10 @@ Page solver_page(const SolverResults& results) {
   add_stiffness(page, results);
   add_coarse(page, results.coarse);
   for (const SolverCase& c : results.cases) {
-    page.text("## {}", c.scene.name);
-    page.text(
-        "Reference: {}, steps of {:.3g} s on average. Halving them changed the positions by {:.2g} R{}. A disturbance "
-        "grows {:.3g} times.",
-        c.reference.what, c.reference.step, c.reference.change,
-        c.reference.converged ? "" : ", so it has not converged: smaller errors mean nothing", c.reference.growth);
+    const SolverReference& r = c.reference;
+    page.add("case", fmt::arg("name", c.scene.name), fmt::arg("reference", r.what), fmt::arg("step", r.step),
+             fmt::arg("change", r.change), fmt::arg("growth", r.growth),
+             fmt::arg("caveat", r.converged ? "" : ", so it has not converged: smaller errors mean nothing"));
     if (c.scene.of_centres) page.text("Here the error is the largest of a body's centre.");
     page.text("ms for an error of at most ... (steps per frame):");
     page.table(costs(results, c));
