@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "app/base/timings.h"
 #include "app/ui/shortcuts.h"
 #include "app/ui/user_interface.h"
 #include "app/ui/views/scene_labels.h"
@@ -149,7 +150,7 @@ class Demo {
       handle_input(0);
     }
     const engine::Viewport viewport = scene_viewport();
-    double drawing = timed([&] { draw_scene(viewport); });
+    double drawing_ms = time_ms([&] { draw_scene(viewport); });
     ui::draw_labels(scene_labels(session_, ui_), camera_, viewport.size, interface_.scene_area(),
                     graphics_->gui.scale());
     ui_.view = render::SceneView::view(camera_, viewport.size);
@@ -160,8 +161,8 @@ class Demo {
       return size ? picture_of(glm::ivec2(*size)) : picture(with_panel);
     });
     if (!ui_.quit) advance(elapsed);  // while the driver draws
-    drawing += timed([&] { present(viewport); });
-    graphics_->canvas.add_timing(elapsed, drawing);
+    drawing_ms += time_ms([&] { present(viewport); });
+    graphics_->canvas.add_timing(elapsed, 1e-3 * drawing_ms);
     store_preferences();
     const Activity next = activity();
     ui_.picture_interval = seconds_to_next_frame(next);
