@@ -53,7 +53,6 @@ Playback::Playback(std::vector<std::filesystem::path> files, std::optional<Bodie
   const std::shared_ptr<const RecordedFrame> first = frame(0);
   if (first->x.empty())
     throw softbody::SceneError(sequence_.file(0).string() + ": has no vertex; nothing can be played");
-  bounds_.fill(glm::vec3(first->x[0], first->y[0], first->z[0]));
   include(*first);
   command_words_ = {"--bodies",
                     std::string(std::ranges::find(bodies_by_keys, sequence_.by(), &BodiesByKey::value)->key), "--play"};
@@ -69,12 +68,7 @@ Playback::Playback(std::vector<std::filesystem::path> files, std::optional<Bodie
 
 /// Makes bounds() large enough for a frame.
 void Playback::include(const RecordedFrame& frame) {
-  if (frame.x.empty()) return;
-  const auto [left, right] = std::ranges::minmax(frame.x);
-  const auto [bottom, top] = std::ranges::minmax(frame.y);
-  const auto [back, front] = std::ranges::minmax(frame.z);
-  bounds_[0] = glm::min(bounds_[0], glm::vec3(left, bottom, back));
-  bounds_[1] = glm::max(bounds_[1], glm::vec3(right, top, front));
+  for (std::size_t v = 0; v < frame.x.size(); ++v) bounds_.add(glm::dvec3(softbody::ConstPoints(frame)[v]));
 }
 
 std::shared_ptr<const RecordedFrame> Playback::frame(int number) {
@@ -161,7 +155,7 @@ float Playback::usual_tolerance() {
   }
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::ranges::nth_element(lengths, middle);
-  const float tolerance = lengths.empty() ? 0.01f * glm::distance(bounds_[0], bounds_[1]) : 0.5f * *middle;
+  const float tolerance = lengths.empty() ? 0.01f * glm::distance(bounds()[0], bounds()[1]) : 0.5f * *middle;
   return std::clamp(tolerance, collide::min_tolerance, collide::max_tolerance);
 }
 
