@@ -30,37 +30,35 @@ glm::dvec3 middle(const RecordedState& state, collide::Index begin, collide::Ind
 
 }  // namespace
 
-RecordingPlan plan_recording(std::uint64_t vertices, bool quick) {
-  const std::uint64_t steps = quick ? 1'000'000 : 60'000'000;  // of one vertex each
-  const auto frames = static_cast<int>(std::clamp<std::uint64_t>(steps / std::max<std::uint64_t>(vertices, 1), 2, 800));
-  if (quick) return {{frames}, vertices < large_scene};
-  if (vertices >= large_scene) return {{std::max(1, frames / 8), frames}, false};
-  return {{frames / 8, frames / 2, frames}, true};
-}
-
 std::uint64_t vertex_count(const softbody::Scene& scene) {
   std::uint64_t vertices = 0;
   for (const softbody::BodySource& body : scene.bodies) vertices += body.mesh.vertex_count();
   return vertices;
 }
 
-Recording record(const softbody::Scene& scene, const RecordingPlan& plan, int threads) {
+Recording record(const softbody::Scene& scene, bool quick, int threads) {
+  const std::uint64_t vertices = std::max<std::uint64_t>(vertex_count(scene), 1);
+  const std::uint64_t steps = quick ? 1'000'000 : 60'000'000;  // of one vertex each
+  const auto last = static_cast<int>(std::clamp<std::uint64_t>(steps / vertices, 2, 800));
+  const bool large = vertices >= large_scene;
+  std::set<int> frames{last};
+  if (!quick) frames.insert(std::max(1, last / 8));
+  if (!quick && !large) frames.insert(last / 2);
   softbody::World world(scene, {.threads = threads});
   Recording recording{scene.key, scene.name, world.collision().buckets, {}, {}};
   std::optional<RecordedState> busiest;
   std::size_t max_contacts = 0;
-  for (const int frame : plan.frames) {
+  for (const int frame : frames) {
     while (world.frame() < frame) {
       world.step();
       const std::size_t contacts = world.detection().contacts.size();
-      if (!plan.busiest || contacts <= max_contacts) continue;
+      if (large || contacts <= max_contacts) continue;
       max_contacts = contacts;
       busiest = copy(world);
     }
     recording.states.push_back(copy(world));
   }
-  if (busiest && std::ranges::find(plan.frames, busiest->frame) == plan.frames.end())
-    recording.states.push_back(std::move(*busiest));
+  if (busiest && !frames.contains(busiest->frame)) recording.states.push_back(std::move(*busiest));
   std::ranges::sort(recording.states, {}, &RecordedState::frame);
   if (recording.states.back().bodies.vertex_count() == 0)
     throw UsageError("scene '" + scene.key + "': no body has arrived by frame " + std::to_string(world.frame()) +
