@@ -39,7 +39,7 @@ double extent_of(const Particles& particles) {
 /// A run, frame by frame.
 class Run {
  public:
-  Run(const StabilityStart& start) : start_(start), assessment_(start.limits), above_balance_(start.above_balance) {}
+  Run(const StabilityStart& start) : start_(start), above_balance_(start.above_balance) {}
 
   World make(double frame_time, const softbody::Integrator& integrator, const std::vector<Particles>& particles) {
     World world(start_.scene, {.frame_time = frame_time, .integrator = with_steps(integrator, 1)});
@@ -74,12 +74,12 @@ class Run {
                                  .depth = m.deepest_penetration,
                                  .passed_through = passages_.count()};
     if (m.finite) add_reach(world, s);
-    assessment_.add(s);
+    figures_.add(s, start_.limits);
   }
 
   double time() const { return time_; }
-  bool lost() const { return assessment_.diverged(); }
-  const reference::StabilityFigures& figures() const { return assessment_.figures(); }
+  bool lost() const { return figures_.diverged(); }
+  const reference::StabilityFigures& figures() const { return figures_; }
 
  private:
   void count_excess(const World& world) {
@@ -126,7 +126,7 @@ class Run {
   }
 
   const StabilityStart& start_;
-  reference::StabilityAssessment assessment_;
+  reference::StabilityFigures figures_;
   double above_balance_;                                       // J, that the present bodies started or joined with
   BodyId bodies_ = 0;                                          // that are present
   double balance_ = 0;                                         // J, their springs and gas in balance
