@@ -23,7 +23,8 @@ Capture::~Capture() = default;
 engine::Image Capture::draw(const softbody::BodiesInMotion& world) {
   const glm::ivec2 size = offscreen_->target.size();
   offscreen_->target.bind();
-  offscreen_->view.draw(world, {}, offscreen_->view.camera(world, size), {{0, 0}, size}, 1.0f);
+  offscreen_->view.draw(world, {}, offscreen_->view.camera(world, size), {{0, 0}, size}, 1.0f,
+                        compare::DrawnMeshes(world));
   return offscreen_->target.read();
 }
 

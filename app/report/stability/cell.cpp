@@ -20,19 +20,16 @@ using glm::dvec3;
 using softbody::BodyId;
 using softbody::World;
 
-double gas_energy(const softbody::BodyModel& p, const Particles& particles) {
+double gas_energy(const softbody::BodyModel& p, const std::vector<dvec3>& x) {
   const softbody::Gas* gas = softbody::gas_of(p);
-  if (!gas) return 0;
-  std::vector<dvec3> x;
-  for (const softbody::Particle& q : particles) x.push_back(q.position);
-  return gas->stored(reference::volume_of(x, p.mesh.triangles));
+  return gas ? gas->stored(reference::volume_of(x, p.mesh.triangles)) : 0;
 }
 
-/// Returns the longest side (m) of the particles' box.
-double extent_of(const Particles& particles) {
-  assert(!particles.empty());
-  dvec3 lo = particles[0].position, hi = lo;
-  for (const softbody::Particle& p : particles) lo = glm::min(lo, p.position), hi = glm::max(hi, p.position);
+/// Returns the longest side (m) of the box around some points.
+double extent_of(const std::vector<dvec3>& points) {
+  assert(!points.empty());
+  dvec3 lo = points[0], hi = lo;
+  for (const dvec3& p : points) lo = glm::min(lo, p), hi = glm::max(hi, p);
   return std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
 }
 
@@ -95,10 +92,10 @@ class Run {
     double gas = 0;
     std::vector<double> extents;
     for (BodyId b = 0; b < world.bodies().count(); ++b) {
-      const Particles particles = particles_of(world, b);
-      available -= height_energy(world, particles, b);
-      gas += gas_energy(world.model(b), particles);
-      extents.push_back(extent_of(particles));
+      const std::vector<dvec3> x = reference::state_of(world, b).x;
+      available -= height_energy(world, x, b);
+      gas += gas_energy(world.model(b), x);
+      extents.push_back(extent_of(x));
     }
     const double min_energy = 1e-9 * s.scale;  // what has flown away has lost all to gravity
     s.reachable_speed = std::sqrt(2 * std::max(available - balance_, min_energy) / lightest_);

@@ -94,10 +94,9 @@ reference::ReferenceDeviation deviation(const softbody::BodyModel& model, const 
   return r;
 }
 
-double height_energy(const World& world, const Particles& particles, BodyId body) {
+double height_energy(const World& world, const std::vector<dvec3>& x, BodyId body) {
   double energy = 0;
-  for (const softbody::Particle& p : particles)
-    energy -= world.model(body).particle_mass * glm::dot(world.scene().gravity, p.position);
+  for (const dvec3& p : x) energy -= world.model(body).particle_mass * glm::dot(world.scene().gravity, p);
   return energy;
 }
 
@@ -118,7 +117,7 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
   }
   s.above_balance = softbody::measure(world).energy;
   for (BodyId b = 0; b < s.particles.size(); ++b)
-    s.above_balance -= height_energy(world, s.particles[b], b) + s.members[b].balance;
+    s.above_balance -= height_energy(world, reference::state_of(world, b).x, b) + s.members[b].balance;
   if (!s.particles.empty()) s.balance_shape = world.model(0).start;
   s.limits = limits_of(world, s, seconds);
   // The bodies are where they start. So no cell has to find their balance again, unless some join later.
