@@ -2,9 +2,9 @@
 // The last values of a quantity, each with its frame, for plots.
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cstddef>
+#include <deque>
 #include <vector>
 
 namespace app {
@@ -17,32 +17,26 @@ class TimeSeries {
   /// back.
   void push(int frame, float value) {
     forget_from(frame + 1);
-    values_[next_] = value;
-    frames_[next_] = frame;
-    next_ = (next_ + 1) % capacity;
-    if (size_ < capacity) ++size_;
+    values_.push_back({frame, value});
+    if (values_.size() > capacity) values_.pop_front();
   }
-  void clear() { next_ = size_ = 0; }
+  void clear() { values_.clear(); }
   /// Forgets the values of this frame and of all later ones.
   void forget_from(int frame) {
-    for (; size_ > 0 && this->frame(size_ - 1) >= frame; --size_) next_ = (next_ + capacity - 1) % capacity;
+    while (!values_.empty() && values_.back().frame >= frame) values_.pop_back();
   }
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return values_.size(); }
   /// Returns value i and its frame. i = 0 is the oldest value kept.
-  float operator[](std::size_t i) const { return values_[slot(i)]; }
-  int frame(std::size_t i) const { return frames_[slot(i)]; }
-  // These three return 0 if there are no values.
-  float max() const {
-    return extreme([](float a, float b) { return std::max(a, b); });
-  }
-  float min() const {
-    return extreme([](float a, float b) { return std::min(a, b); });
-  }
-  float latest() const { return size_ == 0 ? 0 : (*this)[size_ - 1]; }
-  /// Returns the median of the last values, of at most `last` of them; 0 if there are none.
+  float operator[](std::size_t i) const { return entry(i).value; }
+  int frame(std::size_t i) const { return entry(i).frame; }
+  // These return 0 if there are no values.
+  float max() const { return values_.empty() ? 0 : std::ranges::max(values_, {}, &Entry::value).value; }
+  float min() const { return values_.empty() ? 0 : std::ranges::min(values_, {}, &Entry::value).value; }
+  float latest() const { return values_.empty() ? 0 : values_.back().value; }
+  /// Returns the median of the last values, of at most `last` of them.
   float median(std::size_t last) const {
     std::vector<float> values;
-    for (std::size_t i = size_ - std::min(size_, last); i < size_; ++i) values.push_back((*this)[i]);
+    for (std::size_t i = size() - std::min(size(), last); i < size(); ++i) values.push_back((*this)[i]);
     if (values.empty()) return 0;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -50,19 +44,16 @@ class TimeSeries {
   }
 
  private:
-  std::size_t slot(std::size_t i) const {
-    assert(i < size_);
-    return (next_ + capacity - size_ + i) % capacity;
-  }
-  float extreme(float (*choose)(float, float)) const {
-    float found = latest();
-    for (std::size_t i = 0; i < size_; ++i) found = choose(found, (*this)[i]);
-    return found;
+  struct Entry {
+    int frame;
+    float value;
+  };
+  const Entry& entry(std::size_t i) const {
+    assert(i < size());
+    return values_[i];
   }
 
-  std::array<float, capacity> values_{};
-  std::array<int, capacity> frames_{};
-  std::size_t next_ = 0, size_ = 0;
+  std::deque<Entry> values_;
 };
 
 }  // namespace app

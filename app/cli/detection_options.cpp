@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/base/parse_numbers.h"
-#include "app/cli/integer_option.h"
+#include "app/cli/add_option.h"
 #include "app/cli/options.h"
 
 namespace app::cli {
@@ -38,23 +38,15 @@ std::optional<glm::vec3> read_cell_size(const std::string& text) {
 }  // namespace
 
 void add_detection_options(CLI::App& command, DetectionOptions& options) {
-  command.add_option("--method", options.method, "detector: a key of `list methods`")->type_name("M");
-  command.add_option("--levels", options.levels, "subdivision level: each body's box is cut into 2^N boxes")
-      ->type_name("N")
-      ->transform(integer_in_range(0, collide::max_levels));
-  command.add_option("--buckets", options.buckets, "number of buckets of the hash table")
-      ->type_name("N")
-      ->transform(integer_in_range(1, collide::max_buckets));
-  command
-      .add_option(
-          "--cell-size", options.cell_size,
-          "sides of a grid cell in metres, or auto: as large as the largest subdivided box at rest + the tolerance")
-      ->type_name("S|X,Y,Z|auto");
-  command
-      .add_option("--primes", options.primes,
-                  "factors of a cell's x, y and z in the hash function (default: 73856093,19349669,83492791)")
-      ->type_name("A,B,C");
-  command.add_option("--tolerance", options.tolerance, "collision tolerance in metres")->type_name("H");
+  add(command, "--method", "M", options.method, "detector: a key of `list methods`");
+  add(command, "--levels", "N", 0, collide::max_levels, options.levels,
+      "subdivision level: each body's box is cut into 2^N boxes");
+  add(command, "--buckets", "N", 1, collide::max_buckets, options.buckets, "number of buckets of the hash table");
+  add(command, "--cell-size", "S|X,Y,Z|auto", options.cell_size,
+      "sides of a grid cell in metres, or auto: as large as the largest subdivided box at rest + the tolerance");
+  add(command, "--primes", "A,B,C", options.primes,
+      "factors of a cell's x, y and z in the hash function (default: 73856093,19349669,83492791)");
+  add(command, "--tolerance", "H", options.tolerance, "collision tolerance in metres");
 }
 
 const collide::Method& chosen_method(const DetectionOptions& options, std::string_view otherwise) {

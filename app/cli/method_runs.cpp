@@ -37,16 +37,11 @@ struct Runner {
   }
 };
 
-/// Returns the runners in the order of the table.
-std::vector<Runner> all_runners() {
-  std::vector<Runner> runners;
-  for (const collide::Method& method : collide::method_table()) runners.push_back({{&method, {}, {}}});
-  return runners;
-}
-
 class SideBySide {
  public:
-  explicit SideBySide(const SequenceTask& task) : task_(task), workers_(task.threads), runners_(all_runners()) {}
+  explicit SideBySide(const SequenceTask& task) : task_(task), workers_(task.threads) {
+    for (const collide::Method& method : collide::method_table()) runners_.push_back({{&method, {}, {}}});
+  }
 
   MethodRuns run() {
     MethodRuns all;
@@ -55,7 +50,10 @@ class SideBySide {
       for (std::size_t f = 0; f < task_.frames.size(); ++f) {
         cost_model_.begin(task_.frames[f].view(), task_.settings, 0);
         if (repetition_ == 0 && f == 0) choose_reference();
-        frame(f);
+        truth_.reset();
+        if (reference_) search(*reference_, f);
+        for (std::size_t m = 0; m < runners_.size(); ++m)
+          if (m != reference_) search(m, f);
       }
     }
     clear_progress();
@@ -65,13 +63,6 @@ class SideBySide {
   }
 
  private:
-  void frame(std::size_t f) {
-    truth_.reset();
-    if (reference_) search(*reference_, f);
-    for (std::size_t m = 0; m < runners_.size(); ++m)
-      if (m != reference_) search(m, f);
-  }
-
   void search(std::size_t m, std::size_t f) {
     Runner& runner = runners_[m];
     if (!runner.run.not_run.empty()) return;

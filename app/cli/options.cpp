@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/base/parse_numbers.h"
-#include "app/cli/integer_option.h"
+#include "app/cli/add_option.h"
 #include "app/files/playback.h"
 #include "app/files/scene_folder.h"
 #include "softbody/scene/scene_keys.h"
@@ -74,24 +74,17 @@ softbody::View read_view(const std::string& text) {
 
 void add_common_options(CLI::App& command, Options& options) {
   add_detection_options(command, options.detection);
-  command.add_option("--threads", options.threads, "threads (default: all cores)")
-      ->type_name("N")
-      ->transform(integer_in_range(1, 256));
+  add(command, "--threads", "N", 1, 256, options.threads, "threads (default: all cores)");
 }
 
 void add_scene_options(CLI::App& command, Options& options) {
-  command.add_option("--scene", options.scene, "scene: a key of `list scenes` or a .toml file")->type_name("S");
+  add(command, "--scene", "S", options.scene, "scene: a key of `list scenes` or a .toml file");
   add_common_options(command, options);
-  command
-      .add_option("--contact-surface", options.contact_surface,
-                  "what keeps bodies apart: a key of `list contact-surfaces`")
-      ->type_name("K");
-  command.add_option("--integrator", options.integrator.key, "a key of `list integrators`")->type_name("I");
-  command
-      .add_option("--substeps", options.integrator.substeps,
-                  "exactly N steps of the integrator a frame (default: as many as stability asks for)")
-      ->type_name("N")
-      ->transform(integer_in_range(1, softbody::max_fixed_substeps));
+  add(command, "--contact-surface", "K", options.contact_surface,
+      "what keeps bodies apart: a key of `list contact-surfaces`");
+  add(command, "--integrator", "I", options.integrator.key, "a key of `list integrators`");
+  add(command, "--substeps", "N", 1, softbody::max_fixed_substeps, options.integrator.substeps,
+      "exactly N steps of the integrator a frame (default: as many as stability asks for)");
   command.add_flag_function(
       "--self,!--no-self", [&options](std::int64_t number) { options.self_collision = number > 0; },
       "whether pairs of one body count (default: the scene's)");
@@ -105,22 +98,15 @@ void add_scene_options(CLI::App& command, Options& options) {
 CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::string& captures) {
   CLI::App* simulate = cli.add_subcommand("simulate", "run a scene without a window");
   add_scene_options(*simulate, options);
-  simulate->add_option("--frames", options.frames, "frames to run")
-      ->type_name("N")
-      ->transform(integer_in_range(1, 10'000'000));
-  simulate->add_option("--dt", options.frame_time, "length of a frame in seconds (default 1/60)")->type_name("SECONDS");
-  simulate->add_option("--capture", captures, "frames to write as pictures, e.g. 100,400,600,800")
-      ->type_name("N,N,...");
-  simulate
-      ->add_option("--animation", options.animation, "animated image of the run in real time; a name ending in .webp")
-      ->type_name("FILE");
-  simulate->add_option("--size", size, "size of the pictures in pixels (default 1280x720)")->type_name("WxH");
-  simulate
-      ->add_option("--obj-every", options.obj_every, "write the bodies of every Nth frame as an OBJ file, for `detect`")
-      ->type_name("N")
-      ->transform(integer_in_range(1, 10'000'000));
-  simulate->add_option("--out", options.out, "folder for pictures and OBJ files (default: the current one)")
-      ->type_name("DIR");
+  add(*simulate, "--frames", "N", 1, 10'000'000, options.frames, "frames to run");
+  add(*simulate, "--dt", "SECONDS", options.frame_time, "length of a frame in seconds (default 1/60)");
+  add(*simulate, "--capture", "N,N,...", captures, "frames to write as pictures, e.g. 100,400,600,800");
+  add(*simulate, "--animation", "FILE", options.animation,
+      "animated image of the run in real time; a name ending in .webp");
+  add(*simulate, "--size", "WxH", size, "size of the pictures in pixels (default 1280x720)");
+  add(*simulate, "--obj-every", "N", 1, 10'000'000, options.obj_every,
+      "write the bodies of every Nth frame as an OBJ file, for `detect`");
+  add(*simulate, "--out", "DIR", options.out, "folder for pictures and OBJ files (default: the current one)");
   CLI::Option* json = simulate->add_flag("--json", options.json, "print one JSON document instead of a table");
   simulate
       ->add_flag("--json-lines", options.json_lines,
@@ -155,13 +141,10 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
   detect->get_option("--method")->description("detector: a key of `list methods`, or all of them: compares them");
   detect->add_flag("--self,!--no-self", d.self_collision,
                    "whether pairs of one body count (default: yes; of both, the last one holds)");
-  detect->add_option("--rest", d.rest, "bodies at rest: no pair of one body counts that is closer than H there")
-      ->type_name("FILE");
-  detect->add_option("--repeat", d.repeat, "runs of the whole sequence, each with a fresh detector")
-      ->type_name("K")
-      ->transform(integer_in_range(1, 100'000));
+  add(*detect, "--rest", "FILE", d.rest, "bodies at rest: no pair of one body counts that is closer than H there");
+  add(*detect, "--repeat", "K", 1, 100'000, d.repeat, "runs of the whole sequence, each with a fresh detector");
   detect->add_flag("!--no-reuse", d.reuse, "forget what earlier frames taught");
-  detect->add_option("--contacts", d.contacts, "file to write the contacts to")->type_name("CSV");
+  add(*detect, "--contacts", "CSV", d.contacts, "file to write the contacts to");
   detect->add_flag("--json", options.json, "print one JSON document instead of a table");
   CLI::Option* continuous = detect->add_flag(
       "--continuous", d.continuous,
@@ -176,18 +159,14 @@ CLI::App* add_report(CLI::App& cli, Options& options, std::optional<double>& tol
   CLI::App* report = cli.add_subcommand("report", "measure for minutes; write tables and plots");
   report->add_option("what", r.name, "detection, contact, solver or stability");
   report->add_option("FILE", r.files, "detection: OBJ or PLY files, consecutive frames of your own in place of scenes");
-  report->add_option("--tolerance", tolerance, "of FILE: collision tolerance in metres")->type_name("H");
+  add(*report, "--tolerance", "H", tolerance, "of FILE: collision tolerance in metres");
   add_bodies_option(*report, r.by);
-  report->add_option("--rest", r.rest, "of FILE: bodies at rest, as for `detect`")->type_name("FILE");
-  report->add_option("--scene", r.scene, "only this scene: a key of `list scenes` or a .toml file")->type_name("S");
+  add(*report, "--rest", "FILE", r.rest, "of FILE: bodies at rest, as for `detect`");
+  add(*report, "--scene", "S", r.scene, "only this scene: a key of `list scenes` or a .toml file");
   report->add_flag("--quick", r.quick, "within a minute: fewer scenes, states and repetitions");
-  report
-      ->add_option(
-          "--threads", r.threads,
-          "detection: threads of the detectors that are timed (default 1); contact and stability: runs side by "
-          "side (default: all cores)")
-      ->type_name("N")
-      ->transform(integer_in_range(1, 256));
+  add(*report, "--threads", "N", 1, 256, r.threads,
+      "detection: threads of the detectors that are timed (default 1); contact and stability: runs side by "
+      "side (default: all cores)");
   report->add_option("--out", r.out, "folder for the report")->type_name("DIR")->required();
   return report;
 }
@@ -309,14 +288,13 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   cli.set_version_flag("--version", SBCOLLIDE_VERSION);
   cli.require_subcommand(0, 1);
   add_scene_options(cli, options);
-  cli.add_option("--size", size, "size of the window or the pictures in pixels")->type_name("WxH");
+  add(cli, "--size", "WxH", size, "size of the window or the pictures in pixels");
   cli.add_option("--mesh", options.meshes, "OBJ or PLY files whose bodies join the scene in the window")
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
 
-  cli.add_option("--play", options.play,
-                 "OBJ or PLY files: recorded frames that the window plays; nothing is simulated")
-      ->type_name("FILE");
+  add(cli, "--play", "FILE", options.play,
+      "OBJ or PLY files: recorded frames that the window plays; nothing is simulated");
   add_bodies_option(cli, options.bodies_by);
 
   const CLI::App* simulate = add_simulate(cli, options, size, captures);

@@ -256,8 +256,8 @@ class ObjSequence {
   void take(const softbody::World& world) {
     if (!options_.obj_every || world.frame() % *options_.obj_every != 0) return;
     if (world.bodies().count() == 0) return;  // `detect` refuses a file without vertices
-    const collide::Frame at = world.positions();
-    if (!files::ObjWriter::can_write(at.x, at.y, at.z)) {
+    const auto [x, y, z, bodies] = world.positions();
+    if (!files::ObjWriter::can_write({x, y, z})) {
       if (!std::exchange(left_out_, true))
         warn(warnings_, file("frame", world.frame()).string() +
                             ": is not written, nor are later ones like it: a body is no longer finite");
@@ -267,7 +267,7 @@ class ObjSequence {
       bodies_.emplace(world);
       files::write_file(file("rest", world.frame()), bodies_->at_rest());
     }
-    files::write_file(file("frame", world.frame()), bodies_->frame(at.x, at.y, at.z));
+    files::write_file(file("frame", world.frame()), bodies_->frame({x, y, z}));
   }
 
  private:

@@ -53,7 +53,7 @@ CompareReport Comparison::run(const FrameSnapshot& snapshot, const std::stop_tok
   report.frame = snapshot.frame_number;
   report.rows.resize(entries_.size());
   for (Entry& entry : entries_) entry.done = false;
-  cost_model_.begin(snapshot.frame(), snapshot.settings, snapshot.world);
+  cost_model_.begin(snapshot.view(), snapshot.settings, snapshot.world);
   cost_model_.learn(snapshot.driver, snapshot.found.counters);
 
   report.order = choose(snapshot, report);
@@ -91,7 +91,7 @@ void Comparison::detect(std::size_t method, const FrameSnapshot& snapshot) {
   entry.error.clear();
   try {
     entry.detector->forget();  // all methods search from scratch
-    entry.ms = time_ms([&] { entry.detector->detect(snapshot.frame(), snapshot.settings, alone_, entry.result); });
+    entry.ms = time_ms([&] { entry.detector->detect(snapshot.view(), snapshot.settings, alone_, entry.result); });
     entry.done = true;
     cost_model_.learn(method, entry.result.counters);
   } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report

@@ -26,18 +26,14 @@ std::optional<std::size_t> choose_reference(const collide::Method& beside,
                                             const std::function<bool(std::size_t)>& can_run);
 
 /// A copy of one frame, and the methods to run on it.
-struct FrameSnapshot {
+struct FrameSnapshot : FrameCopy {
   std::uint64_t id = 0;     // the caller's number of the copied state
   std::uint64_t world = 0;  // differs from world to world
   int frame_number = 0;     // of the world
-  Positions at;
-  collide::Bodies bodies;
   collide::Settings settings;
   std::size_t driver = 0;  // index of the method that drives the bodies
   collide::Result found;   // the result of that method
   MethodSet chosen;        // to be run, too; empty: none
-
-  collide::Frame frame() const { return {at.x, at.y, at.z, &bodies}; }
 };
 
 /// The figures of one method on the frame.

@@ -1,22 +1,31 @@
 #pragma once
-// A copy of the positions of all vertices.
-
-#include <vector>
+// Copies of the positions of all vertices.
 
 #include "collide/core/frame.h"
+#include "softbody/mesh/points.h"
 #include "softbody/world/bodies_in_motion.h"
 
 namespace app::compare {
 
 /// World positions of all vertices, in metres.
-struct Positions {
-  std::vector<float> x, y, z;
-
+struct Positions : softbody::Points {
   void copy(const collide::Frame& frame) {
     x.assign(frame.x.begin(), frame.x.end());
     y.assign(frame.y.begin(), frame.y.end());
     z.assign(frame.z.begin(), frame.z.end());
   }
+};
+
+/// A copy of a frame.
+struct FrameCopy {
+  Positions at;
+  collide::Bodies bodies;
+
+  void copy(const collide::Frame& frame) {
+    at.copy(frame);
+    bodies = *frame.bodies;
+  }
+  collide::Frame view() const { return {at.x, at.y, at.z, &bodies}; }
 };
 
 /// The positions of the meshes that a world shows, and of those that it simulates.

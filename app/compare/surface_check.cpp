@@ -5,8 +5,8 @@
 namespace app::compare {
 namespace {
 
-glm::vec3 from_vertex(const Positions& at, collide::Index v, const glm::dvec3& point) {
-  return glm::vec3(point - glm::dvec3(at.x[v], at.y[v], at.z[v]));
+glm::vec3 from_vertex(const softbody::ConstPoints& at, collide::Index v, const glm::dvec3& point) {
+  return glm::vec3(point - glm::dvec3(at[v]));
 }
 
 std::vector<SurfaceMark> marks_of(const Positions& at, const collide::oracle::Overlaps& overlaps,
@@ -36,7 +36,7 @@ Positions completed(Positions before, const Positions& at) {
 
 void check_surfaces(const StepSnapshot& step, const std::stop_token& stop, SurfaceReport& report) {
   collide::Workers worker(1);
-  const collide::Frame now{step.at.x, step.at.y, step.at.z, &step.bodies};
+  const collide::Frame now = step.view();
   const collide::oracle::Overlaps overlaps = collide::oracle::find_overlaps(now, step.surfaces, worker);
   if (stop.stop_requested()) return;
   const Positions start = completed(step.before, step.at);

@@ -12,11 +12,10 @@
 namespace app::compare {
 
 /// A copy of one step.
-struct StepSnapshot {
+struct StepSnapshot : FrameCopy {
   std::uint64_t id = 0;  // the caller's number of the copied state
   int frame = 0;         // of the world, after the step
-  Positions before, at;  // `before` may lack the last bodies: they have just been added, and count as not moved
-  collide::Bodies bodies;
+  Positions before;      // may lack the last bodies: they have just been added, and count as not moved
   collide::surface::Surfaces surfaces;
   std::vector<collide::Contact> contacts;  // found by the detector
 };

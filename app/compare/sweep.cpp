@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <numeric>
 
 #include "app/base/heap.h"
@@ -175,9 +176,9 @@ std::vector<std::size_t> pareto_front(const std::vector<Tradeoff>& points) {
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     return std::pair(points[a].ms, points[a].error) < std::pair(points[b].ms, points[b].error);
   });
-  for (const std::size_t i : order) {
-    if (front.empty() || points[i].error < points[front.back()].error) front.push_back(i);
-  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : order)
+    if (points[i].error < least) front.push_back(i), least = points[i].error;
   return front;
 }
 

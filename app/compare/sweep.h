@@ -107,7 +107,7 @@ struct Tradeoff {
   double ms, error;  // error: 1 - recall
 };
 /// Returns the Pareto front, ascending in time: the points that no other point equals or beats in both time and error.
-/// Of equal points it has the first.
+/// Of equal points it has the first, and none whose error is infinite.
 std::vector<std::size_t> pareto_front(const std::vector<Tradeoff>& points);
 
 }  // namespace app::compare

@@ -24,36 +24,36 @@ collide::oracle::Overlaps WorldOracle::overlaps(const softbody::BodiesInMotion& 
 
 double WorldOracle::max_displacement(const softbody::BodiesInMotion& world) const {
   const collide::Frame now = world.simulated().positions;
-  assert(now.x.size() >= before_.x.size());
+  const Positions& before = before_.at;
+  assert(now.x.size() >= before.x.size());
   double max2 = 0;
-  for (std::size_t v = 0; v < before_.x.size(); ++v) {
-    const glm::dvec3 way(now.x[v] - before_.x[v], now.y[v] - before_.y[v], now.z[v] - before_.z[v]);
+  for (std::size_t v = 0; v < before.x.size(); ++v) {
+    const glm::dvec3 way(now.x[v] - before.x[v], now.y[v] - before.y[v], now.z[v] - before.z[v]);
     max2 = std::max(max2, glm::dot(way, way));
   }
   return std::sqrt(max2);
 }
 
 std::vector<collide::oracle::Crossing> WorldOracle::crossings(const softbody::BodiesInMotion& world) {
-  const collide::Frame now = world.simulated().positions, before{before_.x, before_.y, before_.z, &bodies_};
-  const std::size_t known = bodies_.vertex_count();  // new bodies come after them
-  const collide::Frame after{now.x.first(known), now.y.first(known), now.z.first(known), &bodies_};
+  const collide::Frame now = world.simulated().positions, before = before_.view();
+  const std::size_t known = before.x.size();  // new bodies come after them
+  const collide::Frame after{now.x.first(known), now.y.first(known), now.z.first(known), before.bodies};
   std::vector<collide::oracle::Crossing> found;
   if (max_displacement(world) > 0) found = collide::oracle::find_crossings(before, after, surfaces_, workers_);
-  std::swap(earlier_, before_);
+  std::swap(earlier_, before_.at);
   before_.copy(now);
-  bodies_ = *now.bodies;
   surfaces_ = surfaces_of(world);
   return found;
 }
 
 bool WorldOracle::entered_body(const collide::oracle::Crossing& crossing) const {
-  const collide::Index vertex = crossing.feature[0], first = bodies_.first[crossing.other];
+  const collide::Index vertex = crossing.feature[0], first = before_.bodies.first[crossing.other];
   const auto inside = [&](const Positions& p) {
-    const collide::VertexRun at{&p.x[first], &p.y[first], &p.z[first], bodies_.size(crossing.other)};
+    const collide::VertexRun at{&p.x[first], &p.y[first], &p.z[first], before_.bodies.size(crossing.other)};
     return collide::surface::ClosedShell(*surfaces_[crossing.other], at)
         .inside({p.x[vertex], p.y[vertex], p.z[vertex]});
   };
-  return inside(before_) && !inside(earlier_);
+  return inside(before_.at) && !inside(earlier_);
 }
 
 }  // namespace app::compare

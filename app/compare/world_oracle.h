@@ -33,8 +33,8 @@ class WorldOracle {
 
  private:
   collide::Workers workers_;
-  Positions before_, earlier_;           // at the last call and the one before it
-  collide::Bodies bodies_;               // of before_
+  FrameCopy before_;                     // at the last call of crossings()
+  Positions earlier_;                    // at the one before it
   collide::surface::Surfaces surfaces_;  // of before_
 };
 

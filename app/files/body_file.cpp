@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "app/files/forest.h"
-#include "app/files/inputs.h"
 
 namespace app::files {
 namespace {
@@ -142,11 +141,7 @@ BodyMeshes divide(const FileMesh& mesh, BodiesBy by, const std::filesystem::path
     local[v] = here - bodies.first[body_of[v]];
   }
 
-  const auto corners_of = [&](std::size_t face) {
-    const std::size_t begin = face > 0 ? mesh.faces[face - 1].end : 0;
-    return std::span(mesh.corners).subspan(begin, mesh.faces[face].end - begin);
-  };
-  const auto body_of_face = [&](std::size_t face) { return body_of[corners_of(face)[0]]; };
+  const auto body_of_face = [&](std::size_t face) { return body_of[mesh.corners_of(face)[0]]; };
   bodies.first_polygon = offsets_of<std::size_t>(count, mesh.faces.size(), body_of_face);
   if (by == BodiesBy::components && count > 2 && 2 * count > mesh.faces.size() && !mesh.faces.empty())
     notes.push_back(std::to_string(mesh.faces.size()) + " faces are " + std::to_string(count) +
@@ -157,7 +152,7 @@ BodyMeshes divide(const FileMesh& mesh, BodiesBy by, const std::filesystem::path
   bodies.polygons.corners.reserve(mesh.corners.size());
   bodies.polygons.ends.reserve(mesh.faces.size());
   for (const std::size_t face : face_of) {
-    for (const Index corner : corners_of(face)) {
+    for (const Index corner : mesh.corners_of(face)) {
       if (body_of[corner] != body_of_face(face))
         throw MeshFileError(file.string() + ":" + mesh.place(face) +
                             ": a face across bodies; use the vertices of one object only in a face, or give --bodies "
@@ -169,24 +164,12 @@ BodyMeshes divide(const FileMesh& mesh, BodiesBy by, const std::filesystem::path
   return bodies;
 }
 
-VertexPositions positions_of(const FileMesh& mesh, const BodyMeshes& bodies, const glm::dvec3& origin) {
+softbody::Points positions_of(const FileMesh& mesh, const BodyMeshes& bodies, const glm::dvec3& origin) {
   assert(mesh.x.size() == bodies.vertex_count());
-  VertexPositions at;
+  softbody::Points at;
   for (std::vector<float>* axis : {&at.x, &at.y, &at.z}) axis->reserve(mesh.x.size());
-  for (const Index v : bodies.file_vertex) {
-    const glm::vec3 p(mesh.position(v) - origin);
-    at.x.push_back(p.x), at.y.push_back(p.y), at.z.push_back(p.z);
-  }
+  for (const Index v : bodies.file_vertex) at.add(std::array{mesh.position(v) - origin});
   return at;
-}
-
-BodyFile read_bodies(const std::filesystem::path& file, std::optional<BodiesBy> by) {
-  protect_input(file);
-  const FileMesh mesh = softbody::read_file_mesh(file);
-  BodyFile read;
-  read.meshes = divide(mesh, by.value_or(default_bodies_by(mesh)), file, read.notes);
-  read.at = positions_of(mesh, read.meshes);
-  return read;
 }
 
 std::vector<BodyMeshes::Edge> BodyMeshes::edges(std::size_t body) const {
@@ -201,7 +184,7 @@ std::vector<BodyMeshes::Edge> BodyMeshes::edges(std::size_t body) const {
   return list;
 }
 
-std::vector<softbody::Triangle> triangles_of(const BodyMeshes& meshes, std::size_t body, const VertexPositions& at) {
+std::vector<softbody::Triangle> triangles_of(const BodyMeshes& meshes, std::size_t body, const softbody::Points& at) {
   std::vector<softbody::Triangle> list;
   const auto position = [&](Index corner) {
     const Index v = meshes.first[body] + corner;

@@ -10,6 +10,7 @@
 
 #include "collide/core/frame.h"
 #include "softbody/mesh/file_mesh.h"
+#include "softbody/mesh/points.h"
 #include "softbody/mesh/polygon.h"
 
 namespace app::files {
@@ -50,11 +51,6 @@ struct BodyMeshes {
   std::vector<Edge> edges(std::size_t body) const;
 };
 
-/// Positions of vertices, in metres.
-struct VertexPositions {
-  std::vector<float> x, y, z;
-};
-
 /// Cuts a polygon into triangles. corners: numbers of vertices; position(corner): m. Calls take(triangle) for each.
 template <class Position, class Take>
 void for_each_triangle(std::span<const collide::Index> corners, const Position& position, const Take& take) {
@@ -70,26 +66,17 @@ void for_each_triangle(std::span<const collide::Index> corners, const Position& 
 
 /// Returns the polygons of a body, cut into triangles by the positions of all vertices: a list of local indices,
 /// without triangles that have a vertex twice. Nothing is welded, turned or dropped.
-std::vector<softbody::Triangle> triangles_of(const BodyMeshes& meshes, std::size_t body, const VertexPositions& at);
-
-struct BodyFile {
-  BodyMeshes meshes;
-  VertexPositions at;              // of the vertices of `meshes`
-  std::vector<std::string> notes;  // one line each: what the author may have meant differently
-};
+std::vector<softbody::Triangle> triangles_of(const BodyMeshes& meshes, std::size_t body, const softbody::Points& at);
 
 /// Returns objects for an OBJ file, components for a PLY file.
 BodiesBy default_bodies_by(const softbody::FileMesh& mesh);
 
-/// Reads a file, which no output may replace from now on. by: left out, the default of its format. Throws MeshFileError
-/// if a face names vertices of several objects that are bodies, and wherever softbody::read_file_mesh() does.
-BodyFile read_bodies(const std::filesystem::path& file, std::optional<BodiesBy> by = {});
-
-/// Divides a mesh that was read from `file`. Throws MeshFileError as read_bodies() does.
+/// Divides a mesh that was read from `file`. Throws MeshFileError if a face names vertices of several objects that are
+/// bodies. notes: gets a line for each thing that the author may have meant differently.
 BodyMeshes divide(const softbody::FileMesh& mesh, BodiesBy by, const std::filesystem::path& file,
                   std::vector<std::string>& notes);
 
 /// Returns the positions of a mesh relative to `origin`, in the order of the bodies' vertices.
-VertexPositions positions_of(const softbody::FileMesh& mesh, const BodyMeshes& bodies, const glm::dvec3& origin = {});
+softbody::Points positions_of(const softbody::FileMesh& mesh, const BodyMeshes& bodies, const glm::dvec3& origin = {});
 
 }  // namespace app::files

@@ -24,7 +24,7 @@ bool same_mesh(const BodyMeshes& meshes, std::size_t a, std::size_t b) {
 
 /// Adds to `bodies` those of `meshes` that it lacks. rest: the positions of all vertices at rest, if they are known.
 /// Consecutive copies of a mesh share a topology.
-void add_bodies(collide::Bodies& bodies, const BodyMeshes& meshes, const VertexPositions* rest) {
+void add_bodies(collide::Bodies& bodies, const BodyMeshes& meshes, const softbody::Points* rest) {
   for (std::size_t b = bodies.count(); b < meshes.count(); ++b) {
     std::vector<glm::vec3> positions;
     for (Index v = meshes.first[b]; rest && v < meshes.first[b + 1]; ++v)
@@ -64,7 +64,7 @@ FrameSequence::FrameSequence(std::vector<std::filesystem::path> files, const Opt
   first->meshes = divide(mesh, by_, files_.front(), notes_);
   first_at_ = positions_of(mesh, first->meshes, origin_);
   first_ = last_ = first;
-  const VertexPositions rest = options.rest ? read(*options.rest, false).at : VertexPositions{};
+  const softbody::Points rest = options.rest ? read(*options.rest, false).at : softbody::Points{};
   add_bodies(first->bodies, first->meshes, options.rest ? &rest : nullptr);
 }
 

@@ -17,7 +17,7 @@ struct SequenceBodies {
 /// One frame of a sequence.
 struct SequenceFrame {
   std::shared_ptr<const SequenceBodies> of;
-  VertexPositions at;
+  softbody::Points at;
 
   collide::Frame view() const { return {at.x, at.y, at.z, &of->bodies}; }
 };
@@ -64,7 +64,7 @@ class FrameSequence {
   softbody::MeshReading reading_;
   glm::dvec3 origin_{0.0};
   std::shared_ptr<const SequenceBodies> first_, last_;  // of the first file; of the last one read that has more, if any
-  std::optional<VertexPositions> first_at_;             // until read(0) returns it
+  std::optional<softbody::Points> first_at_;            // until read(0) returns it
   std::vector<std::string> notes_;
 };
 

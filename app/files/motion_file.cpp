@@ -24,11 +24,6 @@ Frame read_frame(const std::filesystem::path& file) {
   return {file.string(), softbody::read_file_mesh(file, {.doubles = true, .lines = true})};
 }
 
-std::span<const Index> corners_of(const FileMesh& mesh, std::size_t face) {
-  const std::size_t begin = face > 0 ? mesh.faces[face - 1].end : 0;
-  return std::span(mesh.corners).subspan(begin, mesh.faces[face].end - begin);
-}
-
 /// Throws UsageError unless both frames have the same vertices, faces and lines.
 void require_match(const Frame& from, const Frame& to) {
   const std::string advice = "; give two frames of one mesh";
@@ -42,7 +37,7 @@ void require_match(const Frame& from, const Frame& to) {
   require_number("faces", a.faces.size(), b.faces.size());
   require_number("segments of lines", a.segments.size(), b.segments.size());
   for (std::size_t face = 0; face < a.faces.size(); ++face) {
-    if (!std::ranges::equal(corners_of(a, face), corners_of(b, face)))
+    if (!std::ranges::equal(a.corners_of(face), b.corners_of(face)))
       throw UsageError(to.file + ":" + b.place(face) + ": another face than " + from.file + ":" + a.place(face) +
                        advice);
   }
@@ -86,9 +81,8 @@ MotionFiles read_motion(const std::filesystem::path& from, const std::filesystem
   const Frame first = read_frame(from), last = read_frame(to);
   require_match(first, last);
   MotionFiles motion;
-  const auto position = [](const FileMesh& mesh, Index v) { return glm::dvec3(mesh.x[v], mesh.y[v], mesh.z[v]); };
   for (Index v = 0; v < first.mesh.x.size(); ++v)
-    motion.mesh.points.push_back({position(first.mesh, v), position(last.mesh, v)});
+    motion.mesh.points.push_back({first.mesh.position(v), last.mesh.position(v)});
   add_features(first.mesh, motion.mesh);
   Forest forest(motion.mesh.points.size());
   for (const auto& [a, b] : motion.mesh.edges) forest.join(a, b);

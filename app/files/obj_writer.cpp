@@ -59,34 +59,28 @@ std::vector<const softbody::BodyModel*> models_of(const softbody::BodiesInMotion
 ObjWriter::ObjWriter(const softbody::BodiesInMotion& world) : models_(models_of(world)), first_{0} {
   for (const softbody::BodyModel* model : models_) {
     faces_.push_back(faces_of(model->shown().mesh, first_.back()));
-    for (const glm::dvec3& v : model->shown_at_rest()) {
-      x_.push_back(static_cast<float>(v.x));
-      y_.push_back(static_cast<float>(v.y));
-      z_.push_back(static_cast<float>(v.z));
-    }
-    first_.push_back(x_.size());
+    rest_.add(model->shown_at_rest());
+    first_.push_back(rest_.x.size());
   }
 }
 
 bool ObjWriter::matches(const softbody::BodiesInMotion& world) const { return models_ == models_of(world); }
 
-bool ObjWriter::can_write(std::span<const float> x, std::span<const float> y, std::span<const float> z) {
-  const auto finite = [](float at) { return std::isfinite(at); };
-  return std::ranges::all_of(x, finite) && std::ranges::all_of(y, finite) && std::ranges::all_of(z, finite);
+bool ObjWriter::can_write(const softbody::ConstPoints& at) {
+  const auto finite = [](float axis) { return std::isfinite(axis); };
+  return std::ranges::all_of(at.x, finite) && std::ranges::all_of(at.y, finite) && std::ranges::all_of(at.z, finite);
 }
 
-std::string ObjWriter::frame(std::span<const float> x, std::span<const float> y, std::span<const float> z) const {
-  assert(x.size() == first_.back() && y.size() == x.size() && z.size() == x.size() && can_write(x, y, z));
+std::string ObjWriter::frame(const softbody::ConstPoints& at) const {
+  assert(at.x.size() == first_.back() && at.y.size() == at.x.size() && at.z.size() == at.x.size() && can_write(at));
   std::string text;
   for (std::size_t b = 0; b < faces_.size(); ++b) {
     text += fmt::format("o body_{}\n", b);
     for (std::size_t i = first_[b]; i < first_[b + 1]; ++i)
-      text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", x[i], y[i], z[i]);
+      text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", at.x[i], at.y[i], at.z[i]);
     text += faces_[b];
   }
   return text;
 }
-
-std::string ObjWriter::at_rest() const { return frame(x_, y_, z_); }
 
 }  // namespace app::files

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "softbody/mesh/points.h"
 #include "softbody/world/bodies_in_motion.h"
 
 namespace app::files {
@@ -19,19 +20,19 @@ class ObjWriter {
   bool matches(const softbody::BodiesInMotion& world) const;
 
   /// Returns false if a coordinate is not finite: no file can hold it.
-  static bool can_write(std::span<const float> x, std::span<const float> y, std::span<const float> z);
-  /// Returns the file of one frame: each body is an object, body_0 and so on. x, y, z: of all vertices, in metres.
-  /// Precondition: can_write(x, y, z).
-  std::string frame(std::span<const float> x, std::span<const float> y, std::span<const float> z) const;
+  static bool can_write(const softbody::ConstPoints& at);
+  /// Returns the file of one frame: each body is an object, body_0 and so on. at: of all vertices. Precondition:
+  /// can_write(at).
+  std::string frame(const softbody::ConstPoints& at) const;
   /// Returns the bodies at rest, inflated as they start, each about its own origin: --rest asks for distances and
   /// boxes.
-  std::string at_rest() const;
+  std::string at_rest() const { return frame(rest_); }
 
  private:
   std::vector<const softbody::BodyModel*> models_;  // only for comparison: the world may be gone
   std::vector<std::size_t> first_;                  // by body: its first vertex; one more at the end
   std::vector<std::string> faces_;                  // by body
-  std::vector<float> x_, y_, z_;                    // at rest
+  softbody::Points rest_;
 };
 
 }  // namespace app::files

@@ -1,11 +1,20 @@
 #include "app/files/output_file.h"
 
+#include <fcntl.h>
+#include <semaphore.h>
+#include <stdlib.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <cassert>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fstream>
+#include <mutex>
+#include <set>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "app/base/usage_error.h"
@@ -14,6 +23,31 @@
 namespace app::files {
 namespace fs = std::filesystem;
 namespace {
+
+std::mutex names_mutex;  // held while a name is added, removed or changed, and after a signal until the end
+
+/// The names of the existing files. The set is never destroyed, because a signal may come at the very end.
+std::set<std::string>& temporary_names() {
+  static auto& all = *new std::set<std::string>;
+  return all;
+}
+
+sem_t arrived;
+volatile std::sig_atomic_t signal_number = 0;
+
+extern "C" void note_signal(int number) {
+  signal_number = number;
+  ::sem_post(&arrived);
+}
+
+/// Runs in a thread of its own, because a signal handler itself may call almost nothing.
+void await_signal() {
+  while (::sem_wait(&arrived) != 0) continue;
+  const std::scoped_lock lock(names_mutex);
+  for (const std::string& name : temporary_names()) std::remove(name.c_str());
+  std::signal(signal_number, SIG_DFL);
+  ::raise(signal_number);
+}
 
 /// Returns true if nothing is lost when a file with this heading replaces `file`.
 bool may_replace(const fs::path& file, std::string_view heading) {
@@ -48,6 +82,19 @@ fs::path next_free_path(const fs::path& folder, const std::string& prefix, const
   }
 }
 
+void remove_temporary_files_on_signals() {
+  ::sem_init(&arrived, 0, 0);
+  std::thread(await_signal).detach();
+  struct sigaction action {};
+  action.sa_handler = &note_signal;
+  action.sa_flags = SA_RESTART;
+  for (const int number : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU}) {
+    struct sigaction before {};
+    ::sigaction(number, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) ::sigaction(number, &action, nullptr);
+  }
+}
+
 OutputFile::OutputFile(fs::path path, std::string_view heading) : path_(std::move(path)) {
   require_no_input(path_);
   std::error_code ignored;
@@ -55,24 +102,47 @@ OutputFile::OutputFile(fs::path path, std::string_view heading) : path_(std::mov
     if (!fs::is_regular_file(status)) fail("it is not a regular file", "name another file");
     if (!may_replace(path_, heading)) fail("it exists and is not a file of this kind", "name another file");
   }
-  attempt([&] { file_.emplace(path_); });
+  open();
   write(heading);
 }
 
+void OutputFile::open() {
+  std::string name = path_.string() + ".XXXXXX";
+  const std::scoped_lock lock(names_mutex);
+  const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
+  if (descriptor < 0) fail(std::strerror(errno));
+  // mkostemp makes a private file.
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  ::fchmod(descriptor, 0666 & ~mask);
+  file_.reset(::fdopen(descriptor, "wb"));
+  if (!file_) {
+    const int error = errno;
+    ::close(descriptor);
+    std::remove(name.c_str());
+    fail(std::strerror(error));
+  }
+  temporary_names().insert(name);
+  temporary_.reset(new std::string(std::move(name)));
+}
+
+void OutputFile::Remove::operator()(const std::string* temporary) const {
+  const std::unique_ptr<const std::string> name(temporary);
+  const std::scoped_lock lock(names_mutex);
+  if (temporary_names().erase(*name) > 0) std::remove(name->c_str());
+}
+
 void OutputFile::write(std::string_view bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_->stream()) != bytes.size()) fail(std::strerror(errno));
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) fail(std::strerror(errno));
 }
 
 void OutputFile::commit() {
-  attempt([&] { file_->keep_as(path_); });
-}
-
-void OutputFile::attempt(const auto& action) const {
-  try {
-    action();
-  } catch (const std::system_error& error) {
-    fail(error.code().message());
-  }
+  assert(file_);
+  // A full disk may be reported only when the file is closed.
+  if (std::fclose(file_.release()) != 0) fail(std::strerror(errno));
+  const std::scoped_lock lock(names_mutex);
+  if (std::rename(temporary_->c_str(), path_.c_str()) != 0) fail(std::strerror(errno));
+  temporary_names().erase(*temporary_);
 }
 
 void OutputFile::fail(const std::string& why, const char* advice) const {

@@ -3,11 +3,9 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <string>
 #include <string_view>
-
-#include "app/files/temporary_file.h"
 
 namespace app::files {
 
@@ -22,26 +20,36 @@ void write_file(const std::filesystem::path& file, std::string_view bytes);
 std::filesystem::path next_free_path(const std::filesystem::path& folder, const std::string& prefix,
                                      const std::string& ending);
 
+/// Makes signals that end the program, such as SIGINT and SIGTERM, remove the temporary files of all OutputFiles first.
+/// Signals that are ignored stay ignored. Call it once.
+void remove_temporary_files_on_signals();
+
 class OutputFile {
  public:
-  /// Opens a temporary file beside `path` and writes `heading` to it. Throws UsageError, as do all members, if the file
-  /// cannot be written or `path` may not be replaced: it is an input of the run, or not a regular file, or a file that
-  /// is not empty and does not begin with `heading`.
+  /// Opens a temporary file beside `path`, with the permissions of any new file, and writes `heading` to it. Throws
+  /// UsageError, as do all members, if the file cannot be written or `path` may not be replaced: it is an input of the
+  /// run, or not a regular file, or a file that is not empty and does not begin with `heading`.
   explicit OutputFile(std::filesystem::path path, std::string_view heading = {});
 
   void write(std::string_view bytes);
   /// Returns the descriptor of the file, for another process that writes it.
-  int descriptor() const { return ::fileno(file_->stream()); }
+  int descriptor() const { return ::fileno(file_.get()); }
   /// Puts the file into its place. This must be the last call. Without it no new file remains, and an older one stays.
   void commit();
 
  private:
-  void attempt(const auto& action) const;
+  /// Removes the file, unless it is in its place.
+  struct Remove {
+    void operator()(const std::string* temporary) const;
+  };
+
+  void open();
   [[noreturn]] void fail(const std::string& why,
                          const char* advice = "name another one, where you may write and there is room") const;
 
   std::filesystem::path path_;
-  std::optional<TemporaryFile> file_;
+  std::unique_ptr<std::string, Remove> temporary_;  // the name of the file until it is in its place
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{nullptr, &std::fclose};
 };
 
 }  // namespace app::files

@@ -18,7 +18,7 @@ namespace app::files {
 namespace {
 
 /// Returns the mesh of a body with these triangles, in the shape that it has in this frame.
-softbody::Mesh mesh_of(const BodyMeshes& meshes, std::size_t body, const VertexPositions& at,
+softbody::Mesh mesh_of(const BodyMeshes& meshes, std::size_t body, const softbody::Points& at,
                        std::vector<softbody::Triangle> triangles) {
   softbody::Mesh mesh;
   const collide::Index vertices = meshes.first[body + 1] - meshes.first[body];
@@ -53,7 +53,6 @@ Playback::Playback(std::vector<std::filesystem::path> files, std::optional<Bodie
   const std::shared_ptr<const RecordedFrame> first = frame(0);
   if (first->x.empty())
     throw softbody::SceneError(sequence_.file(0).string() + ": has no vertex; nothing can be played");
-  bounds_.fill(glm::vec3(first->x[0], first->y[0], first->z[0]));
   include(*first);
   command_words_ = {"--bodies",
                     std::string(std::ranges::find(bodies_by_keys, sequence_.by(), &BodiesByKey::value)->key), "--play"};
@@ -69,12 +68,7 @@ Playback::Playback(std::vector<std::filesystem::path> files, std::optional<Bodie
 
 /// Makes bounds() large enough for a frame.
 void Playback::include(const RecordedFrame& frame) {
-  if (frame.x.empty()) return;
-  const auto [left, right] = std::ranges::minmax(frame.x);
-  const auto [bottom, top] = std::ranges::minmax(frame.y);
-  const auto [back, front] = std::ranges::minmax(frame.z);
-  bounds_[0] = glm::min(bounds_[0], glm::vec3(left, bottom, back));
-  bounds_[1] = glm::max(bounds_[1], glm::vec3(right, top, front));
+  for (std::size_t v = 0; v < frame.x.size(); ++v) bounds_.add(glm::dvec3(softbody::ConstPoints(frame)[v]));
 }
 
 std::shared_ptr<const RecordedFrame> Playback::frame(int number) {
@@ -147,8 +141,7 @@ std::shared_ptr<const RecordedFrame> Playback::record(int number, SequenceFrame 
     }
     ++count;
   }
-  return std::make_shared<RecordedFrame>(
-      RecordedFrame{count, std::move(frame.at.x), std::move(frame.at.y), std::move(frame.at.z)});
+  return std::make_shared<RecordedFrame>(RecordedFrame{std::move(frame.at), count});
 }
 
 float Playback::usual_tolerance() {
@@ -156,15 +149,13 @@ float Playback::usual_tolerance() {
   std::vector<float> lengths;
   std::size_t begin = 0;
   for (std::uint32_t body = 0; body < first->body_count; ++body) {
-    const auto at = [&](softbody::Index v) {
-      return glm::vec3(first->x[begin + v], first->y[begin + v], first->z[begin + v]);
-    };
+    const auto at = [&](softbody::Index v) { return softbody::ConstPoints(*first)[begin + v]; };
     for (const auto& [a, b] : models_[body]->mesh.edges) lengths.push_back(glm::distance(at(a), at(b)));
     begin += models_[body]->mesh.vertices.size();
   }
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::ranges::nth_element(lengths, middle);
-  const float tolerance = lengths.empty() ? 0.01f * glm::distance(bounds_[0], bounds_[1]) : 0.5f * *middle;
+  const float tolerance = lengths.empty() ? 0.01f * glm::distance(bounds()[0], bounds()[1]) : 0.5f * *middle;
   return std::clamp(tolerance, collide::min_tolerance, collide::max_tolerance);
 }
 

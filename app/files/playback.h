@@ -6,6 +6,7 @@
 
 #include "app/files/frame_sequence.h"
 #include "app/files/recording.h"
+#include "collide/surface/box_tree.h"
 
 namespace app::files {
 
@@ -23,7 +24,7 @@ class Playback : public Recording {
   explicit Playback(std::vector<std::filesystem::path> files, std::optional<BodiesBy> by = {},
                     std::size_t kept_bytes = max_kept_bytes);
 
-  std::array<glm::vec3, 2> bounds() const override { return bounds_; }
+  std::array<glm::vec3, 2> bounds() const override { return {glm::vec3(bounds_.lo), glm::vec3(bounds_.hi)}; }
   int frame_count() const override { return static_cast<int>(sequence_.count()); }
   std::shared_ptr<const RecordedFrame> frame(int number) override;
   const std::shared_ptr<const softbody::BodyModel>& model(std::uint32_t body) const override { return models_[body]; }
@@ -48,7 +49,7 @@ class Playback : public Recording {
   std::map<int, std::shared_ptr<const RecordedFrame>> kept_;  // by number; always the first
   std::size_t free_bytes_;                                    // for more of them
   std::vector<std::shared_ptr<const softbody::BodyModel>> models_;
-  std::array<glm::vec3, 2> bounds_{};
+  collide::surface::Box bounds_;
   std::vector<std::string> command_words_;
   std::optional<Ahead> ahead_;  // last member: its thread ends before the others go
 };

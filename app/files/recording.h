@@ -10,15 +10,16 @@
 
 #include <glm/vec3.hpp>
 
+#include "softbody/mesh/points.h"
 #include "softbody/model/body_model.h"
 #include "softbody/scene/scene.h"
 
 namespace app::files {
 
 /// A frame of a recording: the first bodies of the recording, and where their vertices are.
-struct RecordedFrame {
+/// Points are in the world, one body after another, and finite.
+struct RecordedFrame : softbody::Points {
   std::uint32_t body_count = 0;
-  std::vector<float> x, y, z;  // m, in the world, one body after another; finite
 };
 
 class Recording {
@@ -46,8 +47,5 @@ struct Opened {
   softbody::Scene scene;                 // with a recording: its names, its view and how its contacts are found
   std::shared_ptr<Recording> recording;  // nullptr: the scene is simulated
 };
-
-/// Returns the automatic cell size (§2.2) for the shapes that the bodies have in the first frame.
-glm::vec3 automatic_cell_size(Recording& recording, int levels, float tolerance);
 
 }  // namespace app::files

@@ -8,25 +8,24 @@
 
 namespace app::reference {
 
-void StabilityAssessment::add(const StabilitySample& s) {
-  StabilityFigures& f = figures_;
-  const double excess = s.excess / s.scale, speed = s.speed / s.reachable_speed, extent = s.extent / s.reachable_extent,
-               depth = s.depth / limits_.radius;
+void StabilityFigures::add(const StabilitySample& s, const StabilityLimits& limits) {
+  const double excess = s.excess / s.scale, of_speed = s.speed / s.reachable_speed,
+               of_extent = s.extent / s.reachable_extent, depth = s.depth / limits.radius;
   // std::max would ignore NaN.
-  const auto finite = [](double figure) { return std::isfinite(figure); };
-  f.finite = s.finite && std::ranges::all_of(std::array{excess, speed, extent, depth}, finite);
-  if (!f.finite) {
-    f.blow_up_time = s.time;
+  const auto is_finite = [](double figure) { return std::isfinite(figure); };
+  finite = s.finite && std::ranges::all_of(std::array{excess, of_speed, of_extent, depth}, is_finite);
+  if (!finite) {
+    blow_up_time = s.time;
     return;
   }
-  f.energy = std::max(f.energy, excess);
-  f.speed = std::max(f.speed, speed);
-  f.extent = std::max(f.extent, extent);
+  energy = std::max(energy, excess);
+  speed = std::max(speed, of_speed);
+  extent = std::max(extent, of_extent);
   constexpr int frames_to_come_out = 10;
-  if (!limits_.begins_inside || s.frame > frames_to_come_out) f.transient = std::max(f.transient, depth);
-  if (s.time > 0.75 * limits_.seconds) f.steady = std::max(f.steady, depth);
-  f.passed_through = s.passed_through;
-  if (excess > 10) f.blow_up_time = s.time;
+  if (!limits.begins_inside || s.frame > frames_to_come_out) transient = std::max(transient, depth);
+  if (s.time > 0.75 * limits.seconds) steady = std::max(steady, depth);
+  passed_through = s.passed_through;
+  if (excess > 10) blow_up_time = s.time;
 }
 
 std::vector<std::string> failures(const StabilityFigures& f) {

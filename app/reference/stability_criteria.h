@@ -35,6 +35,7 @@ struct ReferenceDeviation {
   double rest = 0;    // m/s, by how much the RMS of the motion within the body exceeds the reference's
 };
 
+/// Gathered frame by frame.
 struct StabilityFigures {
   bool finite = true;    // all positions, velocities and derived figures are
   double energy = 0;     // largest excess energy / scale
@@ -46,6 +47,10 @@ struct StabilityFigures {
   std::optional<ReferenceDeviation> reference{};  // nothing: the run is judged by the other figures
   double blow_up_time = 0;                        // s, when the run was given up; 0: it was not
   std::string refused{};                          // why the solver refused to run; the rest has no meaning then
+
+  void add(const StabilitySample& sample, const StabilityLimits& limits);
+  /// Returns true if the run is not finite, or has ten times the scale in excess energy: it cannot recover.
+  bool diverged() const { return blow_up_time > 0; }
 };
 
 struct StabilityBounds {
@@ -55,19 +60,6 @@ struct StabilityBounds {
   double rest = 1e-3;                     // m/s
 };
 inline constexpr StabilityBounds stability_bounds;
-
-class StabilityAssessment {
- public:
-  explicit StabilityAssessment(const StabilityLimits& limits) : limits_(limits) {}
-  void add(const StabilitySample& sample);
-  /// Returns true if the run is not finite, or has ten times the scale in excess energy: it cannot recover.
-  bool diverged() const { return figures_.blow_up_time > 0; }
-  const StabilityFigures& figures() const { return figures_; }
-
- private:
-  StabilityLimits limits_;
-  StabilityFigures figures_;
-};
 
 /// Returns what is wrong, in words with numbers; empty if the run passes.
 std::vector<std::string> failures(const StabilityFigures& figures);

@@ -1,25 +1,30 @@
 #pragma once
 // Draws pictures of a world without a window.
 
-#include <memory>
-
-#include "engine/image.h"
-#include "softbody/world/bodies_in_motion.h"
+#include "app/render/scene_view.h"
+#include "engine/gl.h"
+#include "engine/headless.h"
+#include "engine/resources.h"
 
 namespace app::render {
 
 class Capture {
  public:
   /// Throws engine::ContextError, engine::ResourceError or engine::ShaderError with one line that says what is missing.
-  Capture(int width, int height);
-  ~Capture();
+  Capture(int width, int height) : target_({width, height}, 4), view_(engine::find_folder("shaders")) {}
 
   /// Returns a picture of exactly that size, seen by the scene's own camera.
-  engine::Image draw(const softbody::BodiesInMotion& world);
+  engine::Image draw(const softbody::BodiesInMotion& world) {
+    const glm::ivec2 size = target_.size();
+    target_.bind();
+    view_.draw(world, {}, view_.camera(world, size), {{0, 0}, size}, 1.0f, compare::DrawnMeshes(world));
+    return target_.read();
+  }
 
  private:
-  struct Offscreen;
-  std::unique_ptr<Offscreen> offscreen_;
+  engine::HeadlessContext context_;  // first: the others need it
+  engine::Framebuffer target_;
+  SceneView view_;
 };
 
 }  // namespace app::render

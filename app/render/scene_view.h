@@ -44,12 +44,6 @@ class SceneView {
 
   void draw(const softbody::BodiesInMotion& world, const OverlayRequest& overlays, const engine::Camera& camera,
             const engine::Viewport& viewport, float pixel_scale, const compare::DrawnMeshes& at);
-  /// Draws each vertex at its present position.
-  void draw(const softbody::BodiesInMotion& world, const OverlayRequest& overlays, const engine::Camera& camera,
-            const engine::Viewport& viewport, float pixel_scale) {
-    draw(world, overlays, camera, viewport, pixel_scale, compare::DrawnMeshes(world));
-  }
-
   /// Draws the same data as the last draw() from another camera. The world is not read; labels and fading stay the
   /// same.
   void redraw(const engine::Camera& camera, const engine::Viewport& viewport, float pixel_scale) {

@@ -10,7 +10,6 @@
 #include "app/files/inputs.h"
 #include "app/files/output_file.h"
 #include "app/files/scene_folder.h"
-#include "app/report/gnuplot.h"
 
 namespace app::report {
 namespace {

@@ -1,5 +1,6 @@
 #include "app/report/page.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -14,14 +15,16 @@ std::string warn_of_busy_machine(const TimedParts& timed) {
                      100 * timed.processor / timed.wall);
 }
 
-void Page::fill(const std::string& report, fmt::format_args holes) {
-  const std::filesystem::path file = engine::find_folder("assets/reports") / (report + ".txt");
+void Page::fill(const std::string& part, fmt::format_args holes) {
+  const std::filesystem::path file = engine::find_folder("assets/reports") / (report_ + ".txt");
   std::ifstream in(file);
-  const std::string pattern(std::istreambuf_iterator<char>(in), {});
-  if (pattern.empty()) throw engine::ResourceError(file.string() + ": cannot be read; install the program again");
-  std::string text = fmt::vformat(pattern, holes);
+  const std::string patterns = '\n' + std::string(std::istreambuf_iterator<char>(in), {}), mark = "\n=== ";
+  const auto at = patterns.find(mark + part + '\n');
+  if (at == patterns.npos) throw engine::ResourceError(file.string() + ": cannot be read; install the program again");
+  const auto begin = patterns.find('\n', at + 1) + 1, end = patterns.find(mark, begin);
+  std::string text = fmt::vformat(patterns.substr(begin, std::min(end, patterns.size() - 1) + 1 - begin), holes);
   constexpr std::string_view empty_item = "- \n";
-  for (auto at = text.find(empty_item); at != text.npos; at = text.find(empty_item)) text.erase(at, empty_item.size());
+  for (auto i = text.find(empty_item); i != text.npos; i = text.find(empty_item)) text.erase(i, empty_item.size());
   parts_.push_back(std::move(text));
 }
 

@@ -19,16 +19,20 @@ std::string warn_of_busy_machine(const TimedParts& timed);
 
 class Page {
  public:
+  /// report: names assets/reports/`report`.txt, which has the longer texts of the page.
+  explicit Page(std::string report) : report_(std::move(report)) {}
+
   /// Adds a heading or a paragraph.
   template <class... Values>
   void text(fmt::format_string<Values...> pattern, Values&&... values) {
     parts_.push_back(fmt::format(pattern, std::forward<Values>(values)...) + "\n");
   }
-  /// Adds the text of assets/reports/`report`.txt. holes: fmt::arg() for each of its {names}. Leaves out an item that
-  /// is only a hole, and empty. Throws engine::ResourceError if the file cannot be read.
+  /// Adds a part of the page's file: what stands between its line "=== part" and the next such line. holes: fmt::arg()
+  /// for each of its {names}. Leaves out an item that is only a hole, and empty. Throws engine::ResourceError if the
+  /// file cannot be read.
   template <class... Holes>
-  void introduction(const std::string& report, const Holes&... holes) {
-    fill(report, fmt::make_format_args(holes...));
+  void add(const std::string& part, const Holes&... holes) {
+    fill(part, fmt::make_format_args(holes...));
   }
   /// Adds a paragraph that write_report() also prints on standard error. An empty one is left out.
   void warn(const std::string& text);
@@ -43,8 +47,9 @@ class Page {
   std::string markdown(bool with_plots) const;
 
  private:
-  void fill(const std::string& report, fmt::format_args holes);
+  void fill(const std::string& part, fmt::format_args holes);
 
+  std::string report_;
   std::vector<std::string> parts_;  // empty: the next plot
   std::vector<Plot> plots_;
   std::vector<std::string> warnings_;

@@ -1,5 +1,5 @@
 #pragma once
-// Plots as data, and the gnuplot script that draws them.
+// Plots as data, drawn by gnuplot: a separate program (package gnuplot-nox) that may be missing.
 
 #include <string>
 #include <string_view>
@@ -37,6 +37,12 @@ struct Plot {
 
 /// Returns the script for draw(). The plot has a series.
 std::string script(const Plot& plot);
+
+enum class Picture { svg, png };
+
+/// Draws a gnuplot script, which sets neither terminal nor output, and returns the bytes of the picture. Throws
+/// std::runtime_error, which says what to do, if gnuplot is not installed or cannot draw the script.
+std::string draw(const std::string& script, Picture kind);
 
 /// Returns "#rrggbb".
 std::string colour(const collide::Method& method);

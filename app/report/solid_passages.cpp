@@ -12,10 +12,6 @@
 namespace app::report {
 namespace {
 
-bool inside(const softbody::World& world, const glm::dvec3& p) {
-  return softbody::solid_depth(world.scene(), p).depth > 0;
-}
-
 /// Cosine of the angle from which on two normals of a solid count as those of opposite sides: adjacent faces of a box
 /// have 0.
 constexpr float opposite = -0.2f;
@@ -52,7 +48,7 @@ bool SolidPassages::observe(const softbody::World& world) {
     if (b == outside_.size()) outside_.push_back(to);
     const bool known = std::isfinite(glm::distance(outside_[b], to));
     finite = finite && known;
-    if (!p.mesh.closed || !known || inside(world, to)) continue;
+    if (!p.mesh.closed || !known || softbody::solid_depth(world.scene(), to).depth > 0) continue;
     count_ += passed(world, outside_[b], to, p.radius);
     outside_[b] = to;
   }

@@ -16,10 +16,7 @@ inline softbody::IntegratorChoice with_steps(const softbody::Integrator& integra
 
 /// Returns the integrator with one step per frame, with which no scene is refused.
 inline softbody::IntegratorChoice one_step(std::string_view key = softbody::default_integrator) {
-  softbody::IntegratorChoice choice;
-  choice.key = key;
-  choice.substeps = 1;
-  return choice;
+  return {std::string(key), 1};
 }
 
 /// Throws SceneError if only a part of the last frame was simulated (see StepReport): figures are of whole

@@ -40,9 +40,17 @@ void Player::detect() {
   report_.detect_ms = time_ms([this] { detector_->detect(positions(), settings_, workers_, result_); });
 }
 
+/// Returns the automatic cell size for the shapes that the bodies have in the first frame.
+glm::vec3 Player::automatic_cell_size(int levels, float tolerance) const {
+  const std::shared_ptr<const files::RecordedFrame> first = recording_->frame(0);
+  collide::Bodies bodies;
+  for (std::uint32_t body = 0; body < first->body_count; ++body) bodies.add(recording_->model(body)->shape);
+  return collide::automatic_cell_size({first->x, first->y, first->z, &bodies}, levels, tolerance);
+}
+
 collide::Settings Player::settings_of(const softbody::Scene& scene) const {
   collide::Settings all = scene.collision;
-  if (!all.cell_size) all.cell_size = files::automatic_cell_size(*recording_, all.levels, all.tolerance);
+  if (!all.cell_size) all.cell_size = automatic_cell_size(all.levels, all.tolerance);
   return all;
 }
 

@@ -33,9 +33,7 @@ class Player : public softbody::BodiesInMotion {
 
   const softbody::Scene& scene() const override { return scene_; }
   const collide::Settings& collision() const override { return settings_; }
-  glm::vec3 automatic_cell_size(int levels) const override {
-    return files::automatic_cell_size(*recording_, levels, settings_.tolerance);
-  }
+  glm::vec3 automatic_cell_size(int levels) const override { return automatic_cell_size(levels, settings_.tolerance); }
   const collide::Method& method() const override { return *method_; }
   std::optional<std::array<glm::vec3, 2>> bounds() const override { return recording_->bounds(); }
   int frame() const override { return frame_; }
@@ -51,6 +49,7 @@ class Player : public softbody::BodiesInMotion {
   const collide::Detector& detector() const override { return *detector_; }
 
  private:
+  glm::vec3 automatic_cell_size(int levels, float tolerance) const;
   collide::Settings settings_of(const softbody::Scene& scene) const;
   void detect();
 

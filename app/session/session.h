@@ -3,8 +3,8 @@
 
 #include "app/session/body_controls.h"
 #include "app/session/detection_inspector.h"
+#include "app/session/live/ghost.h"
 #include "app/session/live/live_comparison.h"
-#include "app/session/live/live_ghost.h"
 #include "app/session/live/surface_monitor.h"
 #include "app/session/run_ahead.h"
 #include "app/session/scene_controls.h"

@@ -49,9 +49,7 @@ void draw_entries(Widgets& w, const Entries& entries, float left) {
     ImGui::TextUnformatted(e.key.data(), e.key.data() + e.key.size());
     ImGui::SameLine();
     ImGui::SetCursorPosX(left + w.px(key_width));
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TextUnformatted(e.text.data(), e.text.data() + e.text.size());
-    ImGui::PopStyleColor();
+    ImGui::TextDisabled("%.*s", static_cast<int>(e.text.size()), e.text.data());
     w.register_item(fmt::format("Help {}", e.text).c_str(), nullptr);
   }
   ImGui::EndGroup();

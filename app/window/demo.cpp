@@ -11,13 +11,13 @@
 #include <string>
 #include <utility>
 
+#include "app/base/timings.h"
 #include "app/ui/shortcuts.h"
 #include "app/ui/user_interface.h"
 #include "app/ui/views/scene_labels.h"
 #include "app/window/frame_schedule.h"
 #include "app/window/frame_timer.h"
 #include "app/window/graphics.h"
-#include "app/window/open_session.h"
 #include "app/window/overlay_request.h"
 #include "app/window/preferences.h"
 #include "app/window/scene_mouse.h"
@@ -26,6 +26,35 @@
 
 namespace app::window {
 namespace {
+
+/// Returns the session that the options ask for. A large mesh takes long to bring into equilibrium: the window shows
+/// the time meanwhile, and closing it ends the program. Throws softbody::SceneError if the scene cannot be simulated.
+std::unique_ptr<Session> open_session(const DemoOptions& options, Graphics& graphics) {
+  std::future<std::unique_ptr<Session>> opening = std::async(std::launch::async, [&] {
+    return std::make_unique<Session>(options.opened, options.scene_folder, options.threads, options.scene_name);
+  });
+  std::future_status status = opening.wait_for(std::chrono::milliseconds(300));
+  for (const double began = now(); status != std::future_status::ready;) {
+    status = opening.wait_for(std::chrono::milliseconds(30));
+    graphics.window.poll();
+    if (!graphics.window.is_open()) std::quick_exit(EXIT_SUCCESS);  // there is nothing to lose yet
+    if (graphics.window.minimised()) continue;
+    const std::string text =
+        "Opening " + options.scene_name + ": " + std::to_string(static_cast<int>(now() - began)) + " s so far";
+    graphics.gui.begin_frame();
+    graphics.gui.take_key_presses();  // there is no session yet that they could be for
+    const ImVec2 room = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(text.c_str());
+    ImGui::GetForegroundDrawList()->AddText({(room.x - size.x) / 2, (room.y - size.y) / 2},
+                                            ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+    graphics.gui.end_frame();
+    graphics.clear();
+    graphics.gui.draw();
+    graphics.window.present();
+  }
+  while (graphics.window.has_pending_input())
+    graphics.window.take_input();  // the remaining input is not for the session either
+  return opening.get();
+}
 
 /// Everything that the picture of the scene depends on.
 struct PictureKey {
@@ -149,7 +178,7 @@ class Demo {
       handle_input(0);
     }
     const engine::Viewport viewport = scene_viewport();
-    double drawing = timed([&] { draw_scene(viewport); });
+    double drawing_ms = time_ms([&] { draw_scene(viewport); });
     ui::draw_labels(scene_labels(session_, ui_), camera_, viewport.size, interface_.scene_area(),
                     graphics_->gui.scale());
     ui_.view = render::SceneView::view(camera_, viewport.size);
@@ -160,8 +189,8 @@ class Demo {
       return size ? picture_of(glm::ivec2(*size)) : picture(with_panel);
     });
     if (!ui_.quit) advance(elapsed);  // while the driver draws
-    drawing += timed([&] { present(viewport); });
-    graphics_->canvas.add_timing(elapsed, drawing);
+    drawing_ms += time_ms([&] { present(viewport); });
+    graphics_->canvas.add_timing(elapsed, 1e-3 * drawing_ms);
     store_preferences();
     const Activity next = activity();
     ui_.picture_interval = seconds_to_next_frame(next);

@@ -12,14 +12,6 @@ inline double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Returns the seconds that a task takes.
-template <class Task>
-double timed(Task task) {
-  const double before = now();
-  task();
-  return now() - before;
-}
-
 class FrameTimer {
  public:
   /// Begins a frame and returns the seconds since the last one. Times close to a multiple of 1/60 s are rounded to it:

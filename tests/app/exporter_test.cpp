@@ -9,12 +9,12 @@
 #include <set>
 #include <thread>
 
-#include "app/files/body_file.h"
 #include "app/session/export/exporter.h"
 #include "softbody/model/body_model.h"
 #include "tests/app/recorded_bodies.h"
 #include "tests/app/scenes.h"
 #include "tests/load_png.h"
+#include "tests/read_bodies.h"
 #include "tests/temporary_folder.h"
 
 namespace app {

@@ -18,10 +18,6 @@ using Places = std::vector<std::optional<ui::ScreenRect>>;
 const ui::ScreenRect area{{100, 50}, {500, 350}};
 const ImVec2 text_size{60, 16};
 
-bool overlap(const ui::ScreenRect& a, const ui::ScreenRect& b) {
-  return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y;
-}
-
 void expect_apart(const Places& places) {
   for (std::size_t i = 0; i < places.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)

@@ -151,7 +151,7 @@ TEST_F(SceneViewTest, OutlinesOpenBodies) {
   const softbody::World world(softbody::find_scene("cloth", engine::find_folder("assets") / "scenes"), {});
   const engine::Camera camera = view_.camera(world, size);
   target_.bind();
-  view_.draw(world, {}, camera, {{0, 0}, size}, 1.0f);
+  view_.draw(world, {}, camera, {{0, 0}, size}, 1.0f, compare::DrawnMeshes(world));
   const engine::Image image = target_.read();
   const auto darkest_red = [&](const glm::vec3& point) {  // of the pixels near it
     const glm::ivec2 pixel(*camera.project(point, size));

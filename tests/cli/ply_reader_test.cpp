@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "app/files/body_file.h"
 #include "tests/cli/detect_rig.h"
 #include "tests/cli/ply_rig.h"
+#include "tests/read_bodies.h"
 
 namespace cli::test {
 namespace {

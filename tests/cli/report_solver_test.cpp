@@ -116,9 +116,8 @@ TEST(SolverScenes, AutoKeepsItsPromise) {
   constexpr double bound = 1e-3;           // R, a tenth of what is promised
   constexpr std::uint64_t steps = 60'000;  // of the reference, at most
   for (const app::report::SolverScene& scene : app::report::solver_scenes()) {
-    const app::report::SolverReference reference = find_solver_reference(scene, run, bound, steps);
-    EXPECT_TRUE(reference.converged) << scene.key;
-    const app::report::SolverCase c = begin_case(scene, run, reference);
+    const app::report::SolverCase c = begin_case(scene, run, bound, steps);
+    EXPECT_TRUE(c.reference.converged) << scene.key;
     EXPECT_TRUE(c.keeps_promise()) << scene.key << ": " << c.own("auto").error << " R of " << c.allowed() << " R";
   }
 }

@@ -57,7 +57,7 @@ TEST(Plot, IsDrawnSeriesBySeries) {
 }
 
 TEST(Page, HasOneEmptyLineBetweenItsParts) {
-  report::Page page;
+  report::Page page("");
   page.text("# {}", "Balls");
   page.text("- first\n- second");
   page.plot(line());
@@ -94,7 +94,7 @@ TEST(WarnOfBusyMachine, ComparesProcessorTimeWithTheClock) {
 }
 
 TEST(Page, KeepsItsWarningsApartToo) {
-  report::Page page;
+  report::Page page("");
   page.text("# Balls");
   page.warn("");
   page.warn("Times may be off.");

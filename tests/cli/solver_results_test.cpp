@@ -11,7 +11,8 @@ constexpr double bound = 2e-5;  // R
 
 /// Returns the order of a curve with these errors at 1, 2, 4 ... steps. An error of 0 means that it blew up.
 std::optional<double> order(const std::vector<double>& errors, bool at_rest = false) {
-  const report::SolverCase c{.key = "ball", .name = "Ball", .at_rest = at_rest, .reference = "", .change = 1e-6};
+  const report::SolverCase c{.scene = {.key = "ball", .name = "Ball", .at_rest = at_rest},
+                             .reference = {.change = 1e-6}};
   report::WorkCurve curve{nullptr};
   int steps = 1;
   for (const double e : errors) {
@@ -49,7 +50,7 @@ TEST(SolverCaseOrder, NeedsTwoFallsOrOneThatReachesTheUncertainty) {
 
 /// Returns a case in which `auto` and semi-implicit Euler have these errors (R) with their own steps.
 report::SolverCase with_own_errors(double of_auto, double of_semi_implicit) {
-  report::SolverCase c{.key = "ball", .name = "Ball", .reference = "", .promised = 0.01};
+  report::SolverCase c{.scene = {.key = "ball", .name = "Ball", .promised = 0.01}, .reference = {}};
   for (const auto& [key, error] : {std::pair("auto", of_auto), std::pair("semi-implicit-euler", of_semi_implicit)}) {
     const report::WorkPoint own{.error = error};
     c.curves.push_back({softbody::find_integrator(key), {own}, own});
@@ -91,7 +92,7 @@ TEST(SolverCaseOrder, IsNothingIfErrorsDoNotFallOrNothingMoves) {
 /// Returns what the page says about curves that end early. Each has one point, with so many steps.
 std::string left_out(const std::vector<int>& ends) {
   report::SolverResults r;
-  r.bound = bound, r.max_run_seconds = 0.5, r.max_substeps = 64;
+  r.effort = {.seconds = 0.5, .max_substeps = 64, .bound = bound};
   report::SolverCase& c = r.cases.emplace_back(with_own_errors(1e-6, 1e-6));
   for (const int n : ends)
     c.curves.push_back({softbody::find_integrator("rk4"), {{.substeps = n, .error = n == 1 ? 1e-6 : 1e-2}}});

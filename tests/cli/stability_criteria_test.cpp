@@ -14,8 +14,8 @@ constexpr reference::StabilityLimits limits{.seconds = 1, .radius = 0.5};
 /// Returns the figures of sixty frames without faults, after `change` has changed each frame.
 template <class Change>
 reference::StabilityFigures run(Change change, const reference::StabilityLimits& l = limits) {
-  reference::StabilityAssessment assessment(l);
-  for (int frame = 1; frame <= 60 && !assessment.diverged(); ++frame) {
+  reference::StabilityFigures f;
+  for (int frame = 1; frame <= 60 && !f.diverged(); ++frame) {
     reference::StabilitySample s{.time = frame / 60.0,
                                  .frame = frame,
                                  .excess = 0,
@@ -25,9 +25,8 @@ reference::StabilityFigures run(Change change, const reference::StabilityLimits&
                                  .extent = 1,
                                  .reachable_extent = 4};
     change(s);
-    assessment.add(s);
+    f.add(s, l);
   }
-  reference::StabilityFigures f = assessment.figures();
   f.reference = reference::ReferenceDeviation{.shape = 0.001, .volume = 0.002, .rest = 1e-4};
   return f;
 }

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "app/files/body_file.h"
 #include "require.h"
 #include "softbody/mesh/mesh_import.h"
+#include "tests/read_bodies.h"
 #include "text_file.h"
 
 namespace {

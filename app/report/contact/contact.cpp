@@ -29,10 +29,8 @@ std::vector<ContactChoice> make_choices(bool quick) {
 /// One run.
 struct Job {
   softbody::Scene scene;
-  ContactChoice choice;
   TrialLimits limits;
-  std::size_t case_index;
-  ContactTrial done{};
+  std::size_t of_case, choice;  // indices
 };
 
 class ContactReport {
@@ -62,13 +60,13 @@ class ContactReport {
 
   void run() {
     collide::Workers workers(options_.threads.value_or(options_.cores));
-    run_in_parallel(
-        workers, jobs_.size(), [&](std::size_t i) { return jobs_[i].scene.key + ", " + choice_name(jobs_[i].choice); },
-        [&](std::size_t i) {
-          Job& job = jobs_[i];
-          job.done = run_contact_trial(std::move(job.scene), job.choice, job.limits);
-        });
-    for (Job& job : jobs_) results.cases[job.case_index].trials.push_back(std::move(job.done));
+    const auto what = [&](std::size_t i) {
+      return jobs_[i].scene.key + ", " + choice_name(results.choices[jobs_[i].choice]);
+    };
+    run_in_parallel(workers, jobs_.size(), what, [&](std::size_t i) {
+      ContactTrial& trial = results.cases[jobs_[i].of_case].trials[jobs_[i].choice];
+      trial = run_contact_trial(std::move(jobs_[i].scene), trial.choice, jobs_[i].limits);
+    });
   }
 
   ContactResults results;
@@ -76,10 +74,8 @@ class ContactReport {
  private:
   void add(ContactCase c, const softbody::Scene& scene, const TrialLimits& limits, bool over_budget) {
     for (const ContactChoice& choice : results.choices) {
-      if (over_budget)
-        c.trials.push_back({.choice = choice, .not_run = "over the budget of vertices times frames"});
-      else
-        jobs_.push_back({scene, choice, limits, results.cases.size()});
+      if (!over_budget) jobs_.push_back({scene, limits, results.cases.size(), c.trials.size()});
+      c.trials.push_back({.choice = choice, .not_run = over_budget ? "over the budget of vertices times frames" : ""});
     }
     results.cases.push_back(std::move(c));
   }

@@ -123,11 +123,10 @@ Plot passed_against_speed(std::span<const ContactCase> cases) {
 // ---- the page ----
 
 void add_introduction(Page& page, const ContactResults& r) {
-  page.introduction(
-      "contact", fmt::arg("command", r.command), fmt::arg("stride", r.limits.stride),
-      fmt::arg("depth", ContactTrial::depth_bound), fmt::arg("frames", r.limits.frames),
-      fmt::arg("budget", whole(static_cast<double>(r.vertex_frames))), fmt::arg("seconds", r.limits.seconds),
-      fmt::arg("quick", r.quick ? "This is the quick report: fewer scenes, frames, speeds and tolerances." : ""));
+  page.add("introduction", fmt::arg("command", r.command), fmt::arg("stride", r.limits.stride),
+           fmt::arg("depth", ContactTrial::depth_bound), fmt::arg("frames", r.limits.frames),
+           fmt::arg("budget", whole(static_cast<double>(r.vertex_frames))), fmt::arg("seconds", r.limits.seconds),
+           fmt::arg("quick", r.quick ? "This is the quick report: fewer scenes, frames, speeds and tolerances." : ""));
 }
 
 std::string missed_share(std::size_t missed, std::size_t penetrations, const ContactChoice& choice) {
@@ -250,14 +249,13 @@ void add_impact(Page& page, std::span<const ContactCase> cases) {
 }  // namespace
 
 Page contact_page(const ContactResults& results) {
-  Page page;
+  Page page("contact");
   add_introduction(page, results);
   TimedParts timed;
   for (const ContactCase& c : results.cases)
     for (const ContactTrial& trial : c.trials) timed += trial.timed;
   page.warn(warn_of_busy_machine(timed));
-  page.text("## All scenes");
-  page.text("Over the scenes that were run with every choice: sums; for depths at the end and jitter the worst scene.");
+  page.add("scenes");
   page.table(overview(results));
   if (const Table table = side_by_side(results); !table.empty()) {
     page.text("Surface contact, and vertex-vertex contact by an exact detector at the scene's own tolerance:");

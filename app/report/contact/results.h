@@ -14,7 +14,7 @@ struct ContactCase {
   bool impact = false;
   std::string key{}, name{};
   double speed = 0;                    // m/s, of an impact
-  std::vector<ContactTrial> trials{};  // in the order of the choices; empty until they have run
+  std::vector<ContactTrial> trials{};  // in the order of the choices
 };
 
 struct ContactResults {

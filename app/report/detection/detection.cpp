@@ -80,7 +80,7 @@ void measure_scenes(const ReportOptions& options, DetectionResults& results, col
     const bool swept = !options.quick || options.scene || std::ranges::count(paper_scenes, scene.key) > 0;
     if (!swept && !largest) continue;
     say(scene.key + ": simulating", 0);
-    const Recording recording = record(scene, plan_recording(vertex_count(scene), options.quick), options.cores);
+    const Recording recording = record(scene, options.quick, options.cores);
     if (swept) results.scenes.push_back(sweep_scene(recording, results, workers));
     if (largest) results.growth = sweep_growth(recording, results, workers);
   }

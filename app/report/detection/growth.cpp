@@ -34,12 +34,7 @@ TableRow hash_row(const SceneResult& scene) {
 void add_hash_counts(Page& page, const DetectionResults& r) {
   Table table;
   for (const SceneResult& scene : r.scenes) table.add(hash_row(scene));
-  page.text("### Hashes: N vertices against 8 corners per box");
-  page.text(
-      "Hash evaluations per frame, automatic cell size, means over the states; in brackets as a share of the N "
-      "vertices. A vertex hash fills its table with N of them. The others are the look-ups of all cells within the "
-      "tolerance, without which it would miss contacts. The eight corners of the boxes save hashes only where a body "
-      "has more than eight vertices per box.");
+  page.add("hashes");
   page.table(table);
 }
 
@@ -129,20 +124,11 @@ Plot cost_against_bodies(const SceneResult& growth) {
 
 void add_growth(Page& page, const DetectionResults& results) {
   const SceneResult& growth = results.growth;
-  page.text("## What §3 of the paper claims, by counts");
-  page.text("It claims O(1) at best and O(N²) at worst, and O(log_n N) hashing with boxes against O(N) without.");
   add_hash_counts(page, results);
   if (growth.states.empty()) return;
-  page.text("### Growth with the number of bodies");
-  page.text(
-      "The bodies nearest to the middle of `{}`, in frame {}, the first one recorded, where the middle is as dense as "
-      "the rest; level 3, automatic cell size: median ms per frame, in brackets ns per vertex. p: a cost grows as "
-      "bodies^p between the last two columns that were run; 0 would be O(1), 1 is linear, 2 is quadratic.",
-      growth.scene, growth.states.back().frame);
-  page.text(
-      "Every body brings boxes of its own. So hashing is linear in the number of bodies at every level: p of hashes is "
-      "{}. Pair tests, p {}, are quadratic by brute force and where the buckets do not grow with the bodies.",
-      range(growth, &Exponents::hashes), range(growth, &Exponents::pair_tests));
+  page.add("growth", fmt::arg("scene", growth.scene), fmt::arg("frame", growth.states.back().frame),
+           fmt::arg("hashes", range(growth, &Exponents::hashes)),
+           fmt::arg("pair_tests", range(growth, &Exponents::pair_tests)));
   page.table(growth_table(growth));
   page.plot(cost_against_bodies(growth));
 }

@@ -159,12 +159,12 @@ void add_introduction(Page& page, const DetectionResults& r) {
       "The states are frames of a recorded sequence of {}, counted from 0. Left out is what needs the scenes of the "
       "program: the paper's Table 1 and the growth with the number of bodies.",
       grouped(r.of_files));
-  page.introduction(
-      "detection", fmt::arg("command", r.command), fmt::arg("sequence", r.of_files > 0 ? sequence : ""),
-      fmt::arg("shape", r.of_files > 0 ? "at rest (without --rest, in the first frame)" : "at rest"),
-      fmt::arg("threads", r.threads), fmt::arg("plural", r.threads == 1 ? "" : "s"),
-      fmt::arg("repetitions", l.repetitions), fmt::arg("repeat_ms", l.repeat_ms), fmt::arg("budget", grouped(l.budget)),
-      fmt::arg("quick", r.quick ? "This is the quick report: fewer scenes, frames, states and repetitions." : ""));
+  page.add("introduction", fmt::arg("command", r.command), fmt::arg("sequence", r.of_files > 0 ? sequence : ""),
+           fmt::arg("shape", r.of_files > 0 ? "at rest (without --rest, in the first frame)" : "at rest"),
+           fmt::arg("threads", r.threads), fmt::arg("plural", r.threads == 1 ? "" : "s"),
+           fmt::arg("repetitions", l.repetitions), fmt::arg("repeat_ms", l.repeat_ms),
+           fmt::arg("budget", grouped(l.budget)),
+           fmt::arg("quick", r.quick ? "This is the quick report: fewer scenes, frames, states and repetitions." : ""));
 }
 
 // ---- Table 1 ----
@@ -202,10 +202,7 @@ void add_table_1(Page& page, const DetectionResults& r) {
     if (row.size() == 2) return;
     table.add(row);
   }
-  page.text("## Table 1: frames per second");
-  page.text(
-      "In the form of the paper's Table 1, measured: detection alone, 1 / its mean time on the recorded states; level "
-      "3, automatic cell size.");
+  page.add("table 1");
   page.table(table, 2);
   page.text("The paper has its rivals and Multi-Level SB. A method without a recall in brackets misses nothing.");
 }
@@ -285,7 +282,7 @@ std::string over_budget(const std::vector<Mean>& means) {
 }  // namespace
 
 Page detection_page(const DetectionResults& results) {
-  Page page;
+  Page page("detection");
   add_introduction(page, results);
   TimedParts timed;
   for (const SceneResult& scene : results.scenes)
@@ -293,10 +290,7 @@ Page detection_page(const DetectionResults& results) {
   for (const StateResult& state : results.growth.states) timed += state.sweep.timed;
   page.warn(warn_of_busy_machine(timed));
   add_table_1(page, results);
-  page.text("## {}the best of every method", results.of_files > 0 ? "The sequence: " : "Scenes: ");
-  page.text(
-      "Of each method the fastest configuration, and the fastest of those that miss least if that is another one. "
-      "Front: no other is as fast and as good. Means over the states; recall and precision over all their contacts.");
+  page.add("best", fmt::arg("scenes", results.of_files > 0 ? "The sequence" : "Scenes"));
   for (const SceneResult& scene : results.scenes) {
     const std::vector<Mean> all = means(scene);
     page.text("### {}", scene.name);

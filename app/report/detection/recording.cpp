@@ -17,26 +17,18 @@ namespace {
 constexpr std::uint64_t large_scene = 50'000;  // vertices
 
 RecordedState copy(const softbody::World& world) {
-  RecordedState state{world.frame(), {}, world.bodies()};
-  state.at.copy(world.positions());
+  RecordedState state{{}, world.frame()};
+  state.copy(world.positions());
   return state;
 }
 
 glm::dvec3 middle(const RecordedState& state, collide::Index begin, collide::Index end) {
   glm::dvec3 sum{0.0};
-  for (collide::Index v = begin; v < end; ++v) sum += glm::dvec3(state.at.x[v], state.at.y[v], state.at.z[v]);
+  for (collide::Index v = begin; v < end; ++v) sum += glm::dvec3(position(state.view(), v));
   return sum / std::max(1.0, static_cast<double>(end - begin));
 }
 
 }  // namespace
-
-RecordingPlan plan_recording(std::uint64_t vertices, bool quick) {
-  const std::uint64_t steps = quick ? 1'000'000 : 60'000'000;  // of one vertex each
-  const auto frames = static_cast<int>(std::clamp<std::uint64_t>(steps / std::max<std::uint64_t>(vertices, 1), 2, 800));
-  if (quick) return {{frames}, vertices < large_scene};
-  if (vertices >= large_scene) return {{std::max(1, frames / 8), frames}, false};
-  return {{frames / 8, frames / 2, frames}, true};
-}
 
 std::uint64_t vertex_count(const softbody::Scene& scene) {
   std::uint64_t vertices = 0;
@@ -44,23 +36,29 @@ std::uint64_t vertex_count(const softbody::Scene& scene) {
   return vertices;
 }
 
-Recording record(const softbody::Scene& scene, const RecordingPlan& plan, int threads) {
+Recording record(const softbody::Scene& scene, bool quick, int threads) {
+  const std::uint64_t vertices = std::max<std::uint64_t>(vertex_count(scene), 1);
+  const std::uint64_t steps = quick ? 1'000'000 : 60'000'000;  // of one vertex each
+  const auto last = static_cast<int>(std::clamp<std::uint64_t>(steps / vertices, 2, 800));
+  const bool large = vertices >= large_scene;
+  std::set<int> frames{last};
+  if (!quick) frames.insert(std::max(1, last / 8));
+  if (!quick && !large) frames.insert(last / 2);
   softbody::World world(scene, {.threads = threads});
   Recording recording{scene.key, scene.name, world.collision().buckets, {}, {}};
   std::optional<RecordedState> busiest;
   std::size_t max_contacts = 0;
-  for (const int frame : plan.frames) {
+  for (const int frame : frames) {
     while (world.frame() < frame) {
       world.step();
       const std::size_t contacts = world.detection().contacts.size();
-      if (!plan.busiest || contacts <= max_contacts) continue;
+      if (large || contacts <= max_contacts) continue;
       max_contacts = contacts;
       busiest = copy(world);
     }
     recording.states.push_back(copy(world));
   }
-  if (busiest && std::ranges::find(plan.frames, busiest->frame) == plan.frames.end())
-    recording.states.push_back(std::move(*busiest));
+  if (busiest && !frames.contains(busiest->frame)) recording.states.push_back(std::move(*busiest));
   std::ranges::sort(recording.states, {}, &RecordedState::frame);
   if (recording.states.back().bodies.vertex_count() == 0)
     throw UsageError("scene '" + scene.key + "': no body has arrived by frame " + std::to_string(world.frame()) +
@@ -75,8 +73,7 @@ Recording record_sequence(const ReportOptions& options) {
   settings.tolerance = static_cast<float>(options.tolerance);
   const auto state = [&](std::size_t frame) {
     files::SequenceFrame read = sequence.read(frame);
-    return RecordedState{
-        static_cast<int>(frame), {std::move(read.at.x), std::move(read.at.y), std::move(read.at.z)}, read.of->bodies};
+    return RecordedState{{{std::move(read.at)}, read.of->bodies}, static_cast<int>(frame)};
   };
   const std::size_t count = sequence.count(), last = count - 1;
   std::size_t busiest = 0, max_contacts = 0;
@@ -119,7 +116,7 @@ RecordedState middle_bodies(const RecordedState& state, collide::Index count) {
   nearest.resize(std::min<std::size_t>(count, nearest.size()));
   std::ranges::sort(nearest, {}, &std::pair<double, collide::Index>::second);
 
-  RecordedState part{state.frame, {}, {}};
+  RecordedState part{{}, state.frame};
   for (const auto& [distance, b] : nearest) {
     part.bodies.add(all.shape[b]);
     for (collide::Index v = all.first[b]; v < all.first[b + 1]; ++v) {

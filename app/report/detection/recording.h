@@ -7,13 +7,9 @@
 
 namespace app::report {
 
-/// One frame, copied.
-struct RecordedState {
+/// A copy of a frame, and its number.
+struct RecordedState : compare::FrameCopy {
   int frame = 0;
-  compare::Positions at;
-  collide::Bodies bodies;
-
-  collide::Frame view() const { return {at.x, at.y, at.z, &bodies}; }
 };
 
 struct Recording {
@@ -23,22 +19,14 @@ struct Recording {
   std::vector<RecordedState> states;  // in the order of their frames
 };
 
-/// Says how long to run a scene, and when to copy it.
-struct RecordingPlan {
-  std::vector<int> frames;  // ascending, the last one ends the run
-  bool busiest = false;     // also the frame with the most contacts (the first of them)
-};
-
-/// Returns the plan for a scene of so many vertices. A scene runs for at most 800 frames, as the paper's do, and is
-/// copied after an eighth, half and all of them, and in the frame with the most contacts. A large scene runs as far as
-/// time allows and is copied twice. `quick` runs less and copies less.
-RecordingPlan plan_recording(std::uint64_t vertices, bool quick);
-
 /// Returns the number of vertices of all bodies, also of those that appear later.
 std::uint64_t vertex_count(const softbody::Scene& scene);
 
-/// Runs the scene and copies states. Throws UsageError if no body appears, and SceneError.
-Recording record(const softbody::Scene& scene, const RecordingPlan& plan, int threads);
+/// Runs the scene and copies states. A scene runs for at most 800 frames, as the paper's do, and is copied after an
+/// eighth, half and all of them, and in the frame with the most contacts (the first of them). A large scene runs as far
+/// as time allows and is copied twice. `quick` runs less and copies less. Throws UsageError if no body appears, and
+/// SceneError.
+Recording record(const softbody::Scene& scene, bool quick, int threads);
 
 /// Returns the frames of a recorded sequence to measure on: the one with the most contacts (the first of them); unless
 /// `quick`, also the last one, and of few vertices those after an eighth and half of all. Throws UsageError or

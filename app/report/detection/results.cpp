@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 #include <fmt/core.h>
 
@@ -47,16 +48,11 @@ std::vector<Mean> means(const SceneResult& scene) {
 }
 
 std::vector<std::size_t> pareto_front(const std::vector<Mean>& means) {
+  constexpr double never = std::numeric_limits<double>::infinity();
   std::vector<compare::Tradeoff> points;
-  std::vector<std::size_t> run;
-  for (std::size_t i = 0; i < means.size(); ++i) {
-    if (!means[i].not_run.empty()) continue;
-    points.push_back({means[i].ms, means[i].error()});
-    run.push_back(i);
-  }
-  std::vector<std::size_t> front = pareto_front(points);
-  for (std::size_t& i : front) i = run[i];
-  return front;
+  for (const Mean& m : means)
+    points.push_back(m.not_run.empty() ? compare::Tradeoff{m.ms, m.error()} : compare::Tradeoff{never, never});
+  return pareto_front(points);
 }
 
 std::string levels_of(const compare::Configuration& c) {

@@ -18,30 +18,30 @@ Table solver_table(const SolverResults& results) {
     for (const WorkCurve& curve : c.curves)
       for (const WorkPoint& p : curve.points) {
         const bool fixed = p.substeps > 0, good = !p.blew_up;
-        table.add(
-            {{"scene", c.key},
-             {"integrator", curve.integrator->key},
-             {"substeps", when(fixed, p.substeps)},
-             {"substeps_taken", p.taken},
-             {"steps_per_second", when(fixed, p.substeps * curve.integrator->substeps_per_step / results.frame_time)},
-             {"cpu_ms_alone", p.cpu_alone},
-             {"cpu_ms_batch", p.cpu_batch},
-             {"blew_up", p.blew_up},
-             {"error", when(good, p.error)},
-             {"energy_error", when(good, p.energy)},
-             {"linear_error", when(good, p.linear)},
-             {"angular_error", when(good, p.angular)},
-             {"volume_error", when(good, p.volume)},
-             {"internal_speed", when(good, p.speed)},
-             {"observed_order", c.order(curve, results.bound)},
-             {"own_substeps", when(curve.own.has_value(), curve.own.value_or(WorkPoint{}).taken)},
-             {"own_error", when(curve.own && !curve.own->blew_up, curve.own.value_or(WorkPoint{}).error)},
-             {"promised_error", c.allowed()},
-             {"promise_kept", c.keeps_promise()},
-             {"reference_step", c.step},
-             {"reference_change", c.change},
-             {"reference_converged", c.converged},
-             {"perturbation_growth", c.growth}});
+        table.add({{"scene", c.scene.key},
+                   {"integrator", curve.integrator->key},
+                   {"substeps", when(fixed, p.substeps)},
+                   {"substeps_taken", p.taken},
+                   {"steps_per_second",
+                    when(fixed, p.substeps * curve.integrator->substeps_per_step / results.run.frame_time)},
+                   {"cpu_ms_alone", p.cpu_alone},
+                   {"cpu_ms_batch", p.cpu_batch},
+                   {"blew_up", p.blew_up},
+                   {"error", when(good, p.error)},
+                   {"energy_error", when(good, p.energy)},
+                   {"linear_error", when(good, p.linear)},
+                   {"angular_error", when(good, p.angular)},
+                   {"volume_error", when(good, p.volume)},
+                   {"internal_speed", when(good, p.speed)},
+                   {"observed_order", c.order(curve, results.effort.bound)},
+                   {"own_substeps", when(curve.own.has_value(), curve.own.value_or(WorkPoint{}).taken)},
+                   {"own_error", when(curve.own && !curve.own->blew_up, curve.own.value_or(WorkPoint{}).error)},
+                   {"promised_error", c.allowed()},
+                   {"promise_kept", c.keeps_promise()},
+                   {"reference_step", c.reference.step},
+                   {"reference_change", c.reference.change},
+                   {"reference_converged", c.reference.converged},
+                   {"perturbation_growth", c.reference.growth}});
       }
   return table;
 }
@@ -80,9 +80,11 @@ void add_crosses(Plot& plot, const WorkCurve& curve, std::size_t number) {
 
 Plot error_against_time(const SolverCase& c, double bound) {
   Plot plot{
-      .name = "solver-" + c.key,
-      .caption = c.name + ": left is cheaper, down is more accurate; numbers are steps per frame, crosses blew up.",
-      .title = fmt::format("{}: error against run time (a disturbance grows {:.3g} times)", c.name, c.growth),
+      .name = "solver-" + c.scene.key,
+      .caption =
+          c.scene.name + ": left is cheaper, down is more accurate; numbers are steps per frame, crosses blew up.",
+      .title = fmt::format("{}: error against run time (a disturbance grows {:.3g} times)", c.scene.name,
+                           c.reference.growth),
       .x = "processor time, ms per simulated second and body",
       .y = "error in position, RMS / R",
       .settings = fmt::format(
@@ -103,14 +105,14 @@ Plot error_against_time(const SolverCase& c, double bound) {
 constexpr std::array bounds{1e-1, 1e-2, 5e-3, 2e-3, 1e-3, 1e-4};  // R
 
 void add_introduction(Page& page, const SolverResults& r) {
-  page.introduction(
-      "solver", fmt::arg("command", r.command), fmt::arg("seconds", r.seconds),
-      fmt::arg("frame_rate", 1 / r.frame_time), fmt::arg("repetitions", r.repetitions),
-      fmt::arg("run_seconds", r.max_run_seconds), fmt::arg("lanes", softbody::lanes), fmt::arg("bound", r.bound),
-      fmt::arg("substeps", r.max_substeps), fmt::arg("order_error", SolverCase::max_order_error),
-      fmt::arg("clear_fall", SolverCase::clear_fall), fmt::arg("least_order", -std::log2(SolverCase::clear_fall)),
-      fmt::arg("quick", r.quick
-                            ? "This is the quick report: fewer scenes, steps and repetitions, and a coarser reference."
+  page.add("introduction", fmt::arg("command", r.command), fmt::arg("seconds", r.run.seconds()),
+           fmt::arg("frame_rate", 1 / r.run.frame_time), fmt::arg("repetitions", r.effort.repetitions),
+           fmt::arg("run_seconds", r.effort.seconds), fmt::arg("lanes", softbody::lanes),
+           fmt::arg("bound", r.effort.bound), fmt::arg("substeps", r.effort.max_substeps),
+           fmt::arg("order_error", SolverCase::max_order_error), fmt::arg("clear_fall", SolverCase::clear_fall),
+           fmt::arg("least_order", -std::log2(SolverCase::clear_fall)),
+           fmt::arg("quick",
+                    r.quick ? "This is the quick report: fewer scenes, steps and repetitions, and a coarser reference."
                             : ""));
 }
 
@@ -143,15 +145,13 @@ void add_overview(Page& page, const SolverResults& r) {
     for (const SolverCase& c : r.cases) {
       const std::string cost = cheapest(c.curves[i], bound);
       const WorkPoint* best = most_accurate(c.curves[i]);
-      row.push_back({c.name, !cost.empty() ? cost : best ? fmt::format("only {:.4g} R", best->error) : "blew up"});
+      row.push_back({c.scene.name, !cost.empty() ? cost
+                                   : best        ? fmt::format("only {:.4g} R", best->error)
+                                                 : "blew up"});
     }
     table.add(row);
   }
-  page.text("## All scenes");
-  page.text(
-      "ms per simulated second and body, in a batch where there is one, for an error of at most {:g} R. In brackets "
-      "the steps per frame (`auto` chooses its own), or instead the least error seen:",
-      bound);
+  page.add("overview", fmt::arg("bound", bound));
   page.table(table);
 }
 
@@ -159,7 +159,7 @@ void add_overview(Page& page, const SolverResults& r) {
 void add_promise(Page& page, const SolverResults& r) {
   Table table;
   for (const SolverCase& c : r.cases) {
-    TableRow row{{"scene", c.name}};
+    TableRow row{{"scene", c.scene.name}};
     for (const WorkCurve& curve : c.curves) {
       if (!curve.own) continue;
       const WorkPoint& own = *curve.own;
@@ -170,11 +170,7 @@ void add_promise(Page& page, const SolverResults& r) {
     row.push_back({"promise", c.keeps_promise() ? "kept" : "MISSED"});
     table.add(row);
   }
-  page.text("## What `auto` promises");
-  page.text(
-      "Errors, and substeps per frame on average, with the steps that each chooses itself. `auto` promises an error of "
-      "at most 0.01 R, of balls on a floor 1 cm in each centre, or twice that of semi-implicit Euler, whichever is "
-      "larger.");
+  page.add("promise");
   page.table(table);
 }
 
@@ -193,10 +189,7 @@ void add_stiffness(Page& page, const SolverResults& r) {
                  {"beside it", beside_first(s.period, c.meshes[0].period)}});
     }
   if (table.empty()) return;
-  page.text("## Stiffness against resolution");
-  page.text(
-      "Bodies of one shape and material in meshes from coarse to fine. Sag: how much lower a body is at rest on the "
-      "ground than in free flight. Period: of its strongest swing in free flight, after it was stretched by 3 %.");
+  page.add("stiffness");
   page.table(table);
 }
 
@@ -209,21 +202,14 @@ void add_coarse(Page& page, const CoarseResults& coarse) {
                {"middle, R", two_digits(run.middle)},
                {"shape, R", two_digits(run.shape)},
                {"run time", fmt::format("{:.2g}", run.cost)}});
-  page.text("## Coarse against fine");
-  page.text(
-      "A creature of {} vertices falls on a solid sphere, simulated by so many particles, with contact by surfaces, "
-      "for "
-      "one second. Surfaces apart: the largest distance of the simulated surface from the creature's, at rest. Middle, "
-      "shape: the largest differences from the last row, of the middle of its vertices, and of the vertices about it "
-      "(RMS). Run time: of the solver, without detection, in that of the last row.",
-      whole(double(coarse.vertices)));
+  page.add("coarse", fmt::arg("vertices", whole(double(coarse.vertices))));
   page.table(table);
 }
 
 Table costs(const SolverResults& r, const SolverCase& c) {
   Table table;
   for (const WorkCurve& curve : c.curves) {
-    const auto order = c.order(curve, r.bound);
+    const auto order = c.order(curve, r.effort.bound);
     TableRow row{{"integrator", curve.integrator->name}, {"order", order ? fmt::format("{:.1f}", *order) : ""}};
     for (const double bound : bounds) row.push_back({fmt::format("{:g} R", bound), cheapest(curve, bound)});
     table.add(row);
@@ -249,7 +235,7 @@ Table details(const SolverCase& c) {
                  {"linear", when(best, two_digits(p->linear))},
                  {"angular", when(best, two_digits(p->angular))},
                  {"volume", when(best, two_digits(p->volume))},
-                 {c.at_rest ? "jitter, m/s" : "inner speed, m/s", when(best, two_digits(p->speed))}});
+                 {c.scene.at_rest ? "jitter, m/s" : "inner speed, m/s", when(best, two_digits(p->speed))}});
     }
   }
   return table;
@@ -257,12 +243,12 @@ Table details(const SolverCase& c) {
 
 /// Says which curves end before the reference's own uncertainty, and why.
 void add_left_out(Page& page, const SolverResults& r, const SolverCase& c) {
-  const double known = c.uncertainty(r.bound);
+  const double known = c.uncertainty(r.effort.bound);
   std::string too_long, too_many;
   for (const WorkCurve& curve : c.curves) {
     const WorkPoint& last = curve.points.back();
     if (last.substeps == 0 || curve.reaches(known)) continue;
-    std::string& list = last.substeps >= r.max_substeps ? too_many : too_long;
+    std::string& list = last.substeps >= r.effort.max_substeps ? too_many : too_long;
     list += fmt::format("{}{} beyond {} steps per frame{}", list.empty() ? "" : "; ", curve.integrator->name,
                         last.substeps, last.blew_up ? " (blew up)" : "");
   }
@@ -272,14 +258,14 @@ void add_left_out(Page& page, const SolverResults& r, const SolverCase& c) {
     if (!list.empty())
       page.text("Left out, above the reference's uncertainty of {:.2g} R, since {}: {}.", known, why, list);
   };
-  add_reason(fmt::format("runs took longer than {:g} s", r.max_run_seconds), too_long);
+  add_reason(fmt::format("runs took longer than {:g} s", r.effort.seconds), too_long);
   add_reason("no more steps were tried", too_many);
 }
 
 }  // namespace
 
 Page solver_page(const SolverResults& results) {
-  Page page;
+  Page page("solver");
   add_introduction(page, results);
   page.warn(warn_of_busy_machine(results.timed));
   add_overview(page, results);
@@ -287,19 +273,17 @@ Page solver_page(const SolverResults& results) {
   add_stiffness(page, results);
   add_coarse(page, results.coarse);
   for (const SolverCase& c : results.cases) {
-    page.text("## {}", c.name);
-    page.text(
-        "Reference: {}, steps of {:.3g} s on average. Halving them changed the positions by {:.2g} R{}. A disturbance "
-        "grows {:.3g} times.",
-        c.reference, c.step, c.change, c.converged ? "" : ", so it has not converged: smaller errors mean nothing",
-        c.growth);
-    if (c.of_centres) page.text("Here the error is the largest of a body's centre.");
+    const SolverReference& r = c.reference;
+    page.add("case", fmt::arg("name", c.scene.name), fmt::arg("reference", r.what), fmt::arg("step", r.step),
+             fmt::arg("change", r.change), fmt::arg("growth", r.growth),
+             fmt::arg("caveat", r.converged ? "" : ", so it has not converged: smaller errors mean nothing"));
+    if (c.scene.of_centres) page.text("Here the error is the largest of a body's centre.");
     page.text("ms for an error of at most ... (steps per frame):");
     page.table(costs(results, c));
     add_left_out(page, results, c);
     page.text("With the fewest steps that do not blow up, and with the steps that give the least error:");
     page.table(details(c));
-    page.plot(error_against_time(c, results.bound));
+    page.plot(error_against_time(c, results.effort.bound));
   }
   return page;
 }

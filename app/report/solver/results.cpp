@@ -18,11 +18,11 @@ const WorkPoint& SolverCase::own(std::string_view integrator) const {
 
 double SolverCase::allowed() const {
   const WorkPoint& rival = own("semi-implicit-euler");
-  return rival.blew_up ? promised : std::max(promised, 2 * rival.error);
+  return rival.blew_up ? scene.promised : std::max(scene.promised, 2 * rival.error);
 }
 
 std::optional<double> SolverCase::order(const WorkCurve& curve, double bound) const {
-  if (at_rest) return std::nullopt;
+  if (scene.at_rest) return std::nullopt;
   std::vector<double> row, longest;
   for (std::size_t i = 1; i < curve.points.size(); ++i) {
     const WorkPoint &a = curve.points[i - 1], &b = curve.points[i];

@@ -9,10 +9,30 @@
 #include <vector>
 
 #include "app/base/timings.h"
+#include "app/reference/reference_body.h"
 #include "app/report/page.h"
+#include "app/report/solver/scenes.h"
 #include "softbody/integrate/integrators.h"
 
 namespace app::report {
+
+/// How far a scene is simulated.
+struct SolverRun {
+  int frames = 30;
+  double frame_time = 1.0 / 60;
+  double seconds() const { return frames * frame_time; }
+};
+
+/// What the outcomes of a scene are compared with.
+struct SolverReference {
+  std::vector<reference::BodyState> bodies{};  // at the end
+  double energy = 0, energy_scale = 0;         // J
+  std::string what{};                          // it is
+  double step = 0;                             // s
+  double change = 0;                           // R, when its step was halved
+  double growth = 0;                           // of a disturbance
+  bool converged = false;                      // change is within the bound
+};
 
 /// One integrator with one number of steps per frame.
 struct WorkPoint {
@@ -44,25 +64,18 @@ struct WorkCurve {
 inline constexpr std::array<std::string_view, 3> own_step_integrators{"auto", "imex-euler", "semi-implicit-euler"};
 
 struct SolverCase {
-  std::string key, name;
-  bool at_rest = false;
-  std::string reference;   // what it is
-  double step = 0;         // s, of the reference
-  double change = 0;       // R, when its step was halved
-  bool converged = false;  // change is within the bound
-  double growth = 0;       // of a disturbance
-  double promised = 0;     // R, see SolverScene
-  bool of_centres = false;
+  SolverScene scene;
+  SolverReference reference;
   std::vector<WorkCurve> curves{};
   /// Returns the run of one of own_step_integrators with the steps that it chose itself.
   const WorkPoint& own(std::string_view integrator) const;
-  /// Returns the error (R) that `auto` promises not to exceed: `promised`, or twice that of semi-implicit Euler with
+  /// Returns the error (R) that `auto` promises not to exceed: the scene's, or twice that of semi-implicit Euler with
   /// its own steps.
   double allowed() const;
   bool keeps_promise() const { return !own("auto").blew_up && own("auto").error <= allowed(); }
   /// Returns the uncertainty (R) of the reference if its change is to be within `bound`. Smaller errors say nothing. A
   /// curve ends with the first of them.
-  double uncertainty(double bound) const { return std::max(bound, change); }
+  double uncertainty(double bound) const { return std::max(bound, reference.change); }
   static constexpr double max_order_error = 0.3;  // R: larger errors show no order
   static constexpr double clear_fall = 0.8;       // of the error before; a smaller fall may be rounding
   /// Returns the observed order of a curve's error; nothing if its errors do not show one. It is the median over the
@@ -106,18 +119,23 @@ struct StiffnessCase {
 /// Measures whether a material is as stiff in a fine mesh as in a coarse one. quick: without the finest meshes.
 std::vector<StiffnessCase> measure_stiffness(bool quick);
 
+struct SolverEffort {
+  double seconds = 0;                 // of processor time: a curve ends with the first run that takes longer ...
+  int repetitions = 0;                // of each point; fewer if these took those seconds
+  std::uint64_t reference_steps = 0;  // at most, of the reference
+  int max_substeps = 1 << 14;         // ... or with this many steps per frame
+  double bound = 2e-5;                // R, of the reference's change
+};
+
 struct SolverResults {
-  std::string command;
+  std::string command{};
   bool quick = false;
-  double seconds = 0, frame_time = 0;  // simulated
-  double bound = 0;                    // R, of the reference's change
-  int repetitions = 0;
-  double max_run_seconds = 0;  // of processor time: a curve ends with the first run that takes longer ...
-  int max_substeps = 0;        // ... or with this many steps per frame
-  TimedParts timed;            // the repetitions
-  std::vector<SolverCase> cases;
-  CoarseResults coarse{};                // empty where a scene was asked for
-  std::vector<StiffnessCase> stiffness;  // empty if one scene was asked for
+  SolverRun run{};
+  SolverEffort effort{};
+  TimedParts timed{};  // the repetitions
+  std::vector<SolverCase> cases{};
+  CoarseResults coarse{};                  // empty where a scene was asked for
+  std::vector<StiffnessCase> stiffness{};  // empty if one scene was asked for
 };
 
 /// Returns solver.csv: a row per point. What has no meaning is empty.

@@ -16,13 +16,6 @@ namespace {
 constexpr std::array quick_scenes{"free-1e3", "contact-1e3", "rest-1e3", "cloth",
                                   "inflated", "stretched",   "swollen",  "four-balls"};
 
-struct Effort {
-  double seconds;                 // of processor time: the steps per frame are doubled until a run takes longer
-  int repetitions;                // of each point; fewer if these took those seconds
-  std::uint64_t reference_steps;  // at most, of the reference
-  int max_substeps = 1 << 14;     // a frame
-};
-
 /// A point and its times.
 struct TimedPoint {
   std::size_t scene, curve, point;  // indices
@@ -33,16 +26,10 @@ struct TimedPoint {
 class SolverReport {
  public:
   SolverReport(const ReportOptions& options, std::vector<SolverScene> scenes)
-      : scenes_(std::move(scenes)), effort_(options.quick ? Effort{0.08, 2, 8'000} : Effort{1, 3, 200'000}) {
-    results.quick = options.quick;
-    results.command = command_of(options);
-    results.seconds = run_.seconds();
-    results.frame_time = run_.frame_time;
-    results.bound = 2e-5;
-    results.repetitions = effort_.repetitions;
-    results.max_run_seconds = effort_.seconds;
-    results.max_substeps = effort_.max_substeps;
-  }
+      : results{.command = command_of(options),
+                .quick = options.quick,
+                .effort = options.quick ? SolverEffort{0.08, 2, 8'000} : SolverEffort{1, 3, 200'000}},
+        scenes_(std::move(scenes)) {}
 
   void run() {
     for (std::size_t s = 0; s < scenes_.size(); ++s) find_errors(s);
@@ -62,18 +49,17 @@ class SolverReport {
   void find_errors(std::size_t s) {
     const SolverScene& scene = scenes_[s];
     say(scene.key + ": reference", double(s) / double(scenes_.size()));
-    const SolverReference reference = find_solver_reference(scene, run_, results.bound, effort_.reference_steps);
-    SolverCase c = begin_case(scene, run_, reference);
+    SolverCase c = begin_case(scene, run_, effort_.bound, effort_.reference_steps);
     for (WorkCurve& curve : c.curves) {
       const softbody::Integrator& integrator = *curve.integrator;
       say(scene.key + ": " + std::string(integrator.key), double(s) / double(scenes_.size()));
       double took = 0;
       const int max_steps = integrator.automatic ? 1 : effort_.max_substeps;
-      for (int n = 1; n <= max_steps && took < effort_.seconds && !curve.reaches(c.uncertainty(results.bound));
+      for (int n = 1; n <= max_steps && took < effort_.seconds && !curve.reaches(c.uncertainty(effort_.bound));
            n *= 2) {
         const Outcome outcome = run_solver(scene, run_, integrator, n, 1);
         took = outcome.finite ? outcome.timed.processor : 0;
-        WorkPoint point = judge(scene, outcome, reference);
+        WorkPoint point = judge(c, outcome);
         if (!integrator.automatic) point.substeps = n;
         if (!point.blew_up) points_.push_back({s, std::size_t(&curve - c.curves.data()), curve.points.size(), n});
         point.cpu_alone = 1e3 * outcome.timed.processor / run_.seconds() / double(outcome.bodies.size());
@@ -104,8 +90,8 @@ class SolverReport {
   }
 
   std::vector<SolverScene> scenes_;
-  SolverRun run_;
-  Effort effort_;
+  const SolverRun& run_ = results.run;
+  const SolverEffort& effort_ = results.effort;
   std::vector<TimedPoint> points_;
 };
 

@@ -124,17 +124,7 @@ SolverReference body_reference(const World& world, const SolverRun& run, double 
   return t;
 }
 
-/// Returns the distance as a share of the length of `b`.
-double relative(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) / glm::length(b); }
-
-}  // namespace
-
-Outcome run_solver(const SolverScene& scene, const SolverRun& run, const softbody::Integrator& integrator, int substeps,
-                   int copies) {
-  World world = make_world(scene, run, integrator, substeps, copies);
-  return advance(world, run.frames);
-}
-
+/// Returns the scale (J) of a body's error in energy: the larger of its energy above balance and m g R.
 double energy_scale(const World& world, BodyId id) {
   const softbody::BodyModel& p = world.model(id);
   const reference::ReferenceBody body(p, world.scene());
@@ -149,17 +139,20 @@ double energy_scale(const World& world, BodyId id) {
   return std::max(energy - body.energy(now), p.material[softbody::Material::mass] * 9.81 * p.radius);
 }
 
-SolverReference find_solver_reference(const SolverScene& scene, const SolverRun& run, double bound,
-                                      std::uint64_t steps) {
-  const World world = make_world(scene, run, rk4(), 1, 1);
-  SolverReference t = reference::ReferenceBody::unsupported_stage(world).empty()
-                          ? body_reference(world, run, bound, steps)
-                          : world_reference(scene, run, bound, steps);
-  for (BodyId b = 0; b < world.bodies().count(); ++b) t.energy_scale += energy_scale(world, b);
-  return t;
+/// Returns the distance as a share of the length of `b`.
+double relative(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) / glm::length(b); }
+
+}  // namespace
+
+Outcome run_solver(const SolverScene& scene, const SolverRun& run, const softbody::Integrator& integrator, int substeps,
+                   int copies) {
+  World world = make_world(scene, run, integrator, substeps, copies);
+  return advance(world, run.frames);
 }
 
-WorkPoint judge(const SolverScene& scene, const Outcome& o, const SolverReference& reference) {
+WorkPoint judge(const SolverCase& of, const Outcome& o) {
+  const SolverScene& scene = of.scene;
+  const SolverReference& reference = of.reference;
   WorkPoint p;
   p.taken = o.taken;
   const World world(scene.scene, {.integrator = one_step()});
@@ -189,21 +182,16 @@ WorkPoint judge(const SolverScene& scene, const Outcome& o, const SolverReferenc
   return p;
 }
 
-SolverCase begin_case(const SolverScene& scene, const SolverRun& run, const SolverReference& reference) {
-  SolverCase c{.key = scene.key,
-               .name = scene.name,
-               .at_rest = scene.at_rest,
-               .reference = reference.what,
-               .step = reference.step,
-               .change = reference.change,
-               .converged = reference.converged,
-               .growth = reference.growth,
-               .promised = scene.promised,
-               .of_centres = scene.of_centres};
+SolverCase begin_case(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps) {
+  const World world = make_world(scene, run, rk4(), 1, 1);
+  SolverCase c{scene, reference::ReferenceBody::unsupported_stage(world).empty()
+                          ? body_reference(world, run, bound, steps)
+                          : world_reference(scene, run, bound, steps)};
+  for (BodyId b = 0; b < world.bodies().count(); ++b) c.reference.energy_scale += energy_scale(world, b);
   for (const softbody::Integrator& integrator : softbody::integrators()) {
     WorkCurve& curve = c.curves.emplace_back(WorkCurve{&integrator});
     if (std::ranges::find(own_step_integrators, integrator.key) != own_step_integrators.end())
-      curve.own = judge(scene, run_solver(scene, run, integrator, 0, 1), reference);
+      curve.own = judge(c, run_solver(scene, run, integrator, 0, 1));
   }
   return c;
 }

@@ -20,26 +20,23 @@ using glm::dvec3;
 using softbody::BodyId;
 using softbody::World;
 
-double gas_energy(const softbody::BodyModel& p, const Particles& particles) {
+double gas_energy(const softbody::BodyModel& p, const std::vector<dvec3>& x) {
   const softbody::Gas* gas = softbody::gas_of(p);
-  if (!gas) return 0;
-  std::vector<dvec3> x;
-  for (const softbody::Particle& q : particles) x.push_back(q.position);
-  return gas->stored(reference::volume_of(x, p.mesh.triangles));
+  return gas ? gas->stored(reference::volume_of(x, p.mesh.triangles)) : 0;
 }
 
-/// Returns the longest side (m) of the particles' box.
-double extent_of(const Particles& particles) {
-  assert(!particles.empty());
-  dvec3 lo = particles[0].position, hi = lo;
-  for (const softbody::Particle& p : particles) lo = glm::min(lo, p.position), hi = glm::max(hi, p.position);
+/// Returns the longest side (m) of the box around some points.
+double extent_of(const std::vector<dvec3>& points) {
+  assert(!points.empty());
+  dvec3 lo = points[0], hi = lo;
+  for (const dvec3& p : points) lo = glm::min(lo, p), hi = glm::max(hi, p);
   return std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
 }
 
 /// A run, frame by frame.
 class Run {
  public:
-  Run(const StabilityStart& start) : start_(start), assessment_(start.limits), above_balance_(start.above_balance) {}
+  Run(const StabilityStart& start) : start_(start), above_balance_(start.above_balance) {}
 
   World make(double frame_time, const softbody::Integrator& integrator, const std::vector<Particles>& particles) {
     World world(start_.scene, {.frame_time = frame_time, .integrator = with_steps(integrator, 1)});
@@ -74,12 +71,12 @@ class Run {
                                  .depth = m.deepest_penetration,
                                  .passed_through = passages_.count()};
     if (m.finite) add_reach(world, s);
-    assessment_.add(s);
+    figures_.add(s, start_.limits);
   }
 
   double time() const { return time_; }
-  bool lost() const { return assessment_.diverged(); }
-  const reference::StabilityFigures& figures() const { return assessment_.figures(); }
+  bool lost() const { return figures_.diverged(); }
+  const reference::StabilityFigures& figures() const { return figures_; }
 
  private:
   void count_excess(const World& world) {
@@ -95,10 +92,10 @@ class Run {
     double gas = 0;
     std::vector<double> extents;
     for (BodyId b = 0; b < world.bodies().count(); ++b) {
-      const Particles particles = particles_of(world, b);
-      available -= height_energy(world, particles, b);
-      gas += gas_energy(world.model(b), particles);
-      extents.push_back(extent_of(particles));
+      const std::vector<dvec3> x = reference::state_of(world, b).x;
+      available -= height_energy(world, x, b);
+      gas += gas_energy(world.model(b), x);
+      extents.push_back(extent_of(x));
     }
     const double min_energy = 1e-9 * s.scale;  // what has flown away has lost all to gravity
     s.reachable_speed = std::sqrt(2 * std::max(available - balance_, min_energy) / lightest_);
@@ -126,7 +123,7 @@ class Run {
   }
 
   const StabilityStart& start_;
-  reference::StabilityAssessment assessment_;
+  reference::StabilityFigures figures_;
   double above_balance_;                                       // J, that the present bodies started or joined with
   BodyId bodies_ = 0;                                          // that are present
   double balance_ = 0;                                         // J, their springs and gas in balance
@@ -140,18 +137,6 @@ class Run {
   int frame_ = 0;
   double time_ = 0;
 };
-
-reference::ReferenceDeviation compare(const World& world, const StabilityStart& start) {
-  const softbody::BodyModel& p = world.model(0);
-  const reference::BodyState end = reference::state_of(world, 0);
-  reference::ReferenceDeviation r{
-      .shape = reference::shape_distance(end.x, start.reference.x) / p.radius,
-      .rest = std::max(0.0, reference::deformation_speed(end) - reference::deformation_speed(start.reference))};
-  if (p.mesh.closed)
-    r.volume = std::abs(
-        reference::volume_of(end.x, p.mesh.triangles) / reference::volume_of(start.reference.x, p.mesh.triangles) - 1);
-  return r;
-}
 
 }  // namespace
 
@@ -168,7 +153,8 @@ reference::StabilityFigures run_cell(const StabilityStart& start, const softbody
     World world = run.make(dt, integrator, particles);
     while (!run.lost() && run.time() < start.limits.seconds - dt / 2) run.step(world);
     reference::StabilityFigures figures = run.figures();
-    if (start.not_judged.empty() && !run.lost()) figures.reference = compare(world, start);
+    if (start.not_judged.empty() && !run.lost())
+      figures.reference = deviation(world.model(0), reference::state_of(world, 0), start.reference);
     return figures;
   } catch (const softbody::SceneError& error) {
     return {.refused = error.what()};

@@ -43,8 +43,12 @@ void find_reference(StabilityStart& start, std::uint64_t steps);
 
 /// Returns the particles of each body.
 std::vector<Particles> all_particles(const softbody::World& world);
-/// Returns the energy (J) of gravity on one body, 0 at the origin.
-double height_energy(const softbody::World& world, const Particles& particles, softbody::BodyId body);
+/// Returns the energy (J) of gravity on one body whose particles are at x, 0 at the origin.
+double height_energy(const softbody::World& world, const std::vector<glm::dvec3>& x, softbody::BodyId body);
+
+/// Returns how a state of the body differs from the reference's.
+reference::ReferenceDeviation deviation(const softbody::BodyModel& model, const reference::BodyState& state,
+                                        const reference::BodyState& reference);
 
 /// Runs and judges a cell. A named integrator takes one step of its own per frame; `auto` chooses its steps. `dt`: s,
 /// the length of a frame.

@@ -82,8 +82,8 @@ Plot step_against_stiffness(const StabilityResults& results) {
 
 void add_introduction(Page& page, const StabilityResults& r) {
   constexpr reference::StabilityBounds b = reference::stability_bounds;
-  page.introduction(
-      "stability", fmt::arg("command", r.command), fmt::arg("seconds", r.seconds),
+  page.add(
+      "introduction", fmt::arg("command", r.command), fmt::arg("seconds", r.seconds),
       fmt::arg("stiffnesses",
                r.from_file ? "with all stiffnesses and pressures of the scene times a factor"
                            : "with springs of 10 to 1e8 N/m (bend springs a fourth of it, gas pressure in proportion)"),
@@ -167,8 +167,7 @@ void add_failing_cells(Page& page, const StabilityResults& r) {
                {"what is wrong", joined(reference::failures(cell.figures), "; ")}});
   });
   if (table.empty()) return;
-  page.text("## Why they fail");
-  page.text("Of the integrators that have no largest stable step:");
+  page.add("failing");
   page.table(table, 5);
 }
 
@@ -194,7 +193,7 @@ void add_steps(Page& page, const StabilityResults& r) {
 }  // namespace
 
 Page stability_page(const StabilityResults& results) {
-  Page page;
+  Page page("stability");
   add_introduction(page, results);
   page.text("## Cells that pass");
   page.table(overview(results));

@@ -77,19 +77,26 @@ reference::StabilityLimits limits_of(const World& world, const StabilityStart& s
 /// True if shape and volume agree.
 bool alike(const reference::ReferenceBody& body, const reference::BodyState& a, const reference::BodyState& b) {
   constexpr double close = 1e-3;  // R; of the volume. A tenth of what solvers are allowed
-  const softbody::BodyModel& p = body.model();
-  if (!(reference::shape_distance(a.x, b.x) <= close * p.radius)) return false;
-  return !p.mesh.closed ||
-         std::abs(reference::volume_of(a.x, p.mesh.triangles) / reference::volume_of(b.x, p.mesh.triangles) - 1) <=
-             close;
+  const reference::ReferenceDeviation apart = deviation(body.model(), a, b);
+  return apart.shape <= close && apart.volume <= close;
 }
 
 }  // namespace
 
-double height_energy(const World& world, const Particles& particles, BodyId body) {
+reference::ReferenceDeviation deviation(const softbody::BodyModel& model, const reference::BodyState& state,
+                                        const reference::BodyState& reference) {
+  const std::vector<softbody::Triangle>& faces = model.mesh.triangles;
+  reference::ReferenceDeviation r{
+      .shape = reference::shape_distance(state.x, reference.x) / model.radius,
+      .rest = std::max(0.0, reference::deformation_speed(state) - reference::deformation_speed(reference))};
+  if (model.mesh.closed)
+    r.volume = std::abs(reference::volume_of(state.x, faces) / reference::volume_of(reference.x, faces) - 1);
+  return r;
+}
+
+double height_energy(const World& world, const std::vector<dvec3>& x, BodyId body) {
   double energy = 0;
-  for (const softbody::Particle& p : particles)
-    energy -= world.model(body).particle_mass * glm::dot(world.scene().gravity, p.position);
+  for (const dvec3& p : x) energy -= world.model(body).particle_mass * glm::dot(world.scene().gravity, p);
   return energy;
 }
 
@@ -110,7 +117,7 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
   }
   s.above_balance = softbody::measure(world).energy;
   for (BodyId b = 0; b < s.particles.size(); ++b)
-    s.above_balance -= height_energy(world, s.particles[b], b) + s.members[b].balance;
+    s.above_balance -= height_energy(world, reference::state_of(world, b).x, b) + s.members[b].balance;
   if (!s.particles.empty()) s.balance_shape = world.model(0).start;
   s.limits = limits_of(world, s, seconds);
   // The bodies are where they start. So no cell has to find their balance again, unless some join later.

@@ -33,11 +33,10 @@ class MotionWriter : public FrameWriter {
  public:
   explicit MotionWriter(fs::path parent) : parent_(std::move(parent)), folder_(new_folder(parent_, "motion")) {}
   void write(const RecordedFrame& frame) override {
-    const compare::Positions& p = frame.positions;
-    if (!files::ObjWriter::can_write(p.x, p.y, p.z))
+    if (!files::ObjWriter::can_write(frame.positions))
       throw UsageError(fmt::format("frame {}: a body is no longer finite, so that no file can hold it", frame.number));
     if (frame.bodies != bodies_) begin(frame);
-    files::write_file(folder_ / fmt::format("frame_{:05}.obj", frame.number), frame.bodies->frame(p.x, p.y, p.z));
+    files::write_file(folder_ / fmt::format("frame_{:05}.obj", frame.number), frame.bodies->frame(frame.positions));
   }
   std::string name() const override { return folder_.string(); }
 

@@ -1,6 +1,7 @@
 #include "app/session/live/ghost.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "softbody/model/body_model.h"
@@ -21,7 +22,7 @@ void Ghost::restart(const softbody::World& of) {
 }
 
 void Ghost::step() {
-  if (blown_up_) return;
+  assert(!blown_up_);
   before_.copy(world_.positions());
   world_.step();
   blown_up_ = has_blown_up();
@@ -48,6 +49,41 @@ double Ghost::distance(const softbody::World& of) const {
     sum += body / (radius * radius);
   }
   return bodies.vertex_count() == 0 ? 0 : std::sqrt(sum / bodies.vertex_count());
+}
+
+std::string LiveGhost::choose(const softbody::World& world, const std::optional<softbody::IntegratorChoice>& choice,
+                              int threads) try {
+  ghost_ = choice ? std::make_unique<Ghost>(world, *choice, threads) : nullptr;
+  distances_.clear();
+  ++revision_;
+  return {};
+} catch (const std::exception& error) {
+  return error.what();
+}
+
+std::string LiveGhost::restart(const softbody::World* world) try {
+  ++revision_;
+  distances_.clear();
+  if (!world) ghost_.reset();
+  if (ghost_) ghost_->restart(*world);
+  return {};
+} catch (const std::exception& error) {
+  ghost_.reset();
+  return error.what();
+}
+
+std::string LiveGhost::step(const softbody::World& world) try {
+  // While a hand holds a body the ghost begins anew with each step.
+  if (!ghost_ || ghost_->blown_up() || world.grabbed()) return {};
+  ghost_->step();
+  if (!ghost_->world().all_at_rest()) ++revision_;
+  if (ghost_->blown_up()) return {};
+  if (ghost_->world().last_step().seconds != world.last_step().seconds) return restart(&world);  // one was cut short
+  distances_.push(world.frame(), static_cast<float>(ghost_->distance(world)));
+  return {};
+} catch (const std::exception& error) {
+  ghost_.reset();
+  return error.what();
 }
 
 }  // namespace app::session

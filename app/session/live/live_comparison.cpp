@@ -11,8 +11,7 @@ compare::FrameSnapshot copy_frame(const softbody::BodiesInMotion& world, std::ui
   copy.id = revision;
   copy.frame_number = world.frame();
   copy.world = world_number;
-  copy.at.copy(world.positions());
-  copy.bodies = world.bodies();
+  copy.copy(world.positions());
   copy.settings = world.collision();
   copy.driver = compare::method_index(world.method().key);
   copy.found = world.detection();

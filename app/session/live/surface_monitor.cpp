@@ -12,8 +12,7 @@ compare::StepSnapshot copy_step(const softbody::BodiesInMotion& world, const com
   copy.frame = world.frame();
   copy.before = before;
   const softbody::SimulatedMeshes simulated = world.simulated();
-  copy.at.copy(simulated.positions);
-  copy.bodies = *simulated.positions.bodies;
+  copy.copy(simulated.positions);
   copy.surfaces = compare::surfaces_of(world);
   copy.contacts.assign(simulated.contacts.begin(), simulated.contacts.end());
   return copy;

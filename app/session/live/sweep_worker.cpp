@@ -25,8 +25,8 @@ void SweepWorker::start(const softbody::BodiesInMotion& world, const compare::Me
     state.scene = world.scene().name;
     state.frame = world.frame();
     state.running = true;
-    Job job{{}, world.bodies(), compare::sweep_configurations(world, methods), state};
-    job.at.copy(world.positions());
+    Job job{{{}, world.bodies()}, compare::sweep_configurations(world, methods), state};
+    job.frame.at.copy(world.positions());
     publish(SweepState(state));
     thread_ = std::jthread([this, job = std::move(job)](const std::stop_token& stop) mutable { run(stop, job); });
     running_ = true;
@@ -47,7 +47,7 @@ void SweepWorker::run(const std::stop_token& stop, Job& job) {
   SweepState& state = job.state;
   try {
     collide::Workers alone(1);
-    compare::Sweep sweep({job.at.x, job.at.y, job.at.z, &job.bodies}, job.configurations, limits_, alone);
+    compare::Sweep sweep(job.frame.view(), job.configurations, limits_, alone);
     for (auto start = Clock::now(); !stop.stop_requested() && sweep.step(); start = Clock::now()) {
       publish_progress(state, sweep);
       rest(Clock::now() - start, stop);

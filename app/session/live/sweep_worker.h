@@ -40,8 +40,7 @@ class SweepWorker {
 
  private:
   struct Job {
-    compare::Positions at;
-    collide::Bodies bodies;
+    compare::FrameCopy frame;
     std::vector<compare::Configuration> configurations;
     SweepState state;
   };

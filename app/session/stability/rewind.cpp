@@ -16,11 +16,6 @@ void Rewind::keep(const softbody::World& world) {
   while (bytes_ > limit_ && snapshots_.size() > 1) remove(most_redundant());
 }
 
-void Rewind::clear() {
-  snapshots_.clear();
-  bytes_ = 0;
-}
-
 void Rewind::remove(std::size_t i) {
   bytes_ -= snapshots_[i].bytes();
   snapshots_.erase(snapshots_.begin() + static_cast<std::ptrdiff_t>(i));

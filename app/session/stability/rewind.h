@@ -18,7 +18,6 @@ class Rewind {
   /// Keeps the present world as the newest snapshot. Removes those of this frame and of later ones: they belong to
   /// another future.
   void keep(const softbody::World& world);
-  void clear();
 
   /// Returns the snapshots, ascending by frame.
   const std::vector<softbody::Snapshot>& snapshots() const { return snapshots_; }

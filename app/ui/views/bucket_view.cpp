@@ -28,9 +28,7 @@ void draw_group(Widgets& w, Session& session, const compare::BucketContents& buc
   const std::string tooltip =
       fmt::format("Cell {}: {} of {}. Click to show its entries in blue, and those of other cells in orange (§2.2).",
                   cell, count_text(group.items.size(), bucket), bodies);
-  const bool clicked = ImGui::Selectable(text.c_str(), chosen);
-  w.register_item(text.c_str(), tooltip.c_str());
-  if (clicked) session.inspector.select_cell(group.cell);
+  if (w.combo_item(text.c_str(), chosen, tooltip.c_str())) session.inspector.select_cell(group.cell);
 }
 
 }  // namespace

@@ -135,8 +135,7 @@ bool draw_name(Widgets& w, const Grid& grid, const Row& row) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(row.scored() ? ImGuiCol_Text : ImGuiCol_TextDisabled));
   const bool clicked = ImGui::Selectable(text.c_str(), false, 0, {grid.right(name) - left, 0});
   ImGui::PopStyleColor();
-  w.register_item(text.c_str(), tooltip.c_str());
-  return clicked;
+  return w.register_item(clicked, text.c_str(), tooltip.c_str());
 }
 
 void draw_time(const Widgets& w, const Session& session, const Grid& grid, const Row& row, const Scale& scale) {

@@ -25,9 +25,7 @@ void draw_check_box(Widgets& w, compare::MethodSet& shown, const std::string& la
     each &= shown[m];
   }
   int state = each ? all : any ? some : none;
-  const bool changed = ImGui::CheckboxFlags(label.c_str(), &state, all);
-  w.register_item(label.c_str(), show_tooltip);
-  if (!changed) return;
+  if (!w.register_item(ImGui::CheckboxFlags(label.c_str(), &state, all), label.c_str(), show_tooltip)) return;
   for (std::size_t m = 0; m < shown.size(); ++m)
     if (belongs(collide::method_table()[m])) shown[m] = state == all;
 }

@@ -12,10 +12,6 @@ namespace {
 
 constexpr float ring_radius = 15, ring_width = 2.5f, leader_width = 1.5f, halo_width = 3;  // design pixels
 
-bool overlap(const ScreenRect& a, const ScreenRect& b) {
-  return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y;
-}
-
 bool contains(const ScreenRect& outer, const ScreenRect& inner) {
   return inner.min.x >= outer.min.x && inner.min.y >= outer.min.y && inner.max.x <= outer.max.x &&
          inner.max.y <= outer.max.y;

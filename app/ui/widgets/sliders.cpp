@@ -211,9 +211,7 @@ bool Widgets::drag(const char* label, glm::dvec3& value, float min, float max, c
 bool Widgets::number_field(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
                            const char* tooltip) {
   value = std::clamp(value, min, max);
-  const bool changed = type<std::uint32_t>({label, value, min, max, "%u"});
-  register_item(label, tooltip);
-  return changed;
+  return register_item(type<std::uint32_t>({label, value, min, max, "%u"}), label, tooltip);
 }
 
 }  // namespace app::ui

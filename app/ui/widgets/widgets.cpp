@@ -103,9 +103,8 @@ ImVec2 tooltip_position(const ImVec2& size, float gap, float max_shift, const st
                                {x, item.y - gap - size.y}});
   const auto is_free = [&](const ImVec2& at) {
     const bool shown = at.x >= 0 && at.y >= 0 && at.x + size.x <= display.x && at.y + size.y <= display.y;
-    return shown && std::ranges::none_of(results, [&](const ScreenRect& r) {
-             return at.x < r.max.x && at.x + size.x > r.min.x && at.y < r.max.y && at.y + size.y > r.min.y;
-           });
+    const ScreenRect tooltip{at, {at.x + size.x, at.y + size.y}};
+    return shown && std::ranges::none_of(results, [&](const ScreenRect& r) { return overlap(tooltip, r); });
   };
   const auto found = std::ranges::find_if(places, is_free);
   return found != places.end() ? *found : ImVec2{x, inside(end.y + gap, size.y, display.y)};
@@ -137,21 +136,15 @@ void Widgets::show_tooltip(const char* text) const {
 }
 
 bool Widgets::button(const char* label, const char* tooltip, float width) {
-  const bool pressed = ImGui::Button(label, {width, 0});
-  register_item(label, tooltip);
-  return pressed;
+  return register_item(ImGui::Button(label, {width, 0}), label, tooltip);
 }
 
 bool Widgets::radio(const char* label, bool active, const char* tooltip) {
-  const bool pressed = ImGui::RadioButton(label, active);
-  register_item(label, tooltip);
-  return pressed;
+  return register_item(ImGui::RadioButton(label, active), label, tooltip);
 }
 
 bool Widgets::checkbox(const char* label, bool& value, const char* tooltip) {
-  const bool changed = ImGui::Checkbox(label, &value);
-  register_item(label, tooltip);
-  return changed;
+  return register_item(ImGui::Checkbox(label, &value), label, tooltip);
 }
 
 bool Widgets::section(const char* label, bool open_at_first) {
@@ -159,8 +152,7 @@ bool Widgets::section(const char* label, bool open_at_first) {
     ImGui::SetNextItemOpen(stored->second, ImGuiCond_Once);
   const bool open = ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
   sections_[label] = open;
-  register_item(label, nullptr);
-  return open;
+  return register_item(open, label, nullptr);
 }
 
 bool Widgets::text_field(const char* label, std::string& value, const char* hint, const char* tooltip) {
@@ -169,9 +161,7 @@ bool Widgets::text_field(const char* label, std::string& value, const char* hint
   if (ImGui::InputTextWithHint(fmt::format("##{}", label).c_str(), hint, typed.data(), typed.size(),
                                ImGuiInputTextFlags_AutoSelectAll))
     value = typed.data();
-  const bool entered = ImGui::IsItemDeactivated() && is_pressed(ImGuiKey_Enter);
-  register_item(label, tooltip);
-  return entered;
+  return register_item(ImGui::IsItemDeactivated() && is_pressed(ImGuiKey_Enter), label, tooltip);
 }
 
 bool Widgets::begin_combo(const char* label, const char* preview, const char* tooltip, ImGuiComboFlags flags) {
@@ -183,9 +173,7 @@ bool Widgets::begin_combo(const char* label, const char* preview, const char* to
 }
 
 bool Widgets::combo_item(const char* label, bool selected, const char* tooltip) {
-  const bool chosen = ImGui::Selectable(label, selected);
-  register_item(label, tooltip);
-  return chosen;
+  return register_item(ImGui::Selectable(label, selected), label, tooltip);
 }
 
 bool Widgets::closable_heading(const char* label, const char* tooltip) {

@@ -34,6 +34,9 @@ struct WidgetRecorder {
 struct ScreenRect {
   ImVec2 min, max;
 };
+inline bool overlap(const ScreenRect& a, const ScreenRect& b) {
+  return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y;
+}
 
 /// What the mouse does, where tooltips may stand, and what is typed into a field, from frame to frame.
 struct InputState {
@@ -139,6 +142,11 @@ class Widgets {
 
   /// Records the last ImGui item as the widget `label`, and shows the tooltip, if any, while the mouse rests on it.
   void register_item(const char* label, const char* tooltip);
+  /// The same; returns `used`, which ImGui returned for the item.
+  bool register_item(bool used, const char* label, const char* tooltip) {
+    register_item(label, tooltip);
+    return used;
+  }
   /// Only the tooltip of register_item().
   void tooltip_if_hovered(const char* label, const char* tooltip);
   /// Shows the tooltip beside the window of the last item, unless the mouse has just clicked.

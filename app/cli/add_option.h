@@ -1,5 +1,5 @@
 #pragma once
-// Options whose values are whole numbers.
+// Adds options of the usual kinds.
 
 #include <cassert>
 #include <cstdint>
@@ -24,6 +24,18 @@ inline CLI::Validator integer_in_range(std::int64_t min, std::int64_t max) {
         return std::string();
       },
       "INT in [" + from + " - " + to + "]");
+}
+
+/// Adds an option with a value of this type, as the help calls it.
+template <class Value>
+CLI::Option* add(CLI::App& command, const char* name, const char* type, Value& value, const std::string& text) {
+  return command.add_option(name, value, text)->type_name(type);
+}
+/// Adds an option for a whole number from min to max.
+template <class Value>
+void add(CLI::App& command, const char* name, const char* type, std::int64_t min, std::int64_t max, Value& value,
+         const std::string& text) {
+  add(command, name, type, value, text)->transform(integer_in_range(min, max));
 }
 
 }  // namespace app::cli
