@@ -2,11 +2,16 @@
 // Solids that bodies meet, as a scene has them. They do not move. What contact knows of a shape stands in
 // contact/solid_geometry.h and contact/solid_shapes.h.
 
+#include <cmath>
 #include <string_view>
 #include <variant>
 
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
+
+#include "softbody/model/key.h"
 
 namespace softbody {
 
@@ -22,16 +27,33 @@ struct ShapeTraits {
 // Kinds of the values of a shape. Its function values(visit) calls visit(key, kind{value}) for each of them. The reader
 // and the writer of scene files, the panel and the mouse know the kinds, not the shapes.
 namespace solid {
-template <class Kind, class T>
+template <class OfKind, class T>
 struct Value {
+  using Kind = OfKind;
   T& value;
 };
-using Place = Value<struct PlaceKind, glm::dvec3>;    // m; a solid is moved by moving all its places
-using Length = Value<struct LengthKind, double>;      // m, > 0
-using Height = Value<struct HeightKind, double>;      // m
-using HalfSize = Value<struct SizeKind, glm::dvec3>;  // m, along the solid's axes; a scene file has the whole size
+struct PlaceKind {
+  static constexpr Key::Limits limits{-1e6, 1e6};
+};
+struct HeightKind : PlaceKind {};
+struct LengthKind {
+  static constexpr Key::Limits limits{1e-9, 1e6};
+};
+struct SizeKind {
+  static constexpr Key::Limits limits{LengthKind::limits.least / 2, LengthKind::limits.most / 2};
+};
+using Place = Value<PlaceKind, glm::dvec3>;    // m; a solid is moved by moving all its places
+using Length = Value<LengthKind, double>;      // m
+using Height = Value<HeightKind, double>;      // m
+using HalfSize = Value<SizeKind, glm::dvec3>;  // m, along the solid's axes; a scene file has the whole size
 using Direction = Value<struct DirectionKind, glm::dvec3>;  // unit
 using Axes = Value<struct AxesKind, glm::dmat3>;            // orthonormal columns
+
+inline bool is_valid(const glm::dvec3& direction) { return std::abs(glm::dot(direction, direction) - 1) < 1e-9; }
+inline bool is_valid(const glm::dmat3& axes) {
+  const glm::dmat3 error = glm::transpose(axes) * axes - glm::dmat3(1.0);
+  return glm::length(error[0]) + glm::length(error[1]) + glm::length(error[2]) < 2e-9 && glm::determinant(axes) > 0;
+}
 }  // namespace solid
 
 struct SolidSphere {
@@ -87,6 +109,8 @@ struct SolidCapsule {
 struct Solid {
   /// In the order in which the reader of scene files lists solids and a step handles them.
   using Shape = std::variant<SolidSphere, Ground, SolidPlane, SolidBox, SolidCapsule>;
+
+  static constexpr Key::Limits friction_limits{0, 10}, restitution_limits{0, 1};
 
   Shape shape;
   double friction = traits().friction;  // Coulomb's coefficient

@@ -11,18 +11,29 @@ namespace softbody {
 std::string problem(const Scene& scene) {
   std::string found = problem(scene.collision);
   if (!collide::find_method(scene.method)) found = "method must be one of: " + collide::method_keys();
-  const auto check = [&](const std::string& of, const Key& key, double value) {
-    const auto [least, most] = key.limits;  // as floats, of which some of the values are
+  const auto check = [&](const std::string& name, Key::Limits limits, double value) {
+    const auto [least, most] = limits;  // as floats, of which some of the values are
     if (float(value) >= float(least) && float(value) <= float(most)) return;
-    found = of + std::string(key.name) + " is " + shortest_text(value) + "; it must be from " + shortest_text(least) +
-            " to " + shortest_text(most);
+    found = name + " is " + shortest_text(value) + "; it must be from " + shortest_text(least) + " to " +
+            shortest_text(most);
   };
   for_each_value(scene, [&](const Key& key, const auto& value) {
-    for (const double number : numbers_of(value)) check("", key, number);
+    for (const double number : numbers_of(value)) check(std::string(key.name), key.limits, number);
   });
   for (const Material& m : scene.materials)
     for (const Key* key : material_keys())
-      if (m.given(*key)) check("material " + m.name + ": ", *key, m[*key]);
+      if (m.given(*key)) check("material " + m.name + ": " + std::string(key->name), key->limits, m[*key]);
+  for (Solid s : scene.solids) {
+    const std::string of = std::string(s.traits().key) + ": ";
+    check(of + "friction", s.friction_limits, s.friction);
+    check(of + "restitution", s.restitution_limits, s.restitution);
+    s.values([&]<class Value>(const char* key, Value v) {
+      if constexpr (requires { Value::Kind::limits; })
+        for (const double number : numbers_of(v.value)) check(of + key, Value::Kind::limits, number);
+      else if (!solid::is_valid(v.value))
+        found = of + key + " must have length 1 in each direction";
+    });
+  }
   return found;
 }
 

@@ -9,16 +9,15 @@
 namespace softbody {
 namespace {
 
-constexpr double max_coordinate = 1e6;  // m, of positions
-constexpr double tiny = 1e-9;           // m, the smallest length
+constexpr Key::Limits places = solid::PlaceKind::limits, lengths = solid::LengthKind::limits;
 
 constexpr double unit_error = 1e-14;  // of the square of a length that was made 1, at most
 
 /// Reads a direction of any length but zero and returns its unit vector. A unit vector is returned unchanged, to the
 /// bit, so that saved scenes are equal.
 glm::dvec3 read_direction(Table& table, const std::string& key, const glm::dvec3& fallback) {
-  const glm::dvec3 v = table.vector(key, fallback, -max_coordinate, max_coordinate);
-  if (glm::length(v) < tiny) table.fail(key, "must have a length, e.g. [0, 1, 0]");
+  const glm::dvec3 v = table.vector(key, fallback, places.least, places.most);
+  if (glm::length(v) < lengths.least) table.fail(key, "must have a length, e.g. [0, 1, 0]");
   return std::abs(glm::dot(v, v) - 1) < unit_error ? v : glm::normalize(v);
 }
 
@@ -26,10 +25,8 @@ glm::dvec3 read_direction(Table& table, const std::string& key, const glm::dvec3
 glm::dmat3 read_axes(Table table) {
   const glm::dmat3 axes = table.matrix("axes");
   table.close();
-  const glm::dmat3 error = glm::transpose(axes) * axes - glm::dmat3(1.0);
-  for (int k = 0; k < 3; ++k)
-    if (glm::length(error[k]) > 1e-9 || glm::determinant(axes) < 0)
-      table.fail("axes", "must be three directions of length 1, each at right angles to the others, right-handed");
+  if (!solid::is_valid(axes))
+    table.fail("axes", "must be three directions of length 1, each at right angles to the others, right-handed");
   return axes;
 }
 
@@ -55,16 +52,14 @@ glm::dmat3 read_rotation(Table table) {
 struct ShapeReader {
   Table& table;
   void operator()(const std::string& key, solid::Place p) const {
-    p.value = table.vector(key, p.value, -max_coordinate, max_coordinate);
+    p.value = table.vector(key, p.value, places.least, places.most);
   }
-  void operator()(const std::string& key, solid::Length l) const {
-    l.value = table.number(key, l.value, tiny, max_coordinate);
-  }
-  void operator()(const std::string& key, solid::Height h) const {
-    h.value = table.number(key, h.value, -max_coordinate, max_coordinate);
+  template <class Kind>
+  void operator()(const std::string& key, solid::Value<Kind, double> v) const {
+    v.value = table.number(key, v.value, Kind::limits.least, Kind::limits.most);
   }
   void operator()(const std::string& key, solid::HalfSize s) const {
-    s.value = 0.5 * table.vector(key, 2.0 * s.value, tiny, max_coordinate);
+    s.value = 0.5 * table.vector(key, 2.0 * s.value, lengths.least, lengths.most);
   }
   void operator()(const std::string& key, solid::Direction d) const { d.value = read_direction(table, key, d.value); }
   void operator()(const std::string& key, solid::Axes a) const { a.value = read_rotation(table.child(key)); }
@@ -85,8 +80,8 @@ void read_all(Table& root, std::vector<Solid>& solids) {
   const auto read = [&solids](Table table) {
     Solid& s = solids.emplace_back(Solid{Shape{}});
     s.values(ShapeReader{table});
-    s.friction = table.number("friction", s.friction, 0, 10);
-    s.restitution = table.number("restitution", s.restitution, 0, 1);
+    s.friction = table.number("friction", s.friction, s.friction_limits.least, s.friction_limits.most);
+    s.restitution = table.number("restitution", s.restitution, s.restitution_limits.least, s.restitution_limits.most);
     s.enabled = table.boolean("enabled", s.enabled);
     table.close();
   };

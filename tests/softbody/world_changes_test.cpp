@@ -273,6 +273,10 @@ TEST(Apply, RefusesTheWholeSceneAndChangesNothing) {
   EXPECT_THROW(change(world, wrong([](Scene& s) { s.sleep.frames = 0; })), SceneError);
   EXPECT_THROW(change(world, wrong([](Scene& s) { s.method = "none"; })), SceneError);
   EXPECT_THROW(change(world, wrong([](Scene& s) { s.materials[0][contact::friction] = -1; })), SceneError);
+  for (const Solid& solid : {Solid{SolidSphere{.radius = 0}}, Solid{SolidSphere{}, -1}, Solid{Ground{}, 0, 2},
+                             Solid{Ground{2e6}}, Solid{SolidBox{.half_size = {1, 0, 1}}},
+                             Solid{SolidPlane{.normal = {0, 2, 0}}}, Solid{SolidBox{.axes = glm::dmat3(2)}}})
+    EXPECT_THROW(change(world, wrong([&](Scene& s) { s.solids = {solid}; })), SceneError);
   refuse = true;
   EXPECT_THROW(change(world, wrong([](Scene&) {})), Refusal);
   EXPECT_EQ(world.scene(), before);
