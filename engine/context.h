@@ -6,8 +6,7 @@
 namespace engine {
 
 /// There is no display, or no OpenGL 3.3. what() is one line: what is missing, and what to do about it.
-class ContextError : public std::runtime_error {
- public:
+struct ContextError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 

@@ -26,8 +26,7 @@ struct Image {
 };
 
 /// A picture cannot be encoded. what() is the reason.
-class ImageError : public std::runtime_error {
- public:
+struct ImageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 

@@ -111,9 +111,7 @@ Program::Program(const fs::path& folder, const std::string& vertex_file, const s
 
 GLint Program::location(const char* name) const {
   assert(current_program() == name_.get());
-  const auto [found, added] = locations_.try_emplace(name);
-  if (added) found->second = glGetUniformLocation(name_.get(), name);
-  return found->second;
+  return glGetUniformLocation(name_.get(), name);
 }
 
 }  // namespace engine

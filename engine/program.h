@@ -5,7 +5,6 @@
 #include <glm/mat4x4.hpp>
 #include <stdexcept>
 #include <string>
-#include <unordered_map>
 
 #include "engine/gl.h"
 
@@ -13,8 +12,7 @@ namespace engine {
 
 /// A shader does not compile or link, or its file cannot be read. what() begins with "file:line: " if the driver names
 /// the line.
-class ShaderError : public std::runtime_error {
- public:
+struct ShaderError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
@@ -36,7 +34,6 @@ class Program {
   GLint location(const char* name) const;
 
   GlName<detail::delete_program> name_;
-  mutable std::unordered_map<std::string, GLint> locations_;
 };
 
 }  // namespace engine

@@ -8,8 +8,7 @@
 namespace engine {
 
 /// A folder is missing. what() is one line: the folder, where it was searched, and the variable SBCOLLIDE_DATA.
-class ResourceError : public std::runtime_error {
- public:
+struct ResourceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 

@@ -48,13 +48,7 @@ Integer whole(double value, const char* name) {
 
 const char* sbcollide_version(void) { return SBCOLLIDE_VERSION; }
 
-sbcollide_finder* sbcollide_finder_new(void) {
-  try {
-    return new sbcollide_finder;
-  } catch (...) {
-    return nullptr;
-  }
-}
+sbcollide_finder* sbcollide_finder_new(void) { return sbcollide::made<sbcollide_finder>(); }
 
 void sbcollide_finder_free(sbcollide_finder* finder) { delete finder; }
 

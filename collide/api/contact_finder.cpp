@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <thread>
 
 #include "collide/api/guarded.h"
 #include "collide/api/sbcollide/collide.h"
@@ -36,13 +35,6 @@ collide::Settings settings_of(const FinderSettings& s) {
   return settings;
 }
 
-int threads_of(const FinderSettings& settings) {
-  constexpr int most = 256;
-  if (settings.threads < 0 || settings.threads > most)
-    throw Error("threads: must be from 0 to " + std::to_string(most) + ", where 0 stands for all cores");
-  return settings.threads > 0 ? settings.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 const collide::Method& method_of(const FinderSettings& settings) {
   if (const collide::Method* method = collide::find_method(settings.method)) return *method;
   throw Error("method '" + settings.method + "': unknown; use one of: " + collide::method_keys());
@@ -58,7 +50,7 @@ std::vector<std::string> method_keys() {
 
 struct ContactFinder::Impl {
   explicit Impl(const FinderSettings& s)
-      : method(method_of(s)), settings(settings_of(s)), workers(threads_of(s)), detector(method.make()) {}
+      : method(method_of(s)), settings(settings_of(s)), workers(threads_of(s.threads)), detector(method.make()) {}
 
   const collide::Method& method;
   collide::Settings settings;  // an automatic cell size is that of the first frame

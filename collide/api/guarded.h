@@ -1,9 +1,11 @@
 #pragma once
-// Errors of the library, as its users get them.
+// What the C++ and C interfaces share: errors as users get them, handles, and the number of threads.
 
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <string>
+#include <thread>
 
 #include "collide/api/sbcollide/collide_c.h"
 #include "collide/api/sbcollide/error.h"
@@ -45,6 +47,24 @@ sbcollide_status guarded(Handle* handle, Work&& work) noexcept {
 /// Throws Error if `given` is no pointer, though `count` elements are to be read there.
 inline void require_pointer(const void* given, std::size_t count, const char* name) {
   if (!given && count > 0) throw Error(std::string(name) + ": is NULL");
+}
+
+/// Makes an object of the C interface. Returns nullptr if there is no memory for it.
+template <class Handle>
+Handle* made() noexcept {
+  try {
+    return new Handle;
+  } catch (...) {
+    return nullptr;
+  }
+}
+
+/// Returns how many threads a user's number stands for. Throws Error if it is none.
+inline int threads_of(int number) {
+  constexpr int most = 256;
+  if (number < 0 || number > most)
+    throw Error("threads: must be from 0 to " + std::to_string(most) + ", where 0 stands for all cores");
+  return number > 0 ? number : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 }  // namespace sbcollide

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
 #include <exception>
 #include <mutex>
@@ -27,13 +26,7 @@ struct Workers::Shared {
   /// used: how many threads run at the same time. If they share processors, those that look for work would take them
   /// from those that they wait for: they sleep at once.
   Shared(int all_threads, int used)
-      : looking_time(used <= processors() ? 50 : 0), helpers(static_cast<std::size_t>(all_threads) - 1) {}
-
-  /// A thread beside the caller's.
-  struct Helper {
-    std::atomic<std::uint32_t> run_number = 0;  // a change wakes it
-    std::condition_variable begun;              // a change of run_number
-  };
+      : looking_time(used <= processors() ? 50 : 0), run_number(static_cast<std::size_t>(all_threads) - 1) {}
 
   const std::chrono::microseconds looking_time;    // before they sleep: about as long as it takes to be woken
   std::mutex mutex;                                // of task, members, by_all, stopping and error
@@ -47,24 +40,17 @@ struct Workers::Shared {
   std::atomic<std::uint32_t> barriers = 0;  // that all have reached, or left because a task has failed
   std::atomic<std::uint32_t> arrived = 0;   // at the next barrier
   std::atomic<bool> failed = false;
-  std::condition_variable done, passed;  // a change of at_work to 0, or of barriers
-  std::vector<Helper> helpers;           // by thread, from thread 1 on
-  std::vector<std::jthread> threads;     // last, so that they are joined before the rest goes
+  std::vector<std::atomic<std::uint32_t>> run_number;  // of each thread from thread 1 on: a change wakes it
+  std::vector<std::jthread> threads;                   // last, so that they are joined before the rest goes
 
   /// Waits while `value` is `old`. No result depends on the clock.
-  void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old, std::condition_variable& changed) {
+  void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) const {
     const auto end = Clock::now() + looking_time;
     do {
       for (int look = 0; look < 100; ++look)
         if (value != old) return;
     } while (Clock::now() < end);
-    std::unique_lock lock(mutex);
-    changed.wait(lock, [&] { return value != old; });
-  }
-
-  void wake_sleepers(std::condition_variable& changed) {
-    { const std::lock_guard lock(mutex); }  // whoever has just looked in vain is asleep by now
-    changed.notify_all();
+    value.wait(old);
   }
 
   void perform(const std::function<void(int)>& part, int thread) {
@@ -83,24 +69,24 @@ struct Workers::Shared {
 
   void pass_barrier() {
     ++barriers;
-    wake_sleepers(passed);
+    barriers.notify_all();
   }
 
   void serve(int thread) {
-    Helper& own = helpers[static_cast<std::size_t>(thread) - 1];
+    const std::atomic<std::uint32_t>& own = run_number[static_cast<std::size_t>(thread) - 1];
     for (std::uint32_t seen = 0;;) {
-      wait_while(own.run_number, seen, own.begun);
+      wait_while(own, seen);
       const std::function<void(int)>* part = nullptr;
       {
         const std::lock_guard lock(mutex);
         if (stopping) return;
-        seen = own.run_number;
+        seen = own;
         if (thread < members) part = task;  // else it comes so late that others run
         if (part && !by_all) ++at_work;
       }
       if (!part) continue;
       perform(*part, thread);
-      if (--at_work == 0) wake_sleepers(done);
+      if (--at_work == 0) at_work.notify_one();
     }
   }
 
@@ -108,14 +94,14 @@ struct Workers::Shared {
     {
       const std::lock_guard lock(mutex);
       stopping = true;
-      for (Helper& helper : helpers) ++helper.run_number;
+      for (std::atomic<std::uint32_t>& number : run_number) ++number;
     }
-    for (Helper& helper : helpers) helper.begun.notify_one();
+    for (std::atomic<std::uint32_t>& number : run_number) number.notify_one();
     threads.clear();
   }
 
   void wait_for_others() {
-    for (std::uint32_t others; (others = at_work) != 0;) wait_while(at_work, others, done);
+    for (std::uint32_t others; (others = at_work) != 0;) wait_while(at_work, others);
   }
 
   /// Where other programs take the processor from a helper in the midst of its work, the caller waits for milliseconds.
@@ -129,16 +115,16 @@ struct Workers::Shared {
   /// The caller's thread takes part.
   void run(int number, const std::function<void(int)>& next, bool all) {
     assert(at_work == 0);
-    const std::span called = std::span(helpers).first(static_cast<std::size_t>(number) - 1);
+    const std::span called = std::span(run_number).first(static_cast<std::size_t>(number) - 1);
     {
       const std::lock_guard lock(mutex);
       task = &next;
       members = number;
       by_all = all;
       if (all) at_work = static_cast<std::uint32_t>(called.size());
-      for (Helper& helper : called) ++helper.run_number;
+      for (std::atomic<std::uint32_t>& helper : called) ++helper;
     }
-    for (Helper& helper : called) helper.begun.notify_one();
+    for (std::atomic<std::uint32_t>& helper : called) helper.notify_one();
     const auto start = Clock::now();
     perform(next, 0);
     const auto own = Clock::now() - start;
@@ -210,7 +196,7 @@ void Workers::barrier() {
     shared.arrived = 0;
     shared.pass_barrier();
   } else {
-    shared.wait_while(shared.barriers, before, shared.passed);
+    shared.wait_while(shared.barriers, before);
   }
   if (shared.failed) throw Cancelled();
 }

@@ -38,8 +38,8 @@ class CellHash {
     return static_cast<std::uint64_t>(rest < 0 ? rest + count : rest) * prime_[static_cast<std::size_t>(axis)];
   }
 
-  std::uint32_t bucket(std::uint64_t x_term, std::uint64_t y_term, std::uint64_t z_term) const {
-    return static_cast<std::uint32_t>((x_term + y_term + z_term) % buckets_);
+  std::uint32_t bucket(const Cell& cell) const {
+    return static_cast<std::uint32_t>((term(0, cell[0]) + term(1, cell[1]) + term(2, cell[2])) % buckets_);
   }
 
   /// The same modulo the bucket count, for summands that many corners share, and the bucket of three such residues.
@@ -51,8 +51,6 @@ class CellHash {
     const auto once = [count](std::uint32_t sum) { return sum >= count ? sum - count : sum; };
     return once(once(x + y) + z);
   }
-
-  std::uint32_t bucket(const Cell& cell) const { return bucket(term(0, cell[0]), term(1, cell[1]), term(2, cell[2])); }
 
  private:
   std::array<double, 3> size_;

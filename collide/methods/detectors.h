@@ -18,7 +18,6 @@
 //   cell_hash.h       grid cells and the hash function of a cell
 //   bucket_table.h    items sorted into buckets
 //   box_table.h       boxes in buckets and the pairs of boxes that share one
-//   vertex_grid.h     vertices in buckets and all contacts among them
 
 #include <functional>
 #include <memory>

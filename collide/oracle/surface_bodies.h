@@ -21,22 +21,4 @@ std::array<Index, N> to_frame(const Frame& frame, Index body, std::array<Index, 
   return local;
 }
 
-/// The broad phase: finds the bodies whose boxes overlap.
-class BodyNeighbours {
- public:
-  BodyNeighbours() = default;
-  /// box: the box of each body. A body with an empty box has no neighbours.
-  explicit BodyNeighbours(std::vector<surface::Box> box) : box_(std::move(box)), tree_(box_) {}
-  const surface::Box& box(Index body) const { return box_[body]; }
-  /// Calls take(other) for every body whose box overlaps that of `body`, including itself.
-  template <class Take>
-  void for_each(Index body, const Take& take) const {
-    tree_.for_each_overlapping(box_[body], take);
-  }
-
- private:
-  std::vector<surface::Box> box_;
-  surface::BoxTree tree_;
-};
-
 }  // namespace collide::oracle

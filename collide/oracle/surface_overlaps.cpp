@@ -38,9 +38,8 @@ class OverlapSearch {
   OverlapSearch(const Frame& frame, const surface::Surfaces& surfaces, bool depths)
       : frame_(frame), surfaces_(surfaces), depths_(depths) {
     require_match(frame, surfaces);
-    std::vector<surface::Box> boxes;
-    for (Index body = 0; body < frame.bodies->count(); ++body) boxes.push_back(box_of_body(frame, body));
-    bodies_ = BodyNeighbours(std::move(boxes));
+    for (Index body = 0; body < frame.bodies->count(); ++body) boxes_.push_back(box_of_body(frame, body));
+    bodies_ = surface::BoxTree(boxes_);
     faces_.resize(surfaces.size());
   }
 
@@ -50,13 +49,13 @@ class OverlapSearch {
     for (Index t = 0; t < boxes.size(); ++t) {
       for (const glm::vec3& corner : corners(body, t)) boxes[t].add(glm::dvec3(corner));
     }
-    if (!bodies_.box(body).empty()) faces_[body] = surface::BoxTree(boxes);
+    if (!boxes_[body].empty()) faces_[body] = surface::BoxTree(boxes);
   }
 
   /// Appends the penetrations of the body's vertices, and the piercings of its edges, into all surfaces near it. Edges
   /// may pierce its own surface.
   void find(Index body, Overlaps& overlaps) const {
-    bodies_.for_each(body, [&](Index other) {
+    bodies_.for_each_overlapping(boxes_[body], [&](Index other) {
       if (!surfaces_[other]) return;
       if (other != body && surfaces_[other]->closed()) find_vertices(body, other, overlaps.penetrations);
       if (surfaces_[body]) find_edges(body, other, overlaps.piercings);
@@ -70,7 +69,7 @@ class OverlapSearch {
   }
 
   void find_vertices(Index body, Index other, std::vector<Penetration>& found) const {
-    const surface::Box& box = bodies_.box(other);
+    const surface::Box& box = boxes_[other];
     for (Index v = frame_.bodies->first[body]; v < frame_.bodies->first[body + 1]; ++v) {
       const glm::vec3 p = position(frame_, v);
       if (overlap(box, point_box(p)) && inside(p, other))
@@ -127,7 +126,7 @@ class OverlapSearch {
       const glm::vec3 p = position(frame_, edge[0]), q = position(frame_, edge[1]);
       surface::Box box = point_box(p);
       box.add(glm::dvec3(q));
-      if (!overlap(box, bodies_.box(other))) continue;
+      if (!overlap(box, boxes_[other])) continue;
       faces_[other].for_each_overlapping(box, [&](Index t) {
         if (body == other && share_vertex(local, surfaces_[body]->triangles()[t])) return;
         if (passes(p, q, other, t)) found.push_back({edge, body, other, t, meeting_point(p, q, corners(other, t))});
@@ -184,7 +183,8 @@ class OverlapSearch {
   Frame frame_;
   const surface::Surfaces& surfaces_;
   bool depths_;
-  BodyNeighbours bodies_;
+  std::vector<surface::Box> boxes_;  // of each body; empty: it takes no part
+  surface::BoxTree bodies_;
   std::vector<surface::BoxTree> faces_;  // of each body
 };
 

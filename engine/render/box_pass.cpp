@@ -9,30 +9,10 @@
 namespace engine::render {
 namespace {
 
-constexpr GLsizei face_vertices = 6, cube_vertices = 36;
+// Of cube.glsl: all vertices, and those of the face y = 1.
+constexpr GLint cube_begin = 0, face_begin = 18;
+constexpr GLsizei cube_vertices = 36, face_vertices = 6;
 constexpr float patch_half_size = 1.5f;  // of a plane's patch, in radii of the scene
-
-struct CubeVertex {
-  glm::vec3 position, normal;
-};
-
-/// The faces of the cube from -1 to 1, counter-clockwise from outside; the first is y = 1.
-std::vector<CubeVertex> cube() {
-  std::vector<CubeVertex> vertices;
-  for (const int axis : {1, 2, 0}) {
-    for (const float side : {1.0f, -1.0f}) {
-      const auto at = [&](float u, float v) {
-        glm::vec3 position, normal(0.0f);
-        normal[axis] = position[axis] = side;
-        position[(axis + 1) % 3] = u;
-        position[(axis + 2) % 3] = side * v;
-        return CubeVertex{position, normal};
-      };
-      vertices.insert(vertices.end(), {at(-1, -1), at(1, -1), at(1, 1), at(-1, -1), at(1, 1), at(-1, 1)});
-    }
-  }
-  return vertices;
-}
 
 /// A right-handed orthonormal basis x, n, z round the unit vector `n`.
 glm::mat3 basis_round(const glm::vec3& n) {
@@ -48,12 +28,7 @@ BoxPass::BoxPass(const std::filesystem::path& shaders)
       shadow_program_(shaders, "oriented_box_shadow.vert", "depth.frag"),
       plane_program_(scene_program(shaders, "plane.vert", "plane.frag")) {
   array_.bind();
-  const std::vector<CubeVertex> vertices = cube();
-  cube_buffer_.set(GL_ARRAY_BUFFER, std::span(vertices));
-  constexpr GLsizei stride = sizeof(CubeVertex);
-  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(CubeVertex, position)));
-  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(CubeVertex, normal)));
-  enable_attributes(7, 2);
+  enable_attributes(5, 0);
 }
 
 void BoxPass::update(const FrameData& frame) {
@@ -74,33 +49,33 @@ void BoxPass::draw_shadows(const glm::mat4& light_clip_from_world) const {
   if (box_count_ == 0) return;
   shadow_program_.use();
   shadow_program_.set("light_clip_from_world", light_clip_from_world);
-  draw_instances(0, box_count_, cube_vertices);
+  draw_instances(0, box_count_, cube_begin, cube_vertices);
 }
 
 void BoxPass::draw() const {
   if (box_count_ > 0) {
     box_program_.use();
-    draw_instances(0, box_count_, cube_vertices);
+    draw_instances(0, box_count_, cube_begin, cube_vertices);
   }
   if (instances_.size() > box_count_) {
     plane_program_.use();
-    draw_instances(box_count_, instances_.size() - box_count_, face_vertices);
+    draw_instances(box_count_, instances_.size() - box_count_, face_begin, face_vertices);
   }
 }
 
-void BoxPass::draw_instances(std::size_t first, std::size_t count, GLsizei vertices) const {
+void BoxPass::draw_instances(std::size_t first, std::size_t count, GLint begin, GLsizei vertices) const {
   array_.bind();
   glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.id());
   constexpr GLsizei stride = sizeof(Instance);
   const std::size_t start = first * sizeof(Instance);
-  glVertexAttribPointer(2, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(start + offsetof(Instance, centre)));
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(start + offsetof(Instance, centre)));
   for (GLuint axis = 0; axis < 3; ++axis) {
     const std::size_t column = offsetof(Instance, half_axes) + axis * sizeof(glm::vec3);
-    glVertexAttribPointer(3 + axis, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(start + column));
+    glVertexAttribPointer(1 + axis, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(start + column));
   }
-  glVertexAttribPointer(6, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(start + offsetof(Instance, colour)));
+  glVertexAttribPointer(4, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(start + offsetof(Instance, colour)));
   glEnable(GL_CULL_FACE);
-  glDrawArraysInstanced(GL_TRIANGLES, 0, vertices, static_cast<GLsizei>(count));
+  glDrawArraysInstanced(GL_TRIANGLES, begin, vertices, static_cast<GLsizei>(count));
   glDisable(GL_CULL_FACE);
 }
 

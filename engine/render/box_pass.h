@@ -28,12 +28,12 @@ class BoxPass {
     glm::mat3 half_axes;
     glm::vec3 colour;
   };
-  /// Draws `count` instances from `first` on, each with the first `vertices` vertices of the cube.
-  void draw_instances(std::size_t first, std::size_t count, GLsizei vertices) const;
+  /// Draws `count` instances from `first` on, each with `vertices` vertices of the cube from `begin` on.
+  void draw_instances(std::size_t first, std::size_t count, GLint begin, GLsizei vertices) const;
 
   Program box_program_, shadow_program_, plane_program_;
   VertexArray array_;
-  Buffer cube_buffer_, instance_buffer_;
+  Buffer instance_buffer_;
   std::vector<Instance> instances_;  // the boxes, then the planes
   std::size_t box_count_ = 0;
 };

@@ -25,22 +25,6 @@ constexpr float floor_map_half_size = 1.5f;  // in radii of the scene
 /// Returns the distance of grid lines in m: a power of ten that divides the scene into a handful of cells.
 float grid_spacing(float scene_radius) { return std::pow(10.0f, std::floor(std::log10(0.6f * scene_radius))); }
 
-/// The framebuffers that were bound when the object was made.
-class FramebufferBindings {
- public:
-  FramebufferBindings() {
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
-    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
-  }
-  void restore() const {
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(draw_));
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_));
-  }
-
- private:
-  GLint draw_ = 0, read_ = 0;
-};
-
 }  // namespace
 
 struct Renderer::Passes {
@@ -163,7 +147,9 @@ MeshHandle Renderer::add_mesh(std::span<const std::uint32_t> triangles, std::uin
 void Renderer::draw(const Camera& camera, const Viewport& viewport, const FrameData& frame) {
   if (viewport.size.x <= 0 || viewport.size.y <= 0) return;
   passes_->bodies.check(frame);
-  const FramebufferBindings bindings;
+  GLint drawn_to = 0, read_from = 0;  // the framebuffers that are bound
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &drawn_to);
+  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_from);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
@@ -173,7 +159,8 @@ void Renderer::draw(const Camera& camera, const Viewport& viewport, const FrameD
   passes_->update(camera, viewport, frame);
   passes_->draw_shadows();
   if (frame.floor_height) passes_->floor_map.draw(frame, passes_->occlusion);
-  bindings.restore();
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(drawn_to));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_from));
   passes_->draw_scene(viewport, frame);
   glDepthFunc(GL_LESS);
   glBindVertexArray(0);

@@ -91,8 +91,7 @@ softbody::MeshSource mesh_source(std::span<const float> xyz, std::span<const std
   check_corners(triangles, mesh.vertices.size());
   mesh.triangles.assign(triangles.begin(), triangles.end());
   try {
-    const softbody::SurfaceFindings found = softbody::orient(mesh.triangles, mesh.vertices);
-    imported->findings.closed = found.closed;
+    imported->findings.closed = softbody::orient(mesh.triangles, mesh.vertices).closed;
   } catch (const softbody::SurfaceError& error) {
     throw Error("mesh: " +
                 std::string(error.triangles.size() == 2 ? "the surface "

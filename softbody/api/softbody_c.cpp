@@ -24,13 +24,7 @@ struct sbcollide_world {
   }
 };
 
-sbcollide_world* sbcollide_world_new(void) {
-  try {
-    return new sbcollide_world;
-  } catch (...) {
-    return nullptr;
-  }
-}
+sbcollide_world* sbcollide_world_new(void) { return sbcollide::made<sbcollide_world>(); }
 
 void sbcollide_world_free(sbcollide_world* world) { delete world; }
 

@@ -1,8 +1,5 @@
 // The public interface of a world.
 
-#include <algorithm>
-#include <thread>
-
 #include "collide/api/guarded.h"
 #include "softbody/api/scene_impl.h"
 #include "softbody/model/body_model.h"
@@ -12,16 +9,11 @@ namespace sbcollide {
 namespace {
 
 softbody::World::Options options_of(const WorldSettings& settings) {
-  constexpr int most_threads = 256;
-  if (settings.threads < 0 || settings.threads > most_threads)
-    throw Error("threads: must be from 0 to 256, where 0 stands for all cores");
+  const int threads = threads_of(settings.threads);
   if (!(settings.frame_time >= 1e-6 && settings.frame_time <= 1)) throw Error("frame_time: must be from 1e-6 to 1 s");
   if (!softbody::find_integrator(settings.integrator))
     throw Error("integrator '" + settings.integrator + "': unknown; use one of: " + softbody::integrator_keys());
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  return {.threads = settings.threads > 0 ? settings.threads : cores,
-          .frame_time = settings.frame_time,
-          .integrator = {.key = settings.integrator}};
+  return {.threads = threads, .frame_time = settings.frame_time, .integrator = {.key = settings.integrator}};
 }
 
 }  // namespace

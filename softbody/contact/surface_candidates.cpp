@@ -160,10 +160,6 @@ SurfaceCandidates::Pair SurfaceCandidates::make_pair(const collide::surface::Sur
           .distance = margin(range.a) + margin(range.b),
           .friction = law::common_friction(a.friction, b.friction),
           .restitution = range.a == range.b ? 0 : law::common_restitution(a.restitution, b.restitution),
-          .inverse_a = a.inverse_mass,
-          .inverse_b = b.inverse_mass,
-          .slot_a = a.first_slot,
-          .slot_b = b.first_slot,
           .overlap = range.a != range.b && (traits_[range.a].surface->closed() || traits_[range.b].surface->closed())};
 }
 
@@ -262,9 +258,9 @@ void SurfaceCandidates::colour() {
 }
 
 SurfaceCandidates::Side SurfaceCandidates::side(const Pair& pair, bool second) const {
-  if (second)
-    return {traits_[pair.range.b].surface, pair.slot_b, bodies_[pair.range.b].stride, pair.offset, pair.inverse_b};
-  return {traits_[pair.range.a].surface, pair.slot_a, bodies_[pair.range.a].stride, glm::vec3(0.0f), pair.inverse_a};
+  const Index id = second ? pair.range.b : pair.range.a;
+  const ContactBody& body = bodies_[id];
+  return {traits_[id].surface, body.first_slot, body.stride, second ? pair.offset : glm::vec3(0.0f), body.inverse_mass};
 }
 
 std::vector<collide::surface::ItemPair> SurfaceCandidates::interactions() const {

@@ -38,8 +38,6 @@ class SurfaceCandidates {
     glm::vec3 offset;                     // origin of b minus origin of a
     float distance;                       // m, kept between the surfaces
     float friction, restitution;
-    float inverse_a, inverse_b;
-    std::size_t slot_a, slot_b;
     float speed = 0;          // m/s, with which the two may meet
     float rate = 0;           // 1/s: that over how far they may go in a substep
     bool overlap = false;     // some vertex may be inside the other body: see find_interior_vertices()

@@ -4,12 +4,11 @@
 
 namespace softbody {
 
-void SurfaceContact::make_rows(int thread, int threads, Field<const float> x, Field<const float> v,
-                               Field<const float> before, float elapsed, float h) {
+void SurfaceContact::make_rows(int thread, int threads, Field<const float> x, Field<const float> before, float elapsed,
+                               float h) {
   OfThread& own = of_thread_[static_cast<std::size_t>(thread)];
   own.rows.clear();
-  SurfaceRowMaker maker(candidates_, {x, v, before, h, elapsed + h, last_h_ > 0 ? h / last_h_ : 0}, own.scratch,
-                        own.rows);
+  SurfaceRowMaker maker(candidates_, {x, before, h, elapsed + h, last_h_ > 0 ? h / last_h_ : 0}, own.scratch, own.rows);
   const collide::Part part = collide::part_of(candidates_.pairs().size(), thread, threads);
   for (std::size_t i = part.begin; i < part.end; ++i) {
     candidates_.pairs()[i].thread = thread;

@@ -45,11 +45,9 @@ class SurfaceContact {
   SurfaceCandidates& candidates() { return candidates_; }
   const SurfaceCandidates& candidates() const { return candidates_; }
 
-  /// The rows of this substep, from positions at its start, `elapsed` seconds after find(), and velocities with all
-  /// forces. On every thread.
+  /// Makes the rows of this substep, from positions at its start, `elapsed` seconds after find(). On every thread.
   /// before: the velocities without the forces of this substep.
-  void make_rows(int thread, int threads, Field<const float> x, Field<const float> v, Field<const float> before,
-                 float elapsed, float h);
+  void make_rows(int thread, int threads, Field<const float> x, Field<const float> before, float elapsed, float h);
   /// Solves them on the velocities. On every thread, after a barrier; `barrier` is called by all threads alike.
   void solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
              const std::function<void()>& barrier);

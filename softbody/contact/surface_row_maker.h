@@ -22,7 +22,7 @@ namespace softbody {
 class SurfaceRowMaker {
  public:
   struct Substep {
-    Field<const float> x, v, before;  // the latter: velocities without the forces of this substep
+    Field<const float> x, before;  // the latter: velocities without the forces of this substep
     float h;
     float until;    // s after the candidates were found: the end of the substep
     float h_ratio;  // the length of this substep over that of the last one; 0: there was none

@@ -125,7 +125,7 @@ void ContactPass::apply_surfaces(const Worker& worker, float h, float since_star
   if (!meets_others(worker)) return;
   const Field<const float> x = field(std::as_const(state_.x));
   worker.barrier();  // the velocities of all bodies are there
-  surfaces_.make_rows(worker.index(), crew_.active(), x, field(std::as_const(state_.v)), solids_.velocities_before(),
+  surfaces_.make_rows(worker.index(), crew_.active(), x, solids_.velocities_before(),
                       since_found_[std::size_t(worker.index())] + since_start, h);
   worker.barrier();
   surfaces_.solve(worker.index(), crew_.active(), x, field(state_.v), h, [&] { worker.barrier(); });

@@ -111,10 +111,6 @@ void Motion::accelerations(const Batch& b) {
       used(b), {b.particles(), 1, float(1 / b.model->particle_mass), g.x, g.y, g.z, b.moves.data()}, f(b));
 }
 
-void Motion::drift(const Batch& b, float h) {
-  state_kernels(b.width).drift(used(b), b.particles(), h, b.moves.data(), v(b), field(parts_.state.x, b.base));
-}
-
 VectorArray& Motion::array(Quantity q) {
   VectorArray* const own[] = {&parts_.state.x, &parts_.state.v, &parts_.state.f};
   return q.index < 3 ? *own[q.index] : scratch_[std::size_t(q.index - 3)];
@@ -135,7 +131,7 @@ void Motion::scale(const Batch& b, Quantity q, float times) {
 }
 
 void Motion::clear(const Batch& b, Quantity q) {
-  state_kernels(b.width).clear(used(b), b.particles(), field(array(q), b.base));
+  for (auto& component : array(q)) std::fill_n(component.data() + b.base, b.values(), 0.0f);
 }
 
 }  // namespace softbody

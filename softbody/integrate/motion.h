@@ -52,10 +52,10 @@ class Motion {
   void advance_velocities(const Worker& worker, const Batch& batch, float h, Volumes how);
   /// Ends a substep that advance_velocities() has begun: drift() where it has not done so, and show().
   void advance_positions(const Worker& worker, const Batch& batch, float h);
-  void other_forces(const Batch& batch);    // all but those that project() and pull() stand for
-  void kick(const Batch& batch, float h);   // v += h (f / m + g)
-  void accelerations(const Batch& batch);   // f = f / m + g
-  void drift(const Batch& batch, float h);  // x += h v
+  void other_forces(const Batch& batch);   // all but those that project() and pull() stand for
+  void kick(const Batch& batch, float h);  // v += h (f / m + g)
+  void accelerations(const Batch& batch);  // f = f / m + g
+  void drift(const Batch& batch, float h) { add(batch, positions, h, velocities); }  // x += h v
   /// Changes the velocities so that in a step of h from here surfaces do not pass through each other, nor particles
   /// into solids. The velocities of all batches must be there. Needs a barrier after it.
   /// Tells contacts that what has acted until now is no impact of theirs.

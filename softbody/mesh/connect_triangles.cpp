@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -22,6 +21,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "collide/surface/surface.h"
 #include "softbody/mesh/mesh.h"
 
 namespace softbody {
@@ -29,49 +29,33 @@ namespace {
 
 using glm::dvec2, glm::dvec3;
 
-/// An edge and the corners opposite to it, of the first two triangles that have it.
+using collide::surface::Surface;
+
+/// The triangles at an edge, and the corners opposite to it of two of them, ascending.
 struct EdgeFaces {
-  Edge edge;
   int faces = 0;
   std::array<Index, 2> corner{};
 };
 
-/// The edges of a mesh in ascending order.
-class EdgeTable {
- public:
-  explicit EdgeTable(const Mesh& mesh) : first_(mesh.vertices.size() + 1, 0) {
-    std::vector<std::pair<Edge, Index>> sides;
-    for (const Triangle& t : mesh.triangles)
-      for (std::size_t k = 0; k < 3; ++k) sides.push_back({ordered(t[k], t[(k + 1) % 3]), t[(k + 2) % 3]});
-    std::ranges::sort(sides);
-    for (const auto& [edge, corner] : sides) {
-      if (edges_.empty() || edges_.back().edge != edge) {
-        edges_.push_back({edge});
-        ++first_[edge[0] + 1];
-      }
-      EdgeFaces& e = edges_.back();
-      if (e.faces < 2) e.corner[std::size_t(e.faces)] = corner;
-      ++e.faces;
-    }
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+EdgeFaces faces_at(const Surface& surface, const Edge& edge) {
+  EdgeFaces at;
+  for (const Index face : surface.triangles_at(edge[0])) {
+    const Triangle& t = surface.triangles()[face];
+    if (std::ranges::count(t, edge[1]) == 0) continue;
+    if (at.faces < 2)
+      at.corner[std::size_t(at.faces)] =
+          *std::ranges::find_if(t, [&](Index c) { return c != edge[0] && c != edge[1]; });
+    ++at.faces;
   }
-  const std::vector<EdgeFaces>& all() const { return edges_; }
-  const EdgeFaces& find(const Edge& edge) const {
-    std::size_t at = first_[edge[0]];
-    while (edges_[at].edge[1] != edge[1]) ++at;
-    return edges_[at];
-  }
-
- private:
-  std::vector<EdgeFaces> edges_;
-  std::vector<std::size_t> first_;  // of each vertex, of the edges that begin there
-};
+  if (at.faces > 1) std::ranges::sort(at.corner);
+  return at;
+}
 
 /// A straight line on the surface. It has come through the edge from a to b at a distance `at` from a and goes on into
 /// the triangle whose third corner is c. Its direction: along the edge, and from there into the triangle.
 struct Walk {
   const Mesh& mesh;
-  const EdgeTable& edges;
+  const Surface& surface;
   Index a, b, c;
   double at;
   dvec2 direction{0, 1};
@@ -93,7 +77,7 @@ struct Walk {
       const dvec2 from = at_b ? dvec2(length, 0) : third, to = at_b ? third : dvec2(0, 0);
       const double turn = cross(direction, to - from);
       const double exit = turn > 0 ? cross(from - here, to - from) / turn : 0;
-      const EdgeFaces& exit_edge = edges.find(at_b ? ordered(b, c) : ordered(c, a));
+      const EdgeFaces exit_edge = faces_at(surface, at_b ? ordered(b, c) : ordered(c, a));
       if (gone + exit >= distance || exit_edge.faces != 2) {
         const dvec2 last = here + std::min(exit, distance - gone) * direction;
         const Index vertex = triangles == 0 ? c : nearest(last, length, third);
@@ -123,18 +107,19 @@ struct Walk {
 /// The edges, bend pairs and shares of a mesh, found from its triangles.
 class Net {
  public:
-  explicit Net(Mesh& mesh) : mesh_(mesh), edges_(mesh) {}
+  explicit Net(Mesh& mesh) : mesh_(mesh), surface_(static_cast<Index>(mesh.vertices.size()), mesh.triangles) {}
 
   void fill() {
     mesh_.closed = !mesh_.triangles.empty();
     double all_areas = 0, of_shares = 0;
-    for (const EdgeFaces& e : edges_.all()) {
-      const double areas = areas_at(e);
-      mesh_.edges.push_back(e.edge);
-      mesh_.edge_shares.push_back(std::min(max_share, 2 / std::sqrt(3.0) * areas / length2(e.edge)));
+    mesh_.edges = surface_.edges();
+    for (const Edge& e : mesh_.edges) {
+      const EdgeFaces at = faces_at(surface_, e);
+      const double areas = areas_of(e, at);
+      mesh_.edge_shares.push_back(std::min(max_share, 2 / std::sqrt(3.0) * areas / length2(e)));
       all_areas += areas / 3;
-      of_shares += mesh_.edge_shares.back() * length2(e.edge) / (2 * std::sqrt(3.0));
-      if (e.faces != 2) mesh_.closed = false;
+      of_shares += mesh_.edge_shares.back() * length2(e) / (2 * std::sqrt(3.0));
+      if (at.faces != 2) mesh_.closed = false;
     }
     const bool regular = std::ranges::all_of(mesh_.edge_shares, [](double s) { return std::abs(s - 1) < 0.25; });
     const double factor = of_shares > 0 ? all_areas / of_shares : 1;
@@ -149,11 +134,11 @@ class Net {
     const dvec3 d = mesh_.vertices[e[1]] - mesh_.vertices[e[0]];
     return glm::dot(d, d);
   }
-  double areas_at(const EdgeFaces& e) const {
+  double areas_of(const Edge& e, const EdgeFaces& at) const {
     double sum = 0;
-    for (int k = 0; k < std::min(e.faces, 2); ++k) {
-      const dvec3& a = mesh_.vertices[e.edge[0]];
-      sum += glm::length(glm::cross(mesh_.vertices[e.edge[1]] - a, mesh_.vertices[e.corner[std::size_t(k)]] - a)) / 2;
+    for (int k = 0; k < std::min(at.faces, 2); ++k) {
+      const dvec3& a = mesh_.vertices[e[0]];
+      sum += glm::length(glm::cross(mesh_.vertices[e[1]] - a, mesh_.vertices[at.corner[std::size_t(k)]] - a)) / 2;
     }
     return sum;
   }
@@ -163,19 +148,18 @@ class Net {
     // In a regular mesh that materials are stated for: 2 V - 4 equal triangles, and springs of twice their height.
     const double length = std::sqrt(3.0) * std::sqrt(4 / std::sqrt(3.0) * all_areas / (2 * mesh_.stated_for - 4));
     std::vector<std::pair<Edge, double>> shares;
-    for (const EdgeFaces& e : edges_.all()) {
-      if (e.faces != 2) continue;
-      const double middle = std::sqrt(length2(e.edge)) / 2;
-      const auto walk = [&](std::size_t side) {
-        return Walk{mesh_, edges_, e.edge[0], e.edge[1], e.corner[side], middle};
-      };
+    for (const Edge& e : surface_.edges()) {
+      const EdgeFaces at = faces_at(surface_, e);
+      if (at.faces != 2) continue;
+      const double middle = std::sqrt(length2(e)) / 2;
+      const auto walk = [&](std::size_t side) { return Walk{mesh_, surface_, e[0], e[1], at.corner[side], middle}; };
       // The second half makes up for what the nearest vertex is too near or too far in the first.
       const Walk::End one = walk(0).go(length / 2);
       const Walk::End two = walk(1).go(length - one.distance);
       if (one.vertex == two.vertex) continue;  // around a thin part
       const Edge ends = ordered(one.vertex, two.vertex);
       const double reach = std::max(one.distance + two.distance, std::sqrt(length2(ends)));
-      const double by_area = 2 * std::sqrt(3.0) * areas_at(e) / (reach * reach);
+      const double by_area = 2 * std::sqrt(3.0) * areas_of(e, at) / (reach * reach);
       shares.push_back({ends, all_alike ? 1 : std::min(max_share, by_area)});
     }
     std::ranges::sort(shares);
@@ -189,7 +173,7 @@ class Net {
   }
 
   Mesh& mesh_;
-  EdgeTable edges_;
+  Surface surface_;
 };
 
 }  // namespace

@@ -32,14 +32,12 @@ std::from_chars_result parse(std::string_view word, Real& value) {
   return std::from_chars(word.data(), word.data() + word.size(), value);
 }
 
-/// Collects the mesh of a file. All members but take() throw MeshFileError.
+/// Collects the mesh of a file. All members throw MeshFileError.
 class MeshParser {
  public:
   /// name: of the file. lines: of the file; it must outlive the parser.
   MeshParser(std::string name, LineReader& lines, const MeshReading& reading)
       : name_(std::move(name)), lines_(lines), reading_(reading) {}
-
-  FileMesh take() { return std::move(mesh_); }
 
  protected:
   ~MeshParser() = default;

@@ -29,13 +29,14 @@ class ObjParser : public MeshParser {
  public:
   using MeshParser::MeshParser;
 
-  void run(std::string_view line) {
+  FileMesh run(std::string_view line) {
     do {
       statement(Words(line));
     } while (lines_.next(line));
     if (mesh_.objects.empty() || (mesh_.x.empty() && passed_over_))
       throw MeshFileError(name_ + ": no vertex in it; give a Wavefront OBJ file with lines such as v 0 0 0");
     require_vertices();
+    return std::move(mesh_);
   }
 
  private:
@@ -126,9 +127,7 @@ class ObjParser : public MeshParser {
 }  // namespace
 
 FileMesh parse_obj(const std::string& name, LineReader& lines, const MeshReading& reading, std::string_view line) {
-  ObjParser parser(name, lines, reading);
-  parser.run(line);
-  return parser.take();
+  return ObjParser(name, lines, reading).run(line);
 }
 
 }  // namespace softbody

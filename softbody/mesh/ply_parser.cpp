@@ -47,7 +47,7 @@ class PlyParser : public MeshParser {
  public:
   using MeshParser::MeshParser;
 
-  void run() {
+  FileMesh run() {
     mesh_.objects.push_back({0, 0, false});
     header();
     words_ = Words({});
@@ -58,6 +58,7 @@ class PlyParser : public MeshParser {
     require_end();
     if (mesh_.x.empty()) throw MeshFileError(name_ + ": no vertex in it; give a PLY file with an element vertex");
     require_vertices();
+    return std::move(mesh_);
   }
 
  private:
@@ -314,9 +315,7 @@ class PlyParser : public MeshParser {
 }  // namespace
 
 FileMesh parse_ply(const std::string& name, LineReader& lines, const MeshReading& reading) {
-  PlyParser parser(name, lines, reading);
-  parser.run();
-  return parser.take();
+  return PlyParser(name, lines, reading).run();
 }
 
 }  // namespace softbody

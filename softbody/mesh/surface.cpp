@@ -1,6 +1,7 @@
 #include "softbody/mesh/surface.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <utility>
@@ -14,25 +15,6 @@ namespace {
 
 constexpr Index none = ~Index{0};
 
-/// A side of a triangle.
-struct Side {
-  Edge edge;
-  Index face;
-  bool ascends;  // the triangle runs along it from edge[0] to edge[1]
-  auto operator<=>(const Side&) const = default;
-};
-
-std::vector<Side> sorted_sides(const std::vector<Triangle>& triangles) {
-  std::vector<Side> sides;
-  for (Index f = 0; f < triangles.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Index a = triangles[f][k], b = triangles[f][(k + 1) % 3];
-      sides.push_back({ordered(a, b), f, a < b});
-    }
-  std::sort(sides.begin(), sides.end());
-  return sides;
-}
-
 struct Neighbour {
   Index face = none;  // none: the side is at the border
   bool agrees = true;
@@ -44,7 +26,9 @@ class Alignment {
  public:
   explicit Alignment(std::vector<Triangle>& triangles)
       : triangles_(triangles), neighbours_(triangles.size()), turned_(triangles.size(), unseen) {
-    join(sorted_sides(triangles));
+    Index vertices = 0;
+    for (const Triangle& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
+    join(collide::surface::Surface(vertices, triangles));
   }
 
   std::vector<SurfacePart> run() {
@@ -57,26 +41,24 @@ class Alignment {
  private:
   enum Turned : char { no, yes, unseen };
 
-  void join(const std::vector<Side>& sides) {
+  void join(const collide::surface::Surface& surface) {
     std::vector<std::size_t> used(triangles_.size(), 0);
     const auto add = [&](Index face, const Neighbour& n) { neighbours_[face][used[face]++] = n; };
-    for (std::size_t i = 0; i < sides.size();) {
-      std::size_t end = i + 1;
-      while (end < sides.size() && sides[end].edge == sides[i].edge) ++end;
-      if (end - i > 2) {
-        std::vector<Index> there;
-        for (; i < end; ++i) there.push_back(sides[i].face);
-        throw SurfaceError("has more than two faces", sides[end - 1].edge, std::move(there));
-      }
-      const Side &a = sides[i], &b = sides[end - 1];
-      if (end - i == 1) {
-        add(a.face, {});
-      } else {
-        add(a.face, {b.face, a.ascends != b.ascends, a.edge});
-        add(b.face, {a.face, a.ascends != b.ascends, a.edge});
-      }
-      i = end;
+    for (const Edge& edge : surface.edges()) {
+      std::vector<Index> there;
+      std::ranges::copy_if(surface.triangles_at(edge[0]), std::back_inserter(there),
+                           [&](Index f) { return std::ranges::count(triangles_[f], edge[1]) > 0; });
+      if (there.size() > 2) throw SurfaceError("has more than two faces", edge, std::move(there));
+      const bool agree = runs_along(there.front(), edge) != runs_along(there.back(), edge);
+      if (there.size() == 1) add(there[0], {});
+      if (there.size() == 2) add(there[0], {there[1], agree, edge}), add(there[1], {there[0], agree, edge});
     }
+  }
+  /// Returns true if the face goes from edge[0] to edge[1].
+  bool runs_along(Index face, const Edge& edge) const {
+    const Triangle& t = triangles_[face];
+    const auto from = std::size_t(std::ranges::find(t, edge[0]) - t.begin());
+    return t[(from + 1) % 3] == edge[1];
   }
 
   /// Returns the part of a face, and marks the faces that must be reversed to agree with it.

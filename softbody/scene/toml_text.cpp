@@ -40,21 +40,4 @@ std::string toml_value(std::string_view value) {
   return text + '"';
 }
 
-TomlLines& TomlLines::put(std::string_view key, const std::string& value) {
-  text_.append(key).append(" = ").append(value).append(1, '\n');
-  return *this;
-}
-
-TomlLines& TomlLines::add(std::string_view key, const TomlInline& table) { return put(key, table.text()); }
-
-TomlLines& TomlLines::heading(std::string_view text) {
-  text_.append(text_.empty() ? "" : "\n").append(text).append(1, '\n');
-  return *this;
-}
-
-TomlInline& TomlInline::put(std::string_view key, const std::string& value) {
-  text_.append(text_.empty() ? "" : ", ").append(key).append(" = ").append(value);
-  return *this;
-}
-
 }  // namespace softbody

@@ -24,29 +24,35 @@ std::string toml_value(std::integral auto value) { return toml_value(static_cast
 inline std::string toml_value(const char* value) { return toml_value(std::string_view(value)); }
 inline std::string toml_value(const std::string& value) { return toml_value(std::string_view(value)); }
 
+/// Builds the inside of an inline table: {a = 1, b = 2}. add() returns the object, so that calls can be chained.
+class TomlInline {
+ public:
+  TomlInline& add(std::string_view key, const auto& value) {
+    text_.append(text_.empty() ? "" : ", ").append(key).append(" = ").append(toml_value(value));
+    return *this;
+  }
+  friend std::string toml_value(const TomlInline& table) { return "{" + table.text_ + "}"; }
+
+ private:
+  std::string text_;
+};
+
 /// Builds the lines of a file. add() and heading() return the object, so that calls can be chained.
 class TomlLines {
  public:
   /// Adds a line `key = value`.
-  TomlLines& add(std::string_view key, const auto& value) { return put(key, toml_value(value)); }
-  /// Adds a line with an inline table: `key = {a = 1, b = 2}`.
-  TomlLines& add(std::string_view key, const class TomlInline& table);
+  TomlLines& add(std::string_view key, const auto& value) {
+    text_.append(key).append(" = ").append(toml_value(value)).append(1, '\n');
+    return *this;
+  }
   /// Adds an empty line and the heading of a table, which is given with its brackets: [ground] or [[body]].
-  TomlLines& heading(std::string_view text);
+  TomlLines& heading(std::string_view text) {
+    text_.append(text_.empty() ? "" : "\n").append(text).append(1, '\n');
+    return *this;
+  }
   const std::string& text() const { return text_; }
 
  private:
-  TomlLines& put(std::string_view key, const std::string& value);
-  std::string text_;
-};
-
-class TomlInline {
- public:
-  TomlInline& add(std::string_view key, const auto& value) { return put(key, toml_value(value)); }
-  std::string text() const { return "{" + text_ + "}"; }
-
- private:
-  TomlInline& put(std::string_view key, const std::string& value);
   std::string text_;
 };
 

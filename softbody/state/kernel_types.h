@@ -40,7 +40,8 @@ struct KickArguments {
 /// Bounds of two fields, for the body in each lane.
 struct Extent {
   LaneVector lo, hi;     // corners of the bounding box of the first field's vectors
-  float length2[lanes];  // squared length of the longest vector of the second field
+  float length2[lanes];  // squared length of the longest vector of the second field ...
+  float sum2[lanes];     // ... and the sum of the squares of all, which shows what is not finite: the largest need not
 
   double length(std::size_t lane) const { return std::sqrt(double(length2[lane])); }
   double diagonal(std::size_t lane) const {  // of the box

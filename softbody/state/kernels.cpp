@@ -15,13 +15,6 @@ using namespace body;
 using ConstField = Field<const float>;
 
 template <int width>
-void clear(std::size_t used, std::size_t particles, Field<float> a) {
-  using V = Run<float, width>;
-  for (std::size_t first = 0; first < used; first += lanes_of<V>)
-    for (std::size_t at = first; at < particles * width; at += width) store(a, at, Vec<V>{});
-}
-
-template <int width>
 void copy(std::size_t used, std::size_t particles, const float* moves, ConstField from, Field<float> to) {
   using V = Run<float, width>;
   for (std::size_t first = 0; first < used; first += lanes_of<V>) {
@@ -51,19 +44,6 @@ void scale(std::size_t used, std::size_t particles, const float* moves, float ti
 }
 
 template <int width>
-void square_sum(std::size_t used, std::size_t particles, ConstField a, float* sum) {
-  using V = Run<float, width>;
-  for (std::size_t first = 0; first < used; first += lanes_of<V>) {
-    V all{};
-    for (std::size_t at = first; at < particles * width; at += width) {
-      const Vec<V> v = load<V>(a, at);
-      all += dot(v, v);
-    }
-    store(sum + first, all);
-  }
-}
-
-template <int width>
 void kick(std::size_t used, const KickArguments& k, ConstField f, Field<float> v) {
   using V = Run<float, width>;
   for (std::size_t first = 0; first < used; first += lanes_of<V>) {
@@ -84,30 +64,22 @@ void accelerate(std::size_t used, const KickArguments& k, Field<float> f) {
 }
 
 template <int width>
-void drift(std::size_t used, std::size_t particles, float h, const float* moves, ConstField v, Field<float> x) {
-  using V = Run<float, width>;
-  for (std::size_t first = 0; first < used; first += lanes_of<V>) {
-    const V step = h * load<V>(moves + first);
-    for (std::size_t at = first; at < particles * width; at += width)
-      store(x, at, load<V>(x, at) + step * load<V>(v, at));
-  }
-}
-
-template <int width>
 void extent(std::size_t used, std::size_t particles, ConstField boxed, ConstField measured, Extent& e) {
   using V = Run<float, width>;
   for (std::size_t first = 0; first < used; first += lanes_of<V>) {
     Vec<V> lo = load<V>(boxed, first), hi = lo;
-    V length2{};
+    V length2{}, sum2{};
     for (std::size_t at = first; at < particles * width; at += width) {
       const Vec<V> p = load<V>(boxed, at), u = load<V>(measured, at);
       lo = {smaller(p.x, lo.x), smaller(p.y, lo.y), smaller(p.z, lo.z)};
       hi = {larger(p.x, hi.x), larger(p.y, hi.y), larger(p.z, hi.z)};
       length2 = larger(dot(u, u), length2);
+      sum2 += dot(u, u);
     }
     store(field(e.lo), first, lo);
     store(field(e.hi), first, hi);
     store(e.length2 + first, length2);
+    store(e.sum2 + first, sum2);
   }
 }
 
@@ -191,9 +163,8 @@ void change_rigidly(std::size_t used, std::size_t particles, const RigidChange& 
 }
 
 template <int width>
-constexpr StateKernels table{clear<width>,      copy<width>,   add<width>,        scale<width>,
-                             square_sum<width>, kick<width>,   accelerate<width>, drift<width>,
-                             extent<width>,     unpack<width>, rigid_sums<width>, change_rigidly<width>};
+constexpr StateKernels table{copy<width>,   add<width>,    scale<width>,      kick<width>,          accelerate<width>,
+                             extent<width>, unpack<width>, rigid_sums<width>, change_rigidly<width>};
 
 const StateKernels& Table(int width) {
   return with_width(width, [](auto w) -> const StateKernels& { return table<w>; });

@@ -11,18 +11,13 @@ namespace softbody {
 /// For batches of one width. `used`: lanes from the first on that hold a body; others may be left out.
 struct StateKernels {
   // Plain arithmetic on fields. Lanes whose value of `moves` is 0 stay as they are.
-  void (*clear)(std::size_t used, std::size_t particles, Field<float> a);
   void (*copy)(std::size_t used, std::size_t particles, const float* moves, Field<const float> from, Field<float> to);
   void (*add)(std::size_t used, std::size_t particles, const float* moves, float times, Field<const float> a,
               Field<float> to);
   void (*scale)(std::size_t used, std::size_t particles, const float* moves, float times, Field<float> a);
-  /// Sums the squared lengths of all particles' vectors.
-  void (*square_sum)(std::size_t used, std::size_t particles, Field<const float> a, float* sum);
 
   void (*kick)(std::size_t used, const KickArguments&, Field<const float> f, Field<float> v);
   void (*accelerate)(std::size_t used, const KickArguments&, Field<float> f);  // to what kick() adds
-  void (*drift)(std::size_t used, std::size_t particles, float h, const float* moves, Field<const float> v,
-                Field<float> x);
   void (*extent)(std::size_t used, std::size_t particles, Field<const float> boxed, Field<const float> measured,
                  Extent&);
   /// Writes the vectors and `offset`, one body after another: those of a lane from to + first[lane] on.

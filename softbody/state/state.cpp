@@ -167,12 +167,10 @@ Particle State::particle(BodyId id, Index vertex) const {
 }
 
 std::array<double, lanes> State::max_particle_speeds(const Batch& b) const {
-  std::array<float, lanes> sums;  // show what is not finite, which the largest of a list need not be
-  state_kernels(b.width).square_sum(std::size_t(b.used), b.particles(), field(v, b.base), sums.data());
   const Extent e = extent(b, v, v);
   std::array<double, lanes> speeds{};
   for (std::size_t l = 0; l < std::size_t(b.used); ++l)
-    speeds[l] = std::isfinite(sums[l]) ? e.length(l) : std::numeric_limits<double>::infinity();
+    speeds[l] = std::isfinite(e.sum2[l]) ? e.length(l) : std::numeric_limits<double>::infinity();
   return speeds;
 }
 

@@ -50,7 +50,7 @@ struct Impact {
   float given = 0;         // J, that it gave back in the last frame
 };
 
-/// What World, Sleep and Resistance remember of a body from one frame to the next.
+/// What World, sleep and Resistance remember of a body from one frame to the next.
 struct BodyMemory {
   int release = 0;               // the frame until which it is pinned
   int calm_frames = 0;           // for how many frames it has been slow enough to sleep

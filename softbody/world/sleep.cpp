@@ -23,13 +23,13 @@ void for_each_pair(std::span<const BodyId> vertex_body, const std::vector<collid
 
 }  // namespace
 
-void Sleep::wake_touched(State& state, std::span<const BodyId> vertex_body,
-                         const std::vector<collide::Contact>& contacts) const {
+void wake_touched(const SleepRule& rule, State& state, std::span<const BodyId> vertex_body,
+                  const std::vector<collide::Contact>& contacts) {
   bool any = false;
   for (BodyId b = 0; b < state.body_count() && !any; ++b) any = state.body(b).asleep;
   if (!any) return;
   const auto wakes = [&](BodyId by, BodyId sleeper) {
-    return state.body(sleeper).asleep && state.body(by).moves() && state.max_particle_speed(by) > 2 * rule_.speed;
+    return state.body(sleeper).asleep && state.body(by).moves() && state.max_particle_speed(by) > 2 * rule.speed;
   };
   for_each_pair(vertex_body, contacts, [&](BodyId a, BodyId b) {
     if (wakes(a, b)) state.set_asleep(b, false);
@@ -37,15 +37,16 @@ void Sleep::wake_touched(State& state, std::span<const BodyId> vertex_body,
   });
 }
 
-void Sleep::settle(State& state, std::span<const BodyId> vertex_body, const std::vector<collide::Contact>& contacts,
-                   const std::vector<collide::surface::ItemPair>& interactions) {
+void settle(const SleepRule& rule, State& state, std::span<const BodyId> vertex_body,
+            const std::vector<collide::Contact>& contacts,
+            const std::vector<collide::surface::ItemPair>& interactions) {
   const BodyId count = state.body_count();
   bool any = false;
   for (BodyId b = 0; b < count; ++b) {
     if (!state.body(b).moves()) continue;
     BodyMemory& memory = state.memory(b);
-    memory.calm_frames = memory.speed < rule_.speed ? memory.calm_frames + 1 : 0;
-    any = any || memory.calm_frames >= rule_.frames;
+    memory.calm_frames = memory.speed < rule.speed ? memory.calm_frames + 1 : 0;
+    any = any || memory.calm_frames >= rule.frames;
   }
   if (!any) return;     // most frames need no islands
   Sets islands(count);  // of moving bodies that touch
@@ -59,7 +60,7 @@ void Sleep::settle(State& state, std::span<const BodyId> vertex_body, const std:
     if (state.body(b).moves())
       calm[islands.find(b)] = std::min(calm[islands.find(b)], state.body(b).memory.calm_frames);
   for (BodyId b = 0; b < count; ++b)
-    if (state.body(b).moves() && calm[islands.find(b)] >= rule_.frames) state.set_asleep(b, true);
+    if (state.body(b).moves() && calm[islands.find(b)] >= rule.frames) state.set_asleep(b, true);
 }
 
 }  // namespace softbody

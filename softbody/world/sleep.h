@@ -8,22 +8,13 @@
 
 namespace softbody {
 
-class Sleep {
- public:
-  /// The rule must outlive this.
-  explicit Sleep(const SleepRule& rule) : rule_(rule) {}
-
-  /// Wakes sleepers that are touched by a body faster than twice the rule's speed. Call it before the frame's substeps.
-  void wake_touched(State& state, std::span<const BodyId> vertex_body,
-                    const std::vector<collide::Contact>& contacts) const;
-  /// Counts calm frames, and puts islands to sleep whose bodies have all been calm for long enough. Bodies touch if
-  /// they have one of these contacts or, with surface contact, are a pair of `interactions`. Call it after detection;
-  /// the speeds are those of BodyMemory.
-  void settle(State& state, std::span<const BodyId> vertex_body, const std::vector<collide::Contact>& contacts,
-              const std::vector<collide::surface::ItemPair>& interactions);
-
- private:
-  const SleepRule& rule_;
-};
+/// Wakes sleepers that are touched by a body faster than twice the rule's speed. Call it before the frame's substeps.
+void wake_touched(const SleepRule& rule, State& state, std::span<const BodyId> vertex_body,
+                  const std::vector<collide::Contact>& contacts);
+/// Counts calm frames, and puts islands to sleep whose bodies have all been calm for long enough. Bodies touch if they
+/// have one of these contacts or, with surface contact, are a pair of `interactions`. Call it after detection; the
+/// speeds are those of BodyMemory.
+void settle(const SleepRule& rule, State& state, std::span<const BodyId> vertex_body,
+            const std::vector<collide::Contact>& contacts, const std::vector<collide::surface::ItemPair>& interactions);
 
 }  // namespace softbody

@@ -38,8 +38,7 @@ World::Parts::Parts(Scene s, const Options& o)
       frame_time(o.frame_time),
       workers(o.threads, o.least_share),
       plan(make_plan(scene, models.all())),
-      solver(scene, Crew(workers)),
-      sleep(scene.sleep) {
+      solver(scene, Crew(workers)) {
   particles.detector = method().make();
   solver.steps().set_budget(o.budget);
   solver.set_max_candidates(o.max_candidates);
@@ -193,7 +192,8 @@ void World::step(const std::function<void()>& after_substep) {
   DetectedMeshes& touching = s.particles;
   if (const auto& grab = grabbed()) s.solver.state().set_asleep(grab->body, false);  // a grabbed body stays awake
   ++s.frame;
-  if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.solver.state(), touching.vertex_body, touching.result.contacts);
+  if (s.plan.has(Stage::sleep))
+    wake_touched(s.scene.sleep, s.solver.state(), touching.vertex_body, touching.result.contacts);
   const bool penalty = s.plan.has(stage_of<PenaltyContact>);
   if (penalty)
     s.solver.set_contacts({touching.bodies, touching.vertex_body, touching.result.contacts, s.settings.tolerance},
@@ -224,8 +224,8 @@ void World::step(const std::function<void()>& after_substep) {
   s.detect();
   const bool penalty_grows = penalty && s.solver.penalty_contact().layer.grows();  // nobody falls asleep meanwhile
   if (s.plan.has(Stage::sleep) && whole && !penalty_grows)
-    s.sleep.settle(s.solver.state(), touching.vertex_body, touching.result.contacts,
-                   s.solver.surface_contact().candidates().interactions());
+    settle(s.scene.sleep, s.solver.state(), touching.vertex_body, touching.result.contacts,
+           s.solver.surface_contact().candidates().interactions());
   s.report.total_ms = ms_since(start) - looking_ms;
 }
 

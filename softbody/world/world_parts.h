@@ -98,7 +98,6 @@ struct World::Parts : WorldValues {
   collide::Workers workers;
   Plan plan;
   Solver solver;
-  Sleep sleep;
 
   DetectedMeshes particles;            // the meshes that are simulated; their contacts act
   std::optional<DetectedMeshes> fine;  // the meshes that are shown, if they are others

@@ -108,13 +108,13 @@ TEST_P(EveryKernel, OfMotionGivesTheSameBits) {
     state_kernels(width).kick(width, {n, 1, 0.5f, 0.25f, -1, 2, moves + first}, fs, vs);
   });
   expect_the_same([&](int width, int first, Values xs, Values vs, Values, float*) {
-    state_kernels(width).drift(width, n, 0.125f, moves + first, vs, xs);
+    state_kernels(width).add(width, n, moves + first, 0.125f, vs, xs);
   });
-  for (int which = 0; which < 7; ++which)
+  for (int which = 0; which < 8; ++which)
     expect_the_same([&](int width, int, Values xs, Values vs, Values, float* result) {
       Extent e;
       state_kernels(width).extent(width, n, xs, vs, e);
-      const float* values[]{e.lo.x, e.lo.y, e.lo.z, e.hi.x, e.hi.y, e.hi.z, e.length2};
+      const float* values[]{e.lo.x, e.lo.y, e.lo.z, e.hi.x, e.hi.y, e.hi.z, e.length2, e.sum2};
       std::copy_n(values[which], width, result);
     });
 }

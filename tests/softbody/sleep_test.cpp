@@ -23,13 +23,13 @@ class SleepRules : public testing::Test {
     for (BodyId b = 0; b < 3; ++b) vertex_body.insert(vertex_body.end(), 162, b);
   }
   void settle(int frames, const std::vector<collide::Contact>& contacts) {
-    for (int i = 0; i < frames; ++i) sleep.settle(state, vertex_body, contacts, {});
+    for (int i = 0; i < frames; ++i) softbody::settle(rule, state, vertex_body, contacts, {});
   }
   bool asleep(BodyId b) const { return state.body(b).asleep; }
   static collide::Contact touch(BodyId a, BodyId b) { return {a * 162 + 5, b * 162 + 7}; }
 
   State state;
-  Sleep sleep{{.speed = 0.1, .frames = 10}};
+  SleepRule rule{.speed = 0.1, .frames = 10};
   std::vector<BodyId> vertex_body;
 };
 
@@ -69,14 +69,14 @@ TEST_F(SleepRules, ContactsInsideOneBodyBindNothing) {
 TEST_F(SleepRules, AFastBodyWakesTheSleepersItTouchesAndASlowOneDoesNot) {
   settle(10, {});
   ASSERT_TRUE(asleep(0) && asleep(2));
-  sleep.wake_touched(state, vertex_body, {touch(0, 2)});
+  wake_touched(rule, state, vertex_body, {touch(0, 2)});
   EXPECT_TRUE(asleep(0) && asleep(2)) << "sleepers do not wake each other";
-  sleep.wake_touched(state, vertex_body, {touch(0, 1)});
+  wake_touched(rule, state, vertex_body, {touch(0, 1)});
   EXPECT_FALSE(asleep(0));
   EXPECT_TRUE(asleep(2));
-  sleep.wake_touched(state, vertex_body, {touch(0, 2)});
+  wake_touched(rule, state, vertex_body, {touch(0, 2)});
   EXPECT_TRUE(asleep(2)) << "0 is awake but stands";
-  sleep.wake_touched(state, vertex_body, {touch(1, 2)});
+  wake_touched(rule, state, vertex_body, {touch(1, 2)});
   EXPECT_FALSE(asleep(2));
 }
 

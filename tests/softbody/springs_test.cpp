@@ -78,7 +78,7 @@ TEST(Kernels, KickAndDriftLeaveBodiesThatDoNotMoveAlone) {
     float moves[lanes];
     for (int l = 0; l < lanes; ++l) moves[l] = l % 3 == 1 ? 0.0f : 1.0f;
     state_kernels(lanes).kick(lanes, {3, 1, 0.5f, 0.25f, -1, 2, moves}, std::as_const(f).field(), v.field());
-    state_kernels(lanes).drift(lanes, 3, 0.125f, moves, std::as_const(v).field(), x.field());
+    state_kernels(lanes).add(lanes, 3, moves, 0.125f, std::as_const(v).field(), x.field());
     for (std::size_t i = 0; i < 3; ++i)
       for (int l = 0; l < lanes; ++l) {
         const glm::dvec3 dv = double(moves[l]) * (0.5 * f.at(i, l) + glm::dvec3(0.25, -1, 2));
