@@ -13,28 +13,27 @@ namespace softbody {
 
 glm::dvec3 rebound(Impact& impact, const glm::dvec3& impulse, double returned, const glm::dvec3& before,
                    const glm::dvec3& after, double mass, double seconds) {
-  constexpr double longest_gap = 0.05;  // s; a body swings, so that contact may miss it for a while
+  constexpr double wait = 0.02;         // s; an implicit step may miss the contact of a body that swings
+  constexpr double longest_gap = 0.05;  // s; the other one may swing out of its way
   assert(mass > 0 && seconds >= 0);
   impact.given = 0;
   const double push = glm::length(impulse);
   const glm::dvec3 normal = push > 0 ? impulse / push : glm::dvec3(0.0);
-  if (const double approach = -glm::dot(before, normal); approach > law::impact_speed) {
-    if (impact.speed <= 0) impact.parting = float(-approach);
+  if (const double approach = -glm::dot(before, normal); approach > law::impact_speed)
     impact.speed = std::max(impact.speed, float(approach));
-  }
   if (impact.speed <= 0) return glm::dvec3(0.0);
   impact.energy += returned * normal;
   if (glm::dot(impact.energy, normal) < 0) impact.energy = glm::dvec3(0.0);  // it pushes out more than it took
   const double energy = glm::length(impact.energy);
   const glm::dvec3 way = energy > 0 ? impact.energy / energy : normal;
   const double parting = glm::dot(after, way), came = double(impact.speed);
-  const double last = double(std::exchange(impact.parting, float(parting)));
-  const double little = 0.02 * came;  // what grows by less in a frame does so in a rebound without end, too
-  impact.apart = push > 0 ? 0 : impact.apart + float(seconds);
-  if (parting < -little && impact.apart > longest_gap) impact = {};  // it has come past, and meets something else next
-  // Two frames, since an implicit step may miss the contact of a body that swings.
-  impact.calm = parting < -little || (push > 0 && (parting > little || parting > last + little)) ? 0 : impact.calm + 1;
-  if (impact.calm < 2) return glm::dvec3(0.0);
+  const double little = 0.02 * came;
+  const bool stopped = std::abs(parting) < little;
+  impact.calm = push > 0 && !stopped ? 0 : impact.calm + float(seconds);
+  if (push > 0) impact.parting = float(parting);
+  const bool still_came = double(impact.parting) < -little;
+  if (still_came && double(impact.calm) > longest_gap) impact = {};  // it has come past, and meets something else next
+  if (still_came || double(impact.calm) < wait) return glm::dvec3(0.0);
   // No faster than it came.
   const double speed = std::min(std::sqrt(parting * parting + 2 * energy / mass), std::max(parting, came));
   impact.given = float(mass / 2 * (speed * speed - parting * parting));
@@ -83,8 +82,12 @@ double Rebounds::give_back(State& state, double seconds) {
   return given;
 }
 
-void Rebounds::remove(BodyId body) {
+void Rebounds::forget(BodyId body) {
   std::erase_if(pairs_, [&](const Pair& p) { return p.a == body || p.b == body; });
+}
+
+void Rebounds::remove(BodyId body) {
+  forget(body);
   for (Pair& p : pairs_) p.a -= p.a > body, p.b -= p.b > body;
 }
 

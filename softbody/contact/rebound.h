@@ -2,8 +2,8 @@
 // Restitution. A contact stops the particles that come at it, and damps the rebound of the body that they belong to.
 // What energy this takes in an impact is summed. If single particles were thrown back, the springs would turn that into
 // swings and damp them; the body would not leave faster. So the share e^2 of that energy, with the restitution e, is
-// given back to the body as a whole, along the contact's normals, when for two frames contact has not pushed the two
-// sides apart any more, or they have stopped flat.
+// given back to the body as a whole, along the contact's normals, when for a while contact has not pushed the two sides
+// that part, or has stopped them flat.
 
 #include <vector>
 
@@ -32,6 +32,8 @@ class Rebounds {
   /// Ends a frame of `seconds`: gives back what is due, to both bodies as wholes and with opposite impulses. Returns
   /// the energy (J).
   double give_back(State& state, double seconds);
+  /// Forgets the impacts of a body.
+  void forget(BodyId body);
   /// Forgets a body that is removed; the ids of later bodies move up.
   void remove(BodyId body);
   std::size_t bytes() const { return bytes_of(pairs_); }

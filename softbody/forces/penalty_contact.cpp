@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/keys.h"
+#include "softbody/contact/rebound.h"
 #include "softbody/forces/penalty_law.h"
 
 namespace softbody {
@@ -58,6 +59,7 @@ void PenaltyContact::find(const DetectedContacts& detected, const State& state, 
   layer.tolerance = detected.tolerance;
   layer.begun = layer.thickness;
   layer.grow(seconds);
+  impulse_.clear(), returned_.clear();
   if (detected.contacts.empty()) return pairs.clear();
   const std::vector<collide::Contact> before = std::exchange(pairs.contact, {});
   const VectorArray stretch = std::exchange(pairs.stretch, {});
@@ -213,7 +215,7 @@ void PenaltyContact::add(const ForceBatch& b) const {
 double PenaltyContact::energy() const { return std::accumulate(stored_.begin(), stored_.end(), 0.0); }
 
 void PenaltyContact::add_impact(PenaltyEnd end, double impulse, double taken) {
-  assert(bounces());
+  assert(bounces() && end.pair < pairs.size());
   const std::size_t at = end.pair + (end.at_b ? pairs.a.size() : 0);
   const float e = pairs.restitution[end.pair];
   impulse_[at] += float(impulse), returned_[at] += e * e * float(taken);
@@ -222,11 +224,13 @@ void PenaltyContact::add_impact(PenaltyEnd end, double impulse, double taken) {
 void PenaltyContact::take_impacts(Rebounds& rebounds) {
   if (!bounces()) return;
   const std::size_t b = pairs.a.size();
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    if (pairs.restitution[i] > 0)
-      rebounds.add({pairs.body_a[i], pairs.body_b[i],
-                    glm::dvec3((impulse_[i] + impulse_[b + i]) * read(field(pairs.normal), i)),
-                    double(returned_[i] + returned_[b + i])});
+  assert(impulse_.size() == 2 * b);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const float impulse = impulse_[i] + impulse_[b + i];
+    if (impulse == 0 || pairs.restitution[i] <= 0) continue;
+    rebounds.add({pairs.body_a[i], pairs.body_b[i], glm::dvec3(impulse * read(field(pairs.normal), i)),
+                  double(returned_[i] + returned_[b + i])});
+  }
 }
 
 void PenaltyContact::remove(BodyId body, Index first, Index count) {

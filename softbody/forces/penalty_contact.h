@@ -15,11 +15,12 @@
 #include <vector>
 
 #include "collide/core/detector.h"
-#include "softbody/contact/rebound.h"
 #include "softbody/forces/force.h"
 #include "softbody/forces/kernels/penalty.h"
 
 namespace softbody {
+
+class Rebounds;
 
 /// Contacts that a detector has found.
 struct DetectedContacts {
@@ -52,7 +53,7 @@ class PenaltyContact {
   /// step of 0.8 times the stable length leaves 4 (1 - 0.8^2). So contacts ask for no shorter steps by their damping.
   static constexpr float max_damped = 0.36f;
   float damper_limit = std::numeric_limits<float>::infinity();  // 1/s, of a damper over the damped mass
-  bool sums_impacts = true;  // evaluate() adds impacts; otherwise who finds other forces calls add_impact()
+  bool sums_impacts = true;  // evaluate() does; false in implicit steps, which call add_impact()
   ContactLayer layer;
   PenaltyPairs pairs;          // their contacts ascend
   LaneArray<glm::vec4> force;  // on a, of the current substep, N
@@ -128,8 +129,9 @@ class PenaltyContact {
   std::vector<PenaltyEnd> ends_;                // of the pairs of each particle, in their order
   std::vector<collide::Part> of_batch_;         // the particles of each batch
   std::vector<double> stored_;                  // J, of each block of pairs
-  LaneArray<float> impulse_, returned_;  // by a's and then by b's ends in the frame, see PenaltyStep; may be empty
-  std::vector<float> restitution_;       // of each body
+  // Of the pairs in a frame with restitution, see PenaltyStep. Implicit steps add b's ends to the second half.
+  LaneArray<float> impulse_, returned_;
+  std::vector<float> restitution_;  // of each body
 };
 
 }  // namespace softbody

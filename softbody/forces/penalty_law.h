@@ -53,8 +53,6 @@ struct PenaltyLaw {
   HWY_INLINE V push(V at_rest, V u) const {
     return at_rest + clamp(-body::smaller(damper(at_rest), max_damper) * u, -at_rest, V(approach_limit - 1) * at_rest);
   }
-  /// Returns what the damper takes, in W.
-  HWY_INLINE V damped(V at_rest, V u) const { return (at_rest - push(at_rest, u)) * u; }
   /// Returns how fast F falls with u between the limits of that if the damper has no limit, in N s/m.
   HWY_INLINE V damper(V push_at_rest) const { return law::damper(push_at_rest, V(rebound_speed)); }
   /// Returns the damper (N s/m) across n of a contact that sticks.

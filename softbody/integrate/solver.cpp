@@ -135,7 +135,7 @@ FrameResult Solver::advance(double seconds, const std::function<void()>& after_s
   }
   solids_.end_frame();
   penalty_.take_impacts(rebounds_);
-  state_.ledger.book(WorkBy::surfaces, rebounds_.give_back(state_, seconds));
+  state_.ledger.book(WorkBy::surfaces, rebounds_.give_back(state_, seconds - frame.left));
   state_.ledger.book(WorkBy::penalty, held - penalty_energy());
   return {frame.substeps, frame.needed, seconds - frame.left};
 }

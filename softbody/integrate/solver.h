@@ -62,6 +62,8 @@ class Solver {
   /// Removes a body. The world's list of bodies must still contain it.
   void remove(BodyId body);
 
+  /// Forgets the impacts of a body that has been put elsewhere.
+  void forget_impacts(BodyId body) { state_.memory(body).impact = {}, rebounds_.forget(body); }
   /// Takes the contacts for the coming frame of `seconds`.
   void set_contacts(const DetectedContacts& detected, double seconds) {
     penalty_.find(detected, state_, seconds, crew_.workers());

@@ -44,9 +44,8 @@ struct BatchView {
 struct Impact {
   glm::dvec3 energy{0.0};  // J along the contact's normals, that restitution has to give back
   float speed = 0;         // m/s, the largest with which they came together; 0: it is over, or was slow
-  float parting = 0;       // m/s, of the last frame
-  float apart = 0;         // s, without contact
-  int calm = 0;            // frames in which its speed has not grown
+  float parting = 0;       // m/s, of the last frame in which contact pushed
+  float calm = 0;          // s, for how long contact has not pushed, or the two sides have stood still
   float given = 0;         // J, that it gave back in the last frame
 };
 

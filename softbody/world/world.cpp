@@ -233,9 +233,8 @@ void World::set_particles(BodyId body, std::span<const Particle> particles) {
   Parts& s = *parts_;
   assert(particles.size() == s.particles.bodies.size(body));
   s.book_change([&] { s.solver.state().set_particles(body, particles); });
-  BodyMemory& memory = s.solver.state().memory(body);
-  memory.may_lie_in_solid = true;
-  memory.impact = {};
+  s.solver.state().memory(body).may_lie_in_solid = true;
+  s.solver.forget_impacts(body);
   s.wake_all();
   s.update_positions();
   s.detect();

@@ -102,7 +102,7 @@ TEST(PenaltyContact, DampsByTheSpeedOfSeparationBetweenNothingAndThreeTimes) {
   EXPECT_EQ(force({0, 0.05, 0}, {0, 9, 0}).y, 0) << "and nothing is pulled back";
 }
 
-/// The damper makes 1.5 times the push at rest of it, at 1 m/s.
+/// The damper makes 1.5 times the push at rest of it, at 1 m/s. Its impulse changes the speed while it acts.
 TEST(PenaltyContact, GivesBackTheShareOfRestitutionOfWhatItsDamperTakes) {
   constexpr double seconds = 0.01, mass = 1;
   for (const double e : {0.0, 0.4, 1.0}) {
@@ -113,12 +113,13 @@ TEST(PenaltyContact, GivesBackTheShareOfRestitutionOfWhatItsDamperTakes) {
     Pair pair({0, 0.05, 0});
     pair.penalty.pairs.restitution[0] = float(e);
     pair.penalty.group(2, {});
-    const double pushed = pair.force({0, -1, 0}, seconds).y, taken = pushed / 3 * seconds;
+    const double pushed = pair.force({0, -1, 0}, seconds).y, damped = pushed / 3 * seconds,
+                 taken = damped * (1 - damped);
     Rebounds rebounds;
     pair.penalty.take_impacts(rebounds);
     EXPECT_EQ(rebounds.give_back(state, seconds), 0) << "they come together";
     for (std::size_t i = 0; i < state.batch_of(0).particles(); ++i) state.field_of(0, state.v).set(i, {0, 0.1, 0});
-    EXPECT_EQ(rebounds.give_back(state, seconds), 0) << "they have just parted";
+    for (int frame = 0; frame < 2; ++frame) EXPECT_EQ(rebounds.give_back(state, seconds), 0) << "contact may go on";
     EXPECT_NEAR(rebounds.give_back(state, seconds), e * e * taken, 1e-6) << e;
   }
 }

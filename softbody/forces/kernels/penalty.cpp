@@ -65,9 +65,11 @@ void evaluate(collide::Part part, PenaltyPairs& p, const PenaltyParticle* motion
     store(field(p.stretch), at, stretch);
     store_quads(&force[at].x, Quad<V>{f.x, f.y, f.z, V(0)});
     if (!s.impulse) return;
+    // What the dampers take, which share the mass: their impulse changes the speed while it acts.
     const V e = load<V>(p.restitution.data() + at), at_rest = law.push_at_rest(dot(d, normal), dot(d, d));
-    const V taken = V(s.seconds) * law.damped(at_rest, dot(velocity, normal));
-    store(s.impulse + at, load<V>(s.impulse + at) + V(s.seconds) * dot(f, normal));
+    const V u = dot(velocity, normal), pushed = law.push(at_rest, u), damped = V(s.seconds) * (at_rest - pushed);
+    const V taken = damped * (u - damped / load<V>(p.damped_mass.data() + at));
+    store(s.impulse + at, load<V>(s.impulse + at) + V(s.seconds) * pushed);
     store(s.returned + at, load<V>(s.returned + at) + e * e * taken);
   });
 }

@@ -13,10 +13,10 @@ namespace softbody {
 struct PenaltyStep {
   float thickness;     // of the contact layer, m
   float damper_limit;  // 1/s, of a damper over the damped mass
-  float seconds;       // of slip
-  // Of each pair; not read if no pair has restitution.
-  float* impulse;   // N s along the normal, added to
-  float* returned;  // J, that restitution gives back of what the dampers take, added to
+  float seconds;       // of slip, and of what is summed
+  // Sums of each pair; nullptr: neither is summed.
+  float* impulse;   // N s along the normal
+  float* returned;  // J, that restitution gives back of what the dampers take
 };
 
 /// The end of a pair that a force acts on.
@@ -26,7 +26,8 @@ struct PenaltyEnd {
 };
 
 struct PenaltyKernels {
-  /// Evaluates the forces (N) on the particles a, and lets friction springs slip. motion: m and m/s of each particle.
+  /// Evaluates the forces (N) on the particles a, lets friction springs slip, and adds to the sums. motion: m and m/s
+  /// of each particle.
   void (*evaluate)(collide::Part, PenaltyPairs&, const PenaltyParticle* motion, const PenaltyStep&, glm::vec4* force);
   /// Writes what each block of pairs stores, in J.
   void (*measure)(collide::Part, const PenaltyPairs&, const PenaltyParticle* motion, float thickness, double* stored);

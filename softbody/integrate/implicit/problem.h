@@ -54,14 +54,14 @@ struct PlaneContact {
 
 /// The penalty contact between a particle of the batch and one of another body, to first order.
 struct LinearPenaltyPair {
-  PenaltyEnd end{};   // of the pair, that is the particle
+  PenaltyEnd end{};   // the particle's, of the pair
   std::size_t at;     // particle * implicit_lanes + lane
   glm::dvec3 normal;  // unit, towards the particle
   PenaltyContact::Slopes slopes;
   glm::dvec3 force{0.0};  // N, on it at the start
   double friction = 0;
-  double share = 1;                  // in what the pair does to the two, if the other particle moves, too
-  glm::dvec3 partner{0.0};           // m, how far the other particle is taken to move
+  double share = 1;         // of the pair's impulse and energy: a half if the other particle moves; 0 if it did not act
+  glm::dvec3 partner{0.0};  // m, how far the other particle is taken to move
   glm::dvec3 start_separation{0.0};  // m, how far the two separate at the first velocities; in `force`
   double max_work = 0;               // J, that it can do in the step, whatever force_after() says
 

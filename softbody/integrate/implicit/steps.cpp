@@ -55,12 +55,13 @@ void add_impulses(const ImplicitStep& step, const ImplicitWork& work, const Impl
   }
   if (!b.penalty.bounces()) return;
   for (const LinearPenaltyPair& s : work.penalty_pairs) {
+    const PenaltyPair pair = b.penalty.pairs[s.end.pair];
+    if (pair.restitution <= 0) continue;
     const glm::dvec3 moved = read(work.end_x, s.at) - read(work.x, s.at);
     const double push = glm::dot(s.force_after(moved), s.normal);
     const double before = glm::dot(s.start_separation, s.normal) / step.h;
     const double after = glm::dot(read(work.end_v, s.at) - s.partner / step.h, s.normal);
     const double impulse = s.share * step.h * push;
-    const PenaltyPair pair = b.penalty.pairs[s.end.pair];
     const glm::dvec3 apart = double(s.end.sign()) * (moved - s.partner);
     const double stored = b.penalty.energy(pair, b.x, apart) - b.penalty.energy(pair, b.x);
     b.penalty.add_impact(s.end, impulse, law::bounce_energy(impulse, before, after, 1.0) - s.share * stored);

@@ -32,7 +32,7 @@ void runge_kutta_4(Motion& motion, const Worker& worker, const Substep& substep)
     motion.clear(*batch, mean_a);
   }
   for (std::size_t s = 0; s < 4; ++s) {
-    motion.contact_forces(worker, s == 0 ? h : 0);  // friction's springs slip once a step
+    motion.contact_forces(worker, s == 0 ? h : 0);  // friction's springs slip, and impacts are summed, once a step
     for (const Batch* batch : worker.batches()) motion.all_forces(*batch);
     for (const Batch* batch : worker.batches()) {
       stage(motion, *batch, weight[s], ahead[s] * h);
