@@ -1,6 +1,5 @@
 #include "app/report/files.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <iostream>
 
@@ -59,33 +58,15 @@ std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options) {
   return scenes;
 }
 
-std::string command_of(const ReportOptions& o) {
-  std::string text = "sbcollide report " + o.name;
-  if (o.scene) text.append(" --scene ").append(*o.scene);
-  if (!o.files.empty()) {
-    text.append(" ").append(o.files.front());
-    if (o.files.size() > 2) text += " ...";
-    if (o.files.size() > 1) text.append(" ").append(o.files.back());
-    text += fmt::format(" --tolerance {:.9g}", o.tolerance);
-  }
-  if (o.by)
-    text.append(" --bodies ").append(std::ranges::find(files::bodies_by_keys, *o.by, &files::BodiesByKey::value)->key);
-  if (o.rest) text.append(" --rest ").append(*o.rest);
-  if (o.quick) text += " --quick";
-  if (o.threads) text.append(" --threads ").append(std::to_string(*o.threads));
-  return text + " --out DIR";
-}
-
-void write_report(const std::filesystem::path& folder, std::string_view csv_name, const Table& figures,
-                  std::string_view page_name, const Page& page) {
+void write_report(const ReportOptions& options, const Table& figures, std::string_view page_name, const Page& page) {
   auto files = draw_all(page.plots());
   clear_progress();
   const std::string text = page.markdown(!files.empty());
-  files.emplace(files.begin(), csv_name, figures.csv());
+  files.emplace(files.begin(), options.name + ".csv", figures.csv());
   files.emplace_back(page_name, text);
-  for (const auto& [name, bytes] : files) files::require_no_input(folder / name);
-  for (const auto& [name, bytes] : files) files::write_file(folder / name, bytes);
-  for (const auto& [name, bytes] : files) std::cout << (folder / name).string() << '\n';
+  for (const auto& [name, bytes] : files) files::require_no_input(options.out / name);
+  for (const auto& [name, bytes] : files) files::write_file(options.out / name, bytes);
+  for (const auto& [name, bytes] : files) std::cout << (options.out / name).string() << '\n';
   for (const std::string& warning : page.warnings()) std::fprintf(stderr, "sbcollide: %s\n", warning.c_str());
 }
 

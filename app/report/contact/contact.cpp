@@ -37,8 +37,7 @@ class ContactReport {
  public:
   explicit ContactReport(const ReportOptions& options) : options_(options) {
     const bool quick = options.quick;
-    results.quick = quick;
-    results.command = command_of(options);
+    results.options = options;
     results.limits = quick ? TrialLimits{.frames = 600, .stride = 20, .seconds = 10} : TrialLimits{};
     results.vertex_frames = quick ? 3'000'000 : 10'000'000;
     results.choices = make_choices(quick);
@@ -99,7 +98,7 @@ void report_contact(const ReportOptions& options) {
         report.add_impact(impact, speed);
   }
   report.run();
-  write_report(options.out, "contact.csv", contact_table(report.results), "contact.md", contact_page(report.results));
+  write_report(options, contact_table(report.results), "contact.md", contact_page(report.results));
 }
 
 }  // namespace app::report

@@ -75,9 +75,6 @@ namespace {
 
 // ---- plots ----
 
-constexpr const char* axis_from_zero =
-    "unset logscale y\nset yrange [0:*]\nset offsets graph 0, graph 0, graph 0.05, graph 0\n";
-
 /// Series have the methods' colours, black for surface contact, and a shape per tolerance.
 Series series(const ContactChoice& choice, std::string_view lines, std::vector<Point> points) {
   const bool surface = choice.surface == softbody::ContactSurface::surfaces;
@@ -87,28 +84,20 @@ Series series(const ContactChoice& choice, std::string_view lines, std::vector<P
           fmt::format("{} pointtype {} pointsize 1.5 linewidth 2", lines, shape), std::move(points)};
 }
 
-Plot depth_against_time(const ContactCase& c) {
-  Plot plot{.name = "contact-time-" + c.key,
-            .caption = c.name + ": left is cheaper, down is more accurate.",
-            .title = c.name + ": the deepest penetration against run time",
-            .x = "processor time per frame, ms",
-            .y = "deepest penetration, R",
-            .settings = axis_from_zero};
+Plot depth_against_time(const Page& page, const ContactCase& c) {
+  Plot plot = page.plot_of("depth against time", "contact-time-" + c.key, fmt::arg("scene", c.name));
   for (const ContactTrial& t : c.trials)
     if (t.not_run.empty() && t.radius > 0) plot.add(series(t.choice, "points", {{t.cpu_ms, t.deepest / t.radius}}));
   return plot;
 }
 
-Plot passed_against_speed(std::span<const ContactCase> cases) {
+Plot passed_against_speed(const Page& page, std::span<const ContactCase> cases) {
   assert(!cases.empty());
   const ContactCase& first = cases.front();
   const bool solid = first.key == "solid";
-  Plot plot{.name = "contact-impact-" + first.key,
-            .caption = first.name + ": 0 is right.",
-            .title = first.name + ": what passed through",
-            .x = "speed, m/s",
-            .y = solid ? "bodies that went through the solid" : "vertices that passed through",
-            .settings = axis_from_zero};
+  Plot plot =
+      page.plot_of("passed against speed", "contact-impact-" + first.key, fmt::arg("impact", first.name),
+                   fmt::arg("what", solid ? "bodies that went through the solid" : "vertices that passed through"));
   for (std::size_t i = 0; i < first.trials.size(); ++i) {
     std::vector<Point> points;
     for (const ContactCase& c : cases) {
@@ -123,10 +112,9 @@ Plot passed_against_speed(std::span<const ContactCase> cases) {
 // ---- the page ----
 
 void add_introduction(Page& page, const ContactResults& r) {
-  page.add("introduction", fmt::arg("command", r.command), fmt::arg("stride", r.limits.stride),
-           fmt::arg("depth", ContactTrial::depth_bound), fmt::arg("frames", r.limits.frames),
-           fmt::arg("budget", whole(static_cast<double>(r.vertex_frames))), fmt::arg("seconds", r.limits.seconds),
-           fmt::arg("quick", r.quick ? "This is the quick report: fewer scenes, frames, speeds and tolerances." : ""));
+  page.introduce(fmt::arg("stride", r.limits.stride), fmt::arg("depth", ContactTrial::depth_bound),
+                 fmt::arg("frames", r.limits.frames), fmt::arg("budget", grouped(r.vertex_frames)),
+                 fmt::arg("seconds", r.limits.seconds));
 }
 
 std::string missed_share(std::size_t missed, std::size_t penetrations, const ContactChoice& choice) {
@@ -230,7 +218,7 @@ void add_scene(Page& page, const ContactCase& c) {
                {"verdict", verdict(t)}});
   }
   page.table(table);
-  page.plot(depth_against_time(c));
+  page.plot(depth_against_time(page, c));
 }
 
 /// A row per choice, a column per speed.
@@ -243,13 +231,13 @@ void add_impact(Page& page, std::span<const ContactCase> cases) {
     table.add(row);
   }
   page.table(table, 1 + cases.size());
-  page.plot(passed_against_speed(cases));
+  page.plot(passed_against_speed(page, cases));
 }
 
 }  // namespace
 
 Page contact_page(const ContactResults& results) {
-  Page page("contact");
+  Page page(results.options);
   add_introduction(page, results);
   TimedParts timed;
   for (const ContactCase& c : results.cases)

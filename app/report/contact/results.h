@@ -18,8 +18,7 @@ struct ContactCase {
 };
 
 struct ContactResults {
-  std::string command;  // to make the report again
-  bool quick = false;
+  ReportOptions options{};
   TrialLimits limits;                  // of scenes
   std::uint64_t vertex_frames = 0;     // budget: a scene with more vertices times frames is not run
   std::vector<ContactChoice> choices;  // surface contact first

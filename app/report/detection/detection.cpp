@@ -21,7 +21,7 @@ compare::SweepLimits limits_of(const ReportOptions& options) {
 /// report.
 compare::SweepLimits growth_limits(const DetectionResults& results) {
   compare::SweepLimits limits = results.limits;
-  if (!results.quick) limits.budget = 500'000'000'000;
+  if (!results.options.quick) limits.budget = 500'000'000'000;
   return limits;
 }
 
@@ -95,18 +95,13 @@ void measure_sequence(const ReportOptions& options, DetectionResults& results, c
 }  // namespace
 
 void report_detection(const ReportOptions& options) {
-  DetectionResults results;
-  results.quick = options.quick;
-  results.threads = options.threads.value_or(1);
-  results.limits = limits_of(options);
-  results.command = command_of(options);
-  results.of_files = options.files.size();
-  collide::Workers workers(results.threads);
+  DetectionResults results{.options = options, .limits = limits_of(options)};
+  collide::Workers workers(options.threads.value_or(1));
   if (options.files.empty())
     measure_scenes(options, results, workers);
   else
     measure_sequence(options, results, workers);
-  write_report(options.out, "detection.csv", detection_table(results), "report.md", detection_page(results));
+  write_report(options, detection_table(results), "report.md", detection_page(results));
 }
 
 }  // namespace app::report

@@ -93,18 +93,12 @@ Table growth_table(const SceneResult& growth) {
   return table;
 }
 
-Plot cost_against_bodies(const SceneResult& growth) {
+Plot cost_against_bodies(const Page& page, const SceneResult& growth) {
   const bool all_ran = std::ranges::all_of(growth.states, [](const StateResult& state) {
     return std::ranges::all_of(state.sweep.rows, [](const compare::SweepRow& row) { return row.not_run.empty(); });
   });
-  Plot plot{.name = "cost-bodies",
-            .caption = all_ran
-                           ? "Cost against bodies, level 3, automatic cell size."
-                           : "Cost against bodies, level 3, automatic cell size; a line ends where the budget does.",
-            .title = "Cost of a frame against the number of bodies",
-            .x = "bodies",
-            .y = "detection from scratch, ms per frame",
-            .settings = "set ytics format '%g'\n"};
+  Plot plot = page.plot_of("cost against bodies", "cost-bodies",
+                           fmt::arg("budget", all_ran ? "" : "; a line ends where the budget does"));
   for (std::size_t i = 0; i < growth.states.front().sweep.rows.size(); ++i) {
     const compare::Configuration& c = growth.states.front().sweep.rows[i].configuration;
     const collide::Method& method = method_of(c);
@@ -130,7 +124,7 @@ void add_growth(Page& page, const DetectionResults& results) {
            fmt::arg("hashes", range(growth, &Exponents::hashes)),
            fmt::arg("pair_tests", range(growth, &Exponents::pair_tests)));
   page.table(growth_table(growth));
-  page.plot(cost_against_bodies(growth));
+  page.plot(cost_against_bodies(page, growth));
 }
 
 }  // namespace app::report

@@ -83,17 +83,13 @@ class ZeroBand {
     top_ = std::pow(10, std::floor(std::log10(min)));
   }
   Point point(const Mean& m) const { return {m.ms, m.error() > 0 ? m.error() : lane(m.configuration.method)}; }
-  /// Returns the axis as gnuplot commands.
-  std::string axis() const {
-    const double bottom = lane(collide::method_table().size());
+  double bottom() const { return lane(collide::method_table().size()); }
+  double top() const { return top_; }
+  /// Returns the ticks above the band as gnuplot reads them.
+  std::string ticks() const {
     std::string ticks;
     for (double tick = 1; tick > 0.99 * top_; tick /= 10) ticks += fmt::format("'{0:g}' {0:g}, ", tick);
-    return fmt::format(
-        "set yrange [{0:g}:1.5]\n"
-        "set object 1 rectangle from graph 0, first {0:g} to graph 1, first {1:g} behind fillcolor '#eef4ee' fillstyle "
-        "solid noborder\n"
-        "set ytics ({2}'0' {3:g})\n",
-        bottom, top_, ticks, std::sqrt(top_ * bottom));
+    return ticks;
   }
 
  private:
@@ -125,17 +121,12 @@ void add_method(Plot& plot, const std::vector<Mean>& means, const ZeroBand& band
   }
 }
 
-Plot error_against_time(const SceneResult& scene) {
+Plot error_against_time(const Page& page, const SceneResult& scene) {
   const std::vector<Mean> all = means(scene);
   const ZeroBand band(all);
-  Plot plot{.name = "error-time-" + scene.scene,
-            .caption = "Every configuration that ran on all states of " + scene.name +
-                       "; down and left is better, the shaded band holds those that miss nothing. The larger a mark, "
-                       "the higher its level (0, 3, 6, 9).",
-            .title = scene.name + ": error against run time",
-            .x = "detection from scratch, ms per frame",
-            .y = "missed share of the true contacts",
-            .settings = band.axis()};
+  Plot plot = page.plot_of("error against time", "error-time-" + scene.scene, fmt::arg("scene", scene.name),
+                           fmt::arg("bottom", band.bottom()), fmt::arg("top", band.top()),
+                           fmt::arg("ticks", band.ticks()), fmt::arg("middle", std::sqrt(band.top() * band.bottom())));
   std::vector<Point> front;
   for (const std::size_t i : pareto_front(all)) front.push_back(band.point(all[i]));
   plot.add({"Pareto front", "#000000", "steps linewidth 1.5", front});
@@ -155,16 +146,13 @@ std::string in_words(const compare::Configuration& c) {
 
 void add_introduction(Page& page, const DetectionResults& r) {
   const compare::SweepLimits& l = r.limits;
-  const std::string sequence = fmt::format(
-      "The states are frames of a recorded sequence of {}, counted from 0. Left out is what needs the scenes of the "
-      "program: the paper's Table 1 and the growth with the number of bodies.",
-      grouped(r.of_files));
-  page.add("introduction", fmt::arg("command", r.command), fmt::arg("sequence", r.of_files > 0 ? sequence : ""),
-           fmt::arg("shape", r.of_files > 0 ? "at rest (without --rest, in the first frame)" : "at rest"),
-           fmt::arg("threads", r.threads), fmt::arg("plural", r.threads == 1 ? "" : "s"),
-           fmt::arg("repetitions", l.repetitions), fmt::arg("repeat_ms", l.repeat_ms),
-           fmt::arg("budget", grouped(l.budget)),
-           fmt::arg("quick", r.quick ? "This is the quick report: fewer scenes, frames, states and repetitions." : ""));
+  const std::size_t files = r.options.files.size();
+  const int threads = r.options.threads.value_or(1);
+  page.introduce(fmt::arg("sequence", files > 0 ? page.text_of("sequence", fmt::arg("files", grouped(files))) : ""),
+                 fmt::arg("shape", files > 0 ? "at rest (without --rest, in the first frame)" : "at rest"),
+                 fmt::arg("threads", threads), fmt::arg("plural", threads == 1 ? "" : "s"),
+                 fmt::arg("repetitions", l.repetitions), fmt::arg("repeat_ms", l.repeat_ms),
+                 fmt::arg("budget", grouped(l.budget)));
 }
 
 // ---- Table 1 ----
@@ -282,7 +270,7 @@ std::string over_budget(const std::vector<Mean>& means) {
 }  // namespace
 
 Page detection_page(const DetectionResults& results) {
-  Page page("detection");
+  Page page(results.options);
   add_introduction(page, results);
   TimedParts timed;
   for (const SceneResult& scene : results.scenes)
@@ -290,14 +278,14 @@ Page detection_page(const DetectionResults& results) {
   for (const StateResult& state : results.growth.states) timed += state.sweep.timed;
   page.warn(warn_of_busy_machine(timed));
   add_table_1(page, results);
-  page.add("best", fmt::arg("scenes", results.of_files > 0 ? "The sequence" : "Scenes"));
+  page.add("best", fmt::arg("scenes", results.options.files.size() > 0 ? "The sequence" : "Scenes"));
   for (const SceneResult& scene : results.scenes) {
     const std::vector<Mean> all = means(scene);
     page.text("### {}", scene.name);
     page.text("{}", scene_facts(scene));
     page.table(best_table(all));
     page.text("{}", over_budget(all));
-    page.plot(error_against_time(scene));
+    page.plot(error_against_time(page, scene));
   }
   add_growth(page, results);
   return page;

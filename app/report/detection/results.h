@@ -26,13 +26,10 @@ struct SceneResult {
 };
 
 struct DetectionResults {
-  std::string command;  // to make the report again
-  bool quick = false;
-  int threads = 1;  // of the detectors
-  compare::SweepLimits limits;
-  std::size_t of_files = 0;         // frames of the recorded sequence; 0: there is none
-  std::vector<SceneResult> scenes;  // or the one sequence
-  SceneResult growth;  // piles of more and more bodies, cut out of one state; no states if its scene is too small
+  ReportOptions options{};
+  compare::SweepLimits limits{};
+  std::vector<SceneResult> scenes{};  // or the one sequence
+  SceneResult growth{};  // piles of more and more bodies, cut out of one state; no states if its scene is too small
 };
 
 /// One configuration over all states of a scene.

@@ -78,23 +78,10 @@ void add_crosses(Plot& plot, const WorkCurve& curve, std::size_t number) {
   plot.add(std::move(series));
 }
 
-Plot error_against_time(const SolverCase& c, double bound) {
-  Plot plot{
-      .name = "solver-" + c.scene.key,
-      .caption =
-          c.scene.name + ": left is cheaper, down is more accurate; numbers are steps per frame, crosses blew up.",
-      .title = fmt::format("{}: error against run time (a disturbance grows {:.3g} times)", c.scene.name,
-                           c.reference.growth),
-      .x = "processor time, ms per simulated second and body",
-      .y = "error in position, RMS / R",
-      .settings = fmt::format(
-          "set yrange [*:{0:g}]\n"
-          "set ytics 1e-9, 10, 10 format '%g'\n"
-          "set label 'blew up:' at graph 0.01, graph 0.97\n"
-          "set arrow from graph 0, first {1:g} to graph 1, first {1:g} nohead dashtype 2 linecolor rgb '#666666'\n"
-          "set label 'uncertainty of the reference' at graph 0.01, first {1:g} offset 0,0.5 font ',8' textcolor rgb "
-          "'#666666'\n",
-          cross_height(c.curves.size()), c.uncertainty(bound))};
+Plot error_against_time(const Page& page, const SolverCase& c, double bound) {
+  Plot plot = page.plot_of("error against time", "solver-" + c.scene.key, fmt::arg("scene", c.scene.name),
+                           fmt::arg("growth", c.reference.growth), fmt::arg("top", cross_height(c.curves.size())),
+                           fmt::arg("uncertainty", c.uncertainty(bound)));
   for (std::size_t i = 0; i < c.curves.size(); ++i) add_errors(plot, c.curves[i], i, c.order(c.curves[i], bound));
   for (std::size_t i = 0; i < c.curves.size(); ++i) add_crosses(plot, c.curves[i], i);
   return plot;
@@ -105,15 +92,12 @@ Plot error_against_time(const SolverCase& c, double bound) {
 constexpr std::array bounds{1e-1, 1e-2, 5e-3, 2e-3, 1e-3, 1e-4};  // R
 
 void add_introduction(Page& page, const SolverResults& r) {
-  page.add("introduction", fmt::arg("command", r.command), fmt::arg("seconds", r.run.seconds()),
-           fmt::arg("frame_rate", 1 / r.run.frame_time), fmt::arg("repetitions", r.effort.repetitions),
-           fmt::arg("run_seconds", r.effort.seconds), fmt::arg("lanes", softbody::lanes),
-           fmt::arg("bound", r.effort.bound), fmt::arg("substeps", r.effort.max_substeps),
-           fmt::arg("order_error", SolverCase::max_order_error), fmt::arg("clear_fall", SolverCase::clear_fall),
-           fmt::arg("least_order", -std::log2(SolverCase::clear_fall)),
-           fmt::arg("quick",
-                    r.quick ? "This is the quick report: fewer scenes, steps and repetitions, and a coarser reference."
-                            : ""));
+  page.introduce(fmt::arg("seconds", r.run.seconds()), fmt::arg("frame_rate", 1 / r.run.frame_time),
+                 fmt::arg("repetitions", r.effort.repetitions), fmt::arg("run_seconds", r.effort.seconds),
+                 fmt::arg("lanes", softbody::lanes), fmt::arg("bound", r.effort.bound),
+                 fmt::arg("substeps", r.effort.max_substeps), fmt::arg("order_error", SolverCase::max_order_error),
+                 fmt::arg("clear_fall", SolverCase::clear_fall),
+                 fmt::arg("least_order", -std::log2(SolverCase::clear_fall)));
 }
 
 std::string two_digits(std::optional<double> value) { return value ? fmt::format("{:.2g}", *value) : ""; }
@@ -265,7 +249,7 @@ void add_left_out(Page& page, const SolverResults& r, const SolverCase& c) {
 }  // namespace
 
 Page solver_page(const SolverResults& results) {
-  Page page("solver");
+  Page page(results.options);
   add_introduction(page, results);
   page.warn(warn_of_busy_machine(results.timed));
   add_overview(page, results);
@@ -283,7 +267,7 @@ Page solver_page(const SolverResults& results) {
     add_left_out(page, results, c);
     page.text("With the fewest steps that do not blow up, and with the steps that give the least error:");
     page.table(details(c));
-    page.plot(error_against_time(c, results.effort.bound));
+    page.plot(error_against_time(page, c, results.effort.bound));
   }
   return page;
 }

@@ -128,8 +128,7 @@ struct SolverEffort {
 };
 
 struct SolverResults {
-  std::string command{};
-  bool quick = false;
+  ReportOptions options{};
   SolverRun run{};
   SolverEffort effort{};
   TimedParts timed{};  // the repetitions

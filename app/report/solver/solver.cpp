@@ -26,8 +26,7 @@ struct TimedPoint {
 class SolverReport {
  public:
   SolverReport(const ReportOptions& options, std::vector<SolverScene> scenes)
-      : results{.command = command_of(options),
-                .quick = options.quick,
+      : results{.options = options,
                 .effort = options.quick ? SolverEffort{0.08, 2, 8'000} : SolverEffort{1, 3, 200'000}},
         scenes_(std::move(scenes)) {}
 
@@ -122,7 +121,7 @@ void report_solver(const ReportOptions& options) {
     report.results.stiffness = measure_stiffness(options.quick);
     report.results.coarse = measure_coarse(options.quick);
   }
-  write_report(options.out, "solver.csv", solver_table(report.results), "solver.md", solver_page(report.results));
+  write_report(options, solver_table(report.results), "solver.md", solver_page(report.results));
 }
 
 }  // namespace app::report

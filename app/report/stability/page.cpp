@@ -55,15 +55,9 @@ namespace {
 
 // ---- plots ----
 
-Plot step_against_stiffness(const StabilityResults& results) {
-  Plot plot{.name = "stability-steps",
-            .caption = fmt::format("The largest step that keeps the energy of a disturbed ball (tried up to {:g} s); "
-                                   "dashed: the bound that the solver relies on, with its safety factor.",
-                                   max_step_tried),
-            .title = "Largest stable step against stiffness",
-            .x = "stiffness of a spring, N/m",
-            .y = "step, s",
-            .settings = fmt::format("set yrange [*:{:g}]\nset format xy '%g'\n", 2 * max_step_tried)};
+Plot step_against_stiffness(const Page& page, const StabilityResults& results) {
+  Plot plot = page.plot_of("step against stiffness", "stability-steps", fmt::arg("tried", max_step_tried),
+                           fmt::arg("top", 2 * max_step_tried));
   for (std::size_t i = 0; i < results.steps.size(); ++i) {
     Series found{std::string(results.integrators[i]->name), integrator_colour(i),
                  "linespoints pointtype 7 linewidth 2"};
@@ -82,14 +76,10 @@ Plot step_against_stiffness(const StabilityResults& results) {
 
 void add_introduction(Page& page, const StabilityResults& r) {
   constexpr reference::StabilityBounds b = reference::stability_bounds;
-  page.add(
-      "introduction", fmt::arg("command", r.command), fmt::arg("seconds", r.seconds),
-      fmt::arg("stiffnesses",
-               r.from_file ? "with all stiffnesses and pressures of the scene times a factor"
-                           : "with springs of 10 to 1e8 N/m (bend springs a fourth of it, gas pressure in proportion)"),
-      fmt::arg("energy", b.energy), fmt::arg("transient", b.transient), fmt::arg("steady", b.steady),
-      fmt::arg("shape", b.shape), fmt::arg("volume", 100 * b.volume), fmt::arg("rest", b.rest),
-      fmt::arg("quick", r.quick ? "This is the quick report: fewer cases and stiffnesses, and half the time." : ""));
+  page.introduce(fmt::arg("seconds", r.seconds),
+                 fmt::arg("stiffnesses", page.text_of(r.options.scene ? "factors" : "springs")),
+                 fmt::arg("energy", b.energy), fmt::arg("transient", b.transient), fmt::arg("steady", b.steady),
+                 fmt::arg("shape", b.shape), fmt::arg("volume", 100 * b.volume), fmt::arg("rest", b.rest));
 }
 
 /// Returns "1/60".
@@ -144,7 +134,7 @@ void add_section(Page& page, const StabilityResults& r, const StabilitySection& 
   for (std::size_t i = 0; i < r.integrators.size(); ++i) {
     TableRow row{{"integrator", r.integrators[i]->name}};
     for (const StabilityRow& s : section.rows)
-      row.push_back({fmt::format("{}{:g}{}{}", r.from_file ? "x " : "", s.stiffness, r.from_file ? "" : " N/m",
+      row.push_back({fmt::format("{}{:g}{}{}", r.options.scene ? "x " : "", s.stiffness, r.options.scene ? "" : " N/m",
                                  s.not_judged.empty() ? "" : " *"),
                      verdict(r, s, i)});
     table.add(row);
@@ -187,13 +177,13 @@ void add_steps(Page& page, const StabilityResults& r) {
   }
   page.text("## Largest stable step, and its predicted bound, ms");
   page.table(table);
-  page.plot(step_against_stiffness(r));
+  page.plot(step_against_stiffness(page, r));
 }
 
 }  // namespace
 
 Page stability_page(const StabilityResults& results) {
-  Page page("stability");
+  Page page(results.options);
   add_introduction(page, results);
   page.text("## Cells that pass");
   page.table(overview(results));

@@ -40,9 +40,7 @@ inline constexpr double max_step_tried = 0.1;  // s
 StableStep find_stable_step(const softbody::Integrator& integrator, double stiffness);
 
 struct StabilityResults {
-  std::string command;
-  bool quick = false;
-  bool from_file = false;   // the scene is the user's
+  ReportOptions options{};
   double seconds = 0;       // simulated
   std::vector<double> dts;  // s
   std::vector<const softbody::Integrator*> integrators;

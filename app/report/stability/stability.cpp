@@ -33,8 +33,7 @@ class StabilityReport {
  public:
   explicit StabilityReport(const ReportOptions& options)
       : effort_(options.quick ? Effort{1, 15'000} : Effort{2, 100'000}) {
-    results.quick = options.quick;
-    results.command = command_of(options);
+    results.options = options;
     results.seconds = effort_.seconds;
     results.dts = {1.0 / 30, 1.0 / 60, 1.0 / 240};
     for (const softbody::Integrator& i : softbody::integrators()) results.integrators.push_back(&i);
@@ -42,14 +41,13 @@ class StabilityReport {
 
   void add_case(const StabilityCase& c) {
     results.sections.push_back({std::string(c.key), std::string(c.name), {}});
-    for (const double k : results.quick ? std::span<const double>(quick_stiffnesses) : stiffnesses)
+    for (const double k : results.options.quick ? std::span<const double>(quick_stiffnesses) : stiffnesses)
       add(k, [make = c.make, k] { return make(k); });
   }
 
   void add_scene(const softbody::Scene& scene) {
-    results.from_file = true;
     results.sections.push_back({scene.key, scene.name, {}});
-    for (const double factor : results.quick ? std::span<const double>(quick_factors) : factors)
+    for (const double factor : results.options.quick ? std::span<const double>(quick_factors) : factors)
       add(factor, [scene, factor] { return scaled(scene, factor); });
   }
 
@@ -59,8 +57,8 @@ class StabilityReport {
     const std::size_t cells = results.integrators.size() * results.dts.size();
     // In this order the expensive cells, those of stiff springs and short frames, are not all at the end.
     in_parallel(workers, "cell", jobs_.size() * cells, [&](std::size_t i) { run_one(jobs_[i / cells], i % cells); });
-    if (results.from_file) return;
-    const auto ks = results.quick ? std::span<const double>(quick_stiffnesses) : stiffnesses;
+    if (results.options.scene) return;
+    const auto ks = results.options.quick ? std::span<const double>(quick_stiffnesses) : stiffnesses;
     results.steps.assign(results.integrators.size(), std::vector<StableStep>(ks.size()));
     in_parallel(workers, "largest step", ks.size() * results.integrators.size(), [&](std::size_t i) {
       const std::size_t which = i / ks.size(), k = i % ks.size();
@@ -123,8 +121,7 @@ void report_stability(const ReportOptions& options) {
   files::prepare_folder(options.out);
   collide::Workers workers(options.threads.value_or(options.cores));
   report.run(workers);
-  write_report(options.out, "stability.csv", stability_table(report.results), "stability.md",
-               stability_page(report.results));
+  write_report(options, stability_table(report.results), "stability.md", stability_page(report.results));
 }
 
 }  // namespace app::report
