@@ -58,6 +58,12 @@ std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options) {
   return scenes;
 }
 
+std::uint64_t vertex_count(const softbody::Scene& scene) {
+  std::uint64_t vertices = 0;
+  for (const softbody::BodySource& body : scene.bodies) vertices += body.mesh.vertex_count();
+  return vertices;
+}
+
 void write_report(const ReportOptions& options, const Table& figures, std::string_view page_name, const Page& page) {
   auto files = draw_all(page.plots());
   clear_progress();

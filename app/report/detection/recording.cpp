@@ -30,12 +30,6 @@ glm::dvec3 middle(const RecordedState& state, collide::Index begin, collide::Ind
 
 }  // namespace
 
-std::uint64_t vertex_count(const softbody::Scene& scene) {
-  std::uint64_t vertices = 0;
-  for (const softbody::BodySource& body : scene.bodies) vertices += body.mesh.vertex_count();
-  return vertices;
-}
-
 Recording record(const softbody::Scene& scene, bool quick, int threads) {
   const std::uint64_t vertices = std::max<std::uint64_t>(vertex_count(scene), 1);
   const std::uint64_t steps = quick ? 1'000'000 : 60'000'000;  // of one vertex each

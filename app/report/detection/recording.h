@@ -19,9 +19,6 @@ struct Recording {
   std::vector<RecordedState> states;  // in the order of their frames
 };
 
-/// Returns the number of vertices of all bodies, also of those that appear later.
-std::uint64_t vertex_count(const softbody::Scene& scene);
-
 /// Runs the scene and copies states. A scene runs for at most 800 frames, as the paper's do, and is copied after an
 /// eighth, half and all of them, and in the frame with the most contacts (the first of them). A large scene runs as far
 /// as time allows and is copied twice. `quick` runs less and copies less. Throws UsageError if no body appears, and
