@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <span>
+#include <vector>
 
 namespace app::report {
 
@@ -20,6 +22,18 @@ double max_of(const Rows& rows, const Figure& figure) {
   double max = 0;
   for (const auto& row : rows) max = std::max(max, static_cast<double>(std::invoke(figure, row)));
   return max;
+}
+
+/// Returns the groups of rows that follow each other and have the same key.
+template <class Row, class Key>
+std::vector<std::span<const Row>> groups_of(const std::vector<Row>& rows, const Key& key) {
+  std::vector<std::span<const Row>> groups;
+  for (auto begin = rows.begin(), end = begin; begin != rows.end(); begin = end) {
+    end =
+        std::find_if(begin, rows.end(), [&](const Row& r) { return std::invoke(key, r) != std::invoke(key, *begin); });
+    groups.emplace_back(begin, end);
+  }
+  return groups;
 }
 
 }  // namespace app::report

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/report/solver/trial.h"
+#include "app/report/solver/results.h"
 #include "tests/cli/report_rig.h"
 
 namespace cli::test {
@@ -112,11 +112,10 @@ TEST(SolverReportErrors, ComeBeforeAnythingRuns) {
 
 /// The reference is coarser than the report's, but for the errors at hand fine enough.
 TEST(SolverScenes, AutoKeepsItsPromise) {
-  constexpr app::report::SolverRun run;
   constexpr double bound = 1e-3;           // R, a tenth of what is promised
   constexpr std::uint64_t steps = 60'000;  // of the reference, at most
   for (const app::report::SolverScene& scene : app::report::solver_scenes()) {
-    const app::report::SolverCase c = begin_case(scene, run, bound, steps);
+    const app::report::SolverCase c = begin_case(scene, bound, steps);
     EXPECT_TRUE(c.reference.converged) << scene.key;
     EXPECT_TRUE(c.keeps_promise()) << scene.key << ": " << c.own("auto").error << " R of " << c.allowed() << " R";
   }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cassert>
 #include <span>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -232,14 +233,14 @@ Page contact_page(const ContactResults& results) {
     page.table(table, 2);
   }
   page.text("## Scenes");
-  auto c = results.cases.begin();
-  for (; c != results.cases.end() && !c->speed; ++c) add_scene(page, *c);
-  if (c != results.cases.end()) page.text("## Impacts");
-  while (c != results.cases.end()) {
-    const auto end =
-        std::find_if(c, results.cases.end(), [&](const ContactCase& other) { return other.scene.key != c->scene.key; });
-    add_impact(page, {c, end});
-    c = end;
+  bool impacts = false;
+  for (const auto& cases : groups_of(results.cases, [](const ContactCase& c) { return c.scene.key; })) {
+    if (!cases.front().speed) {
+      add_scene(page, cases.front());
+      continue;
+    }
+    if (!std::exchange(impacts, true)) page.text("## Impacts");
+    add_impact(page, cases);
   }
   return page;
 }

@@ -11,7 +11,7 @@
 #include "app/compare/world_oracle.h"
 #include "app/files/scene_folder.h"
 #include "app/report/solid_passages.h"
-#include "app/report/steps.h"
+#include "app/report/worlds.h"
 #include "softbody/model/body_model.h"
 #include "softbody/world/measures.h"
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <functional>
 
 #include <fmt/core.h>
 
@@ -18,30 +19,30 @@ Table solver_table(const SolverResults& results) {
     for (const WorkCurve& curve : c.curves)
       for (const WorkPoint& p : curve.points) {
         const bool fixed = p.substeps > 0, good = !p.blew_up;
-        table.add({{"scene", c.scene.key},
-                   {"integrator", curve.integrator->key},
-                   {"substeps", when(fixed, p.substeps)},
-                   {"substeps_taken", p.taken},
-                   {"steps_per_second",
-                    when(fixed, p.substeps * curve.integrator->substeps_per_step / results.run.frame_time)},
-                   {"cpu_ms_alone", p.cpu_alone},
-                   {"cpu_ms_batch", p.cpu_batch},
-                   {"blew_up", p.blew_up},
-                   {"error", when(good, p.error)},
-                   {"energy_error", when(good, p.energy)},
-                   {"linear_error", when(good, p.linear)},
-                   {"angular_error", when(good, p.angular)},
-                   {"volume_error", when(good, p.volume)},
-                   {"internal_speed", when(good, p.speed)},
-                   {"observed_order", c.order(curve, results.effort.bound)},
-                   {"own_substeps", when(curve.own.has_value(), curve.own.value_or(WorkPoint{}).taken)},
-                   {"own_error", when(curve.own && !curve.own->blew_up, curve.own.value_or(WorkPoint{}).error)},
-                   {"promised_error", c.allowed()},
-                   {"promise_kept", c.keeps_promise()},
-                   {"reference_step", c.reference.step},
-                   {"reference_change", c.reference.change},
-                   {"reference_converged", c.reference.converged},
-                   {"perturbation_growth", c.reference.growth}});
+        table.add(
+            {{"scene", c.scene.key},
+             {"integrator", curve.integrator->key},
+             {"substeps", when(fixed, p.substeps)},
+             {"substeps_taken", p.taken},
+             {"steps_per_second", when(fixed, p.substeps * curve.integrator->substeps_per_step / solver_frame_time)},
+             {"cpu_ms_alone", p.cpu_alone},
+             {"cpu_ms_batch", p.cpu_batch},
+             {"blew_up", p.blew_up},
+             {"error", when(good, p.error)},
+             {"energy_error", when(good, p.energy)},
+             {"linear_error", when(good, p.linear)},
+             {"angular_error", when(good, p.angular)},
+             {"volume_error", when(good, p.volume)},
+             {"internal_speed", when(good, p.speed)},
+             {"observed_order", c.order(curve, results.effort.bound)},
+             {"own_substeps", when(curve.own.has_value(), curve.own.value_or(WorkPoint{}).taken)},
+             {"own_error", when(curve.own && !curve.own->blew_up, curve.own.value_or(WorkPoint{}).error)},
+             {"promised_error", c.allowed()},
+             {"promise_kept", c.keeps_promise()},
+             {"reference_step", c.reference.step},
+             {"reference_change", c.reference.change},
+             {"reference_converged", c.reference.converged},
+             {"perturbation_growth", c.reference.growth}});
       }
   return table;
 }
@@ -92,7 +93,7 @@ Plot error_against_time(const Page& page, const SolverCase& c, double bound) {
 constexpr std::array bounds{1e-1, 1e-2, 5e-3, 2e-3, 1e-3, 1e-4};  // R
 
 void add_introduction(Page& page, const SolverResults& r) {
-  page.introduce(fmt::arg("seconds", r.run.seconds()), fmt::arg("frame_rate", 1 / r.run.frame_time),
+  page.introduce(fmt::arg("seconds", solver_seconds), fmt::arg("frame_rate", 1 / solver_frame_time),
                  fmt::arg("repetitions", r.effort.repetitions), fmt::arg("run_seconds", r.effort.seconds),
                  fmt::arg("lanes", softbody::lanes), fmt::arg("bound", r.effort.bound),
                  fmt::arg("substeps", r.effort.max_substeps), fmt::arg("order_error", SolverCase::max_order_error),
@@ -102,19 +103,18 @@ void add_introduction(Page& page, const SolverResults& r) {
 
 std::string two_digits(std::optional<double> value) { return value ? fmt::format("{:.2g}", *value) : ""; }
 
-/// Returns nothing if all blew up.
-const WorkPoint* most_accurate(const WorkCurve& curve) {
+/// Returns the point that has least of a figure, of those within an error; nothing if there is none or all blew up.
+template <class Figure>
+const WorkPoint* least(const WorkCurve& curve, const Figure& figure, double error = HUGE_VAL) {
   const WorkPoint* best = nullptr;
   for (const WorkPoint& p : curve.points)
-    if (!p.blew_up && (!best || p.error < best->error)) best = &p;
+    if (!p.blew_up && p.error <= error && (!best || std::invoke(figure, p) < std::invoke(figure, *best))) best = &p;
   return best;
 }
 
 /// Returns the cost of the cheapest point within an error, and its steps: "1.36 (16)".
 std::string cheapest(const WorkCurve& curve, double error) {
-  const WorkPoint* best = nullptr;
-  for (const WorkPoint& p : curve.points)
-    if (!p.blew_up && p.error <= error && (!best || p.cost() < best->cost())) best = &p;
+  const WorkPoint* best = least(curve, &WorkPoint::cost, error);
   if (!best) return "";
   return brief(best->cost()) + (best->substeps > 0 ? fmt::format(" ({})", best->substeps) : "");
 }
@@ -128,7 +128,7 @@ void add_overview(Page& page, const SolverResults& r) {
     TableRow row{{"integrator", r.cases.front().curves[i].integrator->name}};
     for (const SolverCase& c : r.cases) {
       const std::string cost = cheapest(c.curves[i], bound);
-      const WorkPoint* best = most_accurate(c.curves[i]);
+      const WorkPoint* best = least(c.curves[i], &WorkPoint::error);
       row.push_back({c.scene.name, !cost.empty() ? cost
                                    : best        ? fmt::format("only {:.4g} R", best->error)
                                                  : "blew up"});
@@ -205,7 +205,7 @@ Table costs(const SolverResults& r, const SolverCase& c) {
 Table details(const SolverCase& c) {
   Table table;
   for (const WorkCurve& curve : c.curves) {
-    const WorkPoint* best = most_accurate(curve);
+    const WorkPoint* best = least(curve, &WorkPoint::error);
     std::vector<const WorkPoint*> shown{best ? &*std::ranges::find(curve.points, false, &WorkPoint::blew_up)
                                              : &curve.points.front()};
     if (best && best != shown.front()) shown.push_back(best);

@@ -9,19 +9,32 @@
 #include <vector>
 
 #include "app/base/timings.h"
-#include "app/reference/reference_body.h"
+#include "app/reference/reference_trajectory.h"
 #include "app/report/page.h"
-#include "app/report/solver/scenes.h"
+#include "app/report/worlds.h"
 #include "softbody/integrate/integrators.h"
 
 namespace app::report {
 
-/// How far a scene is simulated.
-struct SolverRun {
-  int frames = 30;
-  double frame_time = 1.0 / 60;
-  double seconds() const { return frames * frame_time; }
+/// What a solver is measured on. Only springs, gas, gravity and solids act on lone bodies, so that the reference models
+/// them.
+struct SolverScene {
+  std::string key, name;
+  softbody::Scene scene{};
+  std::vector<Particles> start{};  // per body; empty: as the scene has it
+  bool at_rest = false;            // all motion is jitter
+  bool of_centres = false;         // the error is the largest of a body's centre; else the RMS of all particles
+  double promised = 0.01;          // R, the error that `auto` promises, see SolverCase::allowed()
+  /// Copies side by side do not touch, so a batch of them can be timed.
+  bool repeatable = true;
 };
+
+/// Returns the scenes of `report solver`: easy ones, and those in which IMEX Euler is weakest.
+std::vector<SolverScene> solver_scenes();
+
+// How far a scene is simulated.
+inline constexpr int solver_frames = 30;
+inline constexpr double solver_frame_time = 1.0 / 60, solver_seconds = solver_frames * solver_frame_time;
 
 /// What the outcomes of a scene are compared with.
 struct SolverReference {
@@ -85,6 +98,26 @@ struct SolverCase {
   std::optional<double> order(const WorkCurve& curve, double bound) const;
 };
 
+struct Outcome {
+  TimedParts timed{};  // the steps
+  bool finite = true;
+  std::vector<reference::BodyState> bodies{};
+  double energy = 0;  // J
+  double taken = 0;   // substeps per frame, on average
+};
+
+/// Runs `copies` of the scene side by side, with `substeps` a frame, or with those that the integrator chooses itself
+/// if it is `auto` or `substeps` is 0. Ends with the first frame that is not finite.
+Outcome run_solver(const SolverScene& scene, const softbody::Integrator& integrator, int substeps, int copies);
+
+/// Returns the point without its substeps and times.
+WorkPoint judge(const SolverCase& of, const Outcome& outcome);
+
+/// Returns the case with a curve for each integrator, that has no points yet: only the runs of own_step_integrators.
+/// The reference is ReferenceBody where it models the scene, else the world's rk4. Its step is halved until the
+/// positions change by less than `bound` (R), with at most `steps` steps.
+SolverCase begin_case(const SolverScene& scene, double bound, std::uint64_t steps);
+
 /// A fine body that falls on a solid sphere, simulated by so many particles.
 struct CoarseRun {
   std::size_t particles;
@@ -129,7 +162,6 @@ struct SolverEffort {
 
 struct SolverResults {
   ReportOptions options{};
-  SolverRun run{};
   SolverEffort effort{};
   TimedParts timed{};  // the repetitions
   std::vector<SolverCase> cases{};

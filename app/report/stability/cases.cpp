@@ -1,13 +1,11 @@
-#include "app/report/stability/cases.h"
+#include "app/report/stability/results.h"
 
 #include <array>
 #include <random>
 
 #include <glm/geometric.hpp>
 
-#include "app/base/usage_error.h"
 #include "app/files/scene_folder.h"
-#include "app/report/steps.h"
 #include "softbody/forces/gas.h"
 #include "softbody/forces/shape_matching.h"
 #include "softbody/forces/springs.h"
@@ -30,8 +28,7 @@ StabilityScene lone(double k) { return {.scene = lone_scene(ball_material(k, dam
 template <class Place>
 StabilityScene placed(double k, Place place) {
   StabilityScene s = lone(k);
-  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.integrator = one_step()}), 0));
-  for (softbody::Particle& p : start) p.position = place(p.position);
+  s.start = changed_start(s.scene, [&](softbody::Particle& p) { p.position = place(p.position); });
   return s;
 }
 
@@ -64,9 +61,7 @@ StabilityScene over_ground(double k, double height) {
 }
 
 /// Returns the radius of the ball with its gas; the mesh itself is smaller.
-double inflated(double k) {
-  return glm::length(particles_of(softbody::World(lone(k).scene, {.integrator = one_step()}), 0)[0].position);
-}
+double inflated(double k) { return glm::length(particles_of(world_of(lone(k).scene), 0)[0].position); }
 
 StabilityScene on_the_ground(double k) { return over_ground(k, inflated(k) + 0.006); }
 
@@ -132,8 +127,7 @@ StabilityScene damaged_mesh(double k, Damage damage) {
   damage(imported->mesh.vertices[a], imported->mesh.vertices[b], imported->mesh.vertices[c]);
   s.scene.bodies[0].mesh = {.kind = "file", .file = {}, .imported = imported};
   s.scene.materials[0][softbody::ShapeMatching::frequency] = 0;
-  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.integrator = one_step()}), 0));
-  for (softbody::Particle& p : start) p.position.y *= 0.5;
+  s.start = changed_start(s.scene, [](softbody::Particle& p) { p.position.y *= 0.5; });
   return s;
 }
 StabilityScene duplicates(double k) {

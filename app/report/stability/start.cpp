@@ -1,4 +1,4 @@
-#include "app/report/stability/cell.h"
+#include "app/report/stability/results.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,6 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
-#include "app/report/steps.h"
 #include "softbody/forces/springs.h"
 #include "softbody/world/body_model_set.h"
 #include "softbody/world/measures.h"
@@ -48,13 +47,6 @@ StabilityStart::SpringChain spring_chain_of(const softbody::BodyModel& p) {
   for (const softbody::Spring& s : softbody::springs<softbody::StructuralSprings>(p))
     longest = std::max(longest, s.rest), softest = std::min(softest, s.stiffness);
   return {*chain * longest, softest / *chain};
-}
-
-/// Returns the world with its bodies where the case places them.
-World placed(const StabilityScene& from) {
-  World world(from.scene, {.integrator = one_step()});
-  for (BodyId b = 0; b < from.start.size(); ++b) world.set_particles(b, from.start[b]);
-  return world;
 }
 
 /// Returns the body as it starts or joins: in its starting shape.
@@ -100,14 +92,8 @@ double height_energy(const World& world, const std::vector<dvec3>& x, BodyId bod
   return energy;
 }
 
-std::vector<Particles> all_particles(const World& world) {
-  std::vector<Particles> list;
-  for (BodyId b = 0; b < world.bodies().count(); ++b) list.push_back(particles_of(world, b));
-  return list;
-}
-
 StabilityStart prepare(const StabilityScene& from, double seconds) {
-  const World world = placed(from);
+  const World world = start_world(from.scene, {.integrator = one_step()}, from.start);
   StabilityStart s{.scene = from.scene, .particles = all_particles(world), .first_frame = from.first_frame};
   std::ranges::stable_sort(s.scene.bodies, {}, &softbody::BodySource::appear);
   for (const softbody::BodySource& source : s.scene.bodies) {
@@ -127,7 +113,7 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
 }
 
 void find_reference(StabilityStart& start, std::uint64_t steps) {
-  World world(start.scene, {.integrator = one_step()});
+  World world = world_of(start.scene);
   const auto no = [&](const std::string& why) { start.not_judged = fmt::format("the reference {}", why); };
   if (const std::string missing = reference::ReferenceBody::unsupported_stage(world); !missing.empty())
     return no(fmt::format("does not model {}", missing));
