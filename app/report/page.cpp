@@ -24,7 +24,7 @@ std::string command_of(const ReportOptions& o) {
     text.append(" ").append(o.files.front());
     if (o.files.size() > 2) text += " ...";
     if (o.files.size() > 1) text.append(" ").append(o.files.back());
-    text += fmt::format(" --tolerance {:.9g}", o.tolerance);
+    text += fmt::format(" --tolerance {:.9g}", *o.tolerance);
   }
   if (o.by)
     text.append(" --bodies ").append(std::ranges::find(files::bodies_by_keys, *o.by, &files::BodiesByKey::value)->key);
