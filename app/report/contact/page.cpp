@@ -17,9 +17,9 @@ std::string choice_name(const ContactChoice& choice) {
                      choice.tolerance);
 }
 
-// ---- the table of figures ----
-
 namespace {
+
+// ---- the table of figures ----
 
 std::string_view key_of(softbody::ContactSurface surface) {
   return std::ranges::find(softbody::contact_surfaces, surface, &softbody::ContactSurfaceInfo::value)->key;
@@ -64,17 +64,6 @@ TableRow row_of(const ContactCase& c, const ContactTrial& t) {
   };
 }
 
-}  // namespace
-
-Table contact_table(const ContactResults& results) {
-  Table table;
-  for (const ContactCase& c : results.cases)
-    for (const ContactTrial& t : c.trials) table.add(row_of(c, t));
-  return table;
-}
-
-namespace {
-
 // ---- plots ----
 
 /// Series have the methods' colours, black for surface contact, and a shape per tolerance.
@@ -112,12 +101,6 @@ Plot passed_against_speed(const Page& page, std::span<const ContactCase> cases) 
 }
 
 // ---- the page ----
-
-void add_introduction(Page& page, const ContactResults& r) {
-  page.introduce(fmt::arg("stride", r.limits.stride), fmt::arg("depth", ContactTrial::depth_bound),
-                 fmt::arg("frames", r.limits.frames), fmt::arg("budget", grouped(r.vertex_frames)),
-                 fmt::arg("seconds", r.limits.seconds));
-}
 
 std::string missed_share(double missed, double penetrations, const ContactChoice& choice) {
   if (choice.surface == softbody::ContactSurface::surfaces || penetrations == 0) return "";
@@ -219,9 +202,18 @@ void add_impact(Page& page, std::span<const ContactCase> cases) {
 
 }  // namespace
 
+Table contact_table(const ContactResults& results) {
+  Table table;
+  for (const ContactCase& c : results.cases)
+    for (const ContactTrial& t : c.trials) table.add(row_of(c, t));
+  return table;
+}
+
 Page contact_page(const ContactResults& results) {
   Page page(results.options);
-  add_introduction(page, results);
+  page.introduce(fmt::arg("stride", results.limits.stride), fmt::arg("depth", ContactTrial::depth_bound),
+                 fmt::arg("frames", results.limits.frames), fmt::arg("budget", grouped(results.vertex_frames)),
+                 fmt::arg("seconds", results.limits.seconds));
   TimedParts timed;
   for (const ContactCase& c : results.cases)
     for (const ContactTrial& trial : c.trials) timed += trial.timed;

@@ -92,15 +92,6 @@ Plot error_against_time(const Page& page, const SolverCase& c, double bound) {
 
 constexpr std::array bounds{1e-1, 1e-2, 5e-3, 2e-3, 1e-3, 1e-4};  // R
 
-void add_introduction(Page& page, const SolverResults& r) {
-  page.introduce(fmt::arg("seconds", solver_seconds), fmt::arg("frame_rate", 1 / solver_frame_time),
-                 fmt::arg("repetitions", r.effort.repetitions), fmt::arg("run_seconds", r.effort.seconds),
-                 fmt::arg("lanes", softbody::lanes), fmt::arg("bound", r.effort.bound),
-                 fmt::arg("substeps", r.effort.max_substeps), fmt::arg("order_error", SolverCase::max_order_error),
-                 fmt::arg("clear_fall", SolverCase::clear_fall),
-                 fmt::arg("least_order", -std::log2(SolverCase::clear_fall)));
-}
-
 std::string two_digits(std::optional<double> value) { return value ? fmt::format("{:.2g}", *value) : ""; }
 
 /// Returns the point that has least of a figure, of those within an error; nothing if there is none or all blew up.
@@ -250,7 +241,12 @@ void add_left_out(Page& page, const SolverResults& r, const SolverCase& c) {
 
 Page solver_page(const SolverResults& results) {
   Page page(results.options);
-  add_introduction(page, results);
+  page.introduce(fmt::arg("seconds", solver_seconds), fmt::arg("frame_rate", 1 / solver_frame_time),
+                 fmt::arg("repetitions", results.effort.repetitions), fmt::arg("run_seconds", results.effort.seconds),
+                 fmt::arg("lanes", softbody::lanes), fmt::arg("bound", results.effort.bound),
+                 fmt::arg("substeps", results.effort.max_substeps),
+                 fmt::arg("order_error", SolverCase::max_order_error), fmt::arg("clear_fall", SolverCase::clear_fall),
+                 fmt::arg("least_order", -std::log2(SolverCase::clear_fall)));
   page.warn(warn_of_busy_machine(results.timed));
   add_overview(page, results);
   add_promise(page, results);

@@ -74,14 +74,6 @@ Plot step_against_stiffness(const Page& page, const StabilityResults& results) {
 
 // ---- the page ----
 
-void add_introduction(Page& page, const StabilityResults& r) {
-  constexpr reference::StabilityBounds b = reference::stability_bounds;
-  page.introduce(fmt::arg("seconds", r.seconds),
-                 fmt::arg("stiffnesses", page.text_of(r.options.scene ? "factors" : "springs")),
-                 fmt::arg("energy", b.energy), fmt::arg("transient", b.transient), fmt::arg("steady", b.steady),
-                 fmt::arg("shape", b.shape), fmt::arg("volume", 100 * b.volume), fmt::arg("rest", b.rest));
-}
-
 /// Returns "1/60".
 std::string fraction(double dt) { return fmt::format("1/{:.0f}", 1 / dt); }
 
@@ -178,7 +170,11 @@ void add_steps(Page& page, const StabilityResults& r) {
 
 Page stability_page(const StabilityResults& results) {
   Page page(results.options);
-  add_introduction(page, results);
+  constexpr reference::StabilityBounds b = reference::stability_bounds;
+  page.introduce(fmt::arg("seconds", results.seconds),
+                 fmt::arg("stiffnesses", page.text_of(results.options.scene ? "factors" : "springs")),
+                 fmt::arg("energy", b.energy), fmt::arg("transient", b.transient), fmt::arg("steady", b.steady),
+                 fmt::arg("shape", b.shape), fmt::arg("volume", 100 * b.volume), fmt::arg("rest", b.rest));
   page.text("## Cells that pass");
   page.table(overview(results));
   page.text("## Cases");
