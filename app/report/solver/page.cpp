@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "app/base/text.h"
 #include "app/report/solver/results.h"
 #include "softbody/state/lanes.h"
 
@@ -168,19 +169,6 @@ void add_stiffness(Page& page, const SolverResults& r) {
   page.table(table);
 }
 
-void add_coarse(Page& page, const CoarseResults& coarse) {
-  if (coarse.runs.empty()) return;
-  Table table;
-  for (const CoarseRun& run : coarse.runs)
-    table.add({{"particles", whole(double(run.particles))},
-               {"surfaces apart, R", run.distance > 0 ? two_digits(run.distance) : ""},
-               {"middle, R", two_digits(run.middle)},
-               {"shape, R", two_digits(run.shape)},
-               {"run time", fmt::format("{:.2g}", run.cost)}});
-  page.add("coarse", fmt::arg("vertices", whole(double(coarse.vertices))));
-  page.table(table);
-}
-
 Table costs(const SolverResults& r, const SolverCase& c) {
   Table table;
   for (const WorkCurve& curve : c.curves) {
@@ -219,22 +207,22 @@ Table details(const SolverCase& c) {
 /// Says which curves end before the reference's own uncertainty, and why.
 void add_left_out(Page& page, const SolverResults& r, const SolverCase& c) {
   const double known = c.uncertainty(r.effort.bound);
-  std::string too_long, too_many;
-  for (const WorkCurve& curve : c.curves) {
-    const WorkPoint& last = curve.points.back();
-    if (last.substeps == 0 || curve.reaches(known)) continue;
-    std::string& list = last.substeps >= r.effort.max_substeps ? too_many : too_long;
-    list += fmt::format("{}{} beyond {} steps per frame{}", list.empty() ? "" : "; ", curve.integrator->name,
-                        last.substeps, last.blew_up ? " (blew up)" : "");
+  bool all_end = true;
+  for (const bool too_many : {false, true}) {
+    std::vector<std::string> list;
+    for (const WorkCurve& curve : c.curves) {
+      const WorkPoint& last = curve.points.back();
+      if (last.substeps == 0 || curve.reaches(known) || (last.substeps >= r.effort.max_substeps) != too_many) continue;
+      list.push_back(fmt::format("{} beyond {} steps per frame{}", curve.integrator->name, last.substeps,
+                                 last.blew_up ? " (blew up)" : ""));
+    }
+    if (list.empty()) continue;
+    all_end = false;
+    page.text("Left out, above the reference's uncertainty of {:.2g} R, since {}: {}.", known,
+              too_many ? "no more steps were tried" : fmt::format("runs took longer than {:g} s", r.effort.seconds),
+              joined(list, "; "));
   }
-  if (too_long.empty() && too_many.empty())
-    return page.text("All curves end at an error of {:.2g} R, the uncertainty of the reference.", known);
-  const auto add_reason = [&](const std::string& why, const std::string& list) {
-    if (!list.empty())
-      page.text("Left out, above the reference's uncertainty of {:.2g} R, since {}: {}.", known, why, list);
-  };
-  add_reason(fmt::format("runs took longer than {:g} s", r.effort.seconds), too_long);
-  add_reason("no more steps were tried", too_many);
+  if (all_end) page.text("All curves end at an error of {:.2g} R, the uncertainty of the reference.", known);
 }
 
 }  // namespace
@@ -251,7 +239,10 @@ Page solver_page(const SolverResults& results) {
   add_overview(page, results);
   add_promise(page, results);
   add_stiffness(page, results);
-  add_coarse(page, results.coarse);
+  if (!results.coarse.runs.empty()) {
+    page.add("coarse", fmt::arg("vertices", whole(double(results.coarse.vertices))));
+    page.table(results.coarse.runs);
+  }
   for (const SolverCase& c : results.cases) {
     const SolverReference& r = c.reference;
     page.add("case", fmt::arg("name", c.scene.name), fmt::arg("reference", r.what), fmt::arg("step", r.step),

@@ -118,18 +118,9 @@ WorkPoint judge(const SolverCase& of, const Outcome& outcome);
 /// positions change by less than `bound` (R), with at most `steps` steps.
 SolverCase begin_case(const SolverScene& scene, double bound, std::uint64_t steps);
 
-/// A fine body that falls on a solid sphere, simulated by so many particles.
-struct CoarseRun {
-  std::size_t particles;
-  double distance;  // R, between the two surfaces at rest, see softbody::coarsen(); 0: the mesh itself is simulated
-  double middle;    // R: the most that its middle is away from that of the finest run
-  double shape;     // R, the same of its vertices about the middle, RMS
-  double cost;      // time of the solver, in that of the finest run
-};
-
 struct CoarseResults {
-  std::size_t vertices = 0;     // of the mesh
-  std::vector<CoarseRun> runs;  // from coarse to fine
+  std::size_t vertices = 0;  // of the fine mesh
+  Table runs{};              // from few particles to many
 };
 
 /// Measures what a coarse mesh that is simulated in place of a fine one costs and saves: the creature of the scene

@@ -36,9 +36,6 @@ StabilityScene placed(double k, Place place) {
 StabilityScene stretched_by(double k, const dvec3& factors) {
   return placed(k, [&](const dvec3& p) { return p * factors; });
 }
-StabilityScene collapsed(double k) {
-  return placed(k, [](const dvec3&) { return dvec3(0.0); });
-}
 StabilityScene random_vertices(double k) {
   std::mt19937 random(1);
   const auto coordinate = [&] { return radius * (2 * double(random()) / double(std::mt19937::max()) - 1); };
@@ -46,9 +43,6 @@ StabilityScene random_vertices(double k) {
     const double x = coordinate(), y = coordinate(), z = coordinate();
     return dvec3(x, y, z);
   });
-}
-StabilityScene far_away(double k) {
-  return placed(k, [](const dvec3& p) { return 1000.0 + p * dvec3(1, 0.5, 1); });
 }
 
 /// Returns a ball whose middle is `height` over the ground.
@@ -130,12 +124,6 @@ StabilityScene damaged_mesh(double k, Damage damage) {
   s.start = changed_start(s.scene, [](softbody::Particle& p) { p.position.y *= 0.5; });
   return s;
 }
-StabilityScene duplicates(double k) {
-  return damaged_mesh(k, [](dvec3& a, dvec3& b, dvec3&) { b = a; });
-}
-StabilityScene degenerate(double k) {
-  return damaged_mesh(k, [](dvec3& a, dvec3& b, dvec3& c) { c = 0.5 * (a + b); });
-}
 
 StabilityScene pile(double k) {
   StabilityScene s{.scene = softbody::find_scene("D", files::scene_folder())};
@@ -153,7 +141,8 @@ constexpr std::array all_cases{
     StabilityCase{"rest", "At rest", lone},
     StabilityCase{"stretched", "Stretched 10 times", [](double k) { return stretched_by(k, dvec3(10, 1, 1)); }},
     StabilityCase{"flattened", "Flattened", [](double k) { return stretched_by(k, dvec3(1, 0, 1)); }},
-    StabilityCase{"collapsed", "Collapsed to a point", collapsed},
+    StabilityCase{"collapsed", "Collapsed to a point",
+                  [](double k) { return placed(k, [](const dvec3&) { return dvec3(0.0); }); }},
     StabilityCase{"nearly-collapsed", "Collapsed to a thousandth",
                   [](double k) { return stretched_by(k, dvec3(1e-3)); }},
     StabilityCase{"random", "Random vertices", random_vertices},
@@ -169,9 +158,12 @@ constexpr std::array all_cases{
     StabilityCase{"pressure-lost", "Pressure lost", [](double k) { return pressure_times(k, 0); }},
     StabilityCase{"inside-solid", "Begins 0.15 R in the ground", inside_solid},
     StabilityCase{"on-the-ground", "On the ground", on_the_ground},
-    StabilityCase{"duplicates", "Duplicate vertices, half flat", duplicates},
-    StabilityCase{"degenerate", "Degenerate faces, half flat", degenerate},
-    StabilityCase{"far", "1 km from the origin, half flat", far_away},
+    StabilityCase{"duplicates", "Duplicate vertices, half flat",
+                  [](double k) { return damaged_mesh(k, [](dvec3& a, dvec3& b, dvec3&) { b = a; }); }},
+    StabilityCase{"degenerate", "Degenerate faces, half flat",
+                  [](double k) { return damaged_mesh(k, [](dvec3& a, dvec3& b, dvec3& c) { c = 0.5 * (a + b); }); }},
+    StabilityCase{"far", "1 km from the origin, half flat",
+                  [](double k) { return placed(k, [](const dvec3& p) { return 1000.0 + p * dvec3(1, 0.5, 1); }); }},
     StabilityCase{"pile", "A pile of 47", pile},
 };
 

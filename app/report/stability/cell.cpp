@@ -109,16 +109,16 @@ class Run {
   /// Counts the next body as present and returns it.
   const StabilityStart::Member& add_body() {
     const StabilityStart::Member& member = start_.members[bodies_++];
-    balance_ += member.balance;
+    balance_ += member.balance();
     weight_ += member.weight();
-    lightest_ = std::min(lightest_, member.particle_mass);
+    lightest_ = std::min(lightest_, member.model->particle_mass);
     return member;
   }
 
   /// Counts bodies that join in the coming step.
   void join(const World& world) {
     const std::vector<softbody::BodySource>& sources = start_.scene.bodies;  // in this order
-    while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame()) above_balance_ += add_body().kinetic;
+    while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame()) above_balance_ += add_body().kinetic();
   }
 
   const StabilityStart& start_;

@@ -2,6 +2,7 @@
 // What `report stability` measures, and its table, page and plot.
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "app/report/page.h"
 #include "app/report/worlds.h"
 #include "softbody/integrate/integrators.h"
+#include "softbody/model/body_model.h"
 
 namespace app::report {
 
@@ -40,12 +42,16 @@ struct StabilityStart {
     double length, stiffness;  // m, N/m: of the chain at rest
   };
 
-  /// One body of the scene as it is when it starts or joins.
+  /// One body of the scene as it is when it starts or joins: in its starting shape.
   struct Member {
+    std::shared_ptr<const softbody::BodyModel> model;
     SpringChain chain;
-    double radius, mass, particle_mass;                     // m, kg, kg
-    double balance, kinetic;                                // J: springs and gas; of motion
-    double weight() const { return mass * 9.81 * radius; }  // J, m g R
+    double square_speed;                                            // m^2/s^2
+    double radius() const { return model->radius; }                 // m
+    double balance() const { return model->start_energy.total(); }  // J: springs and gas
+    double mass() const { return model->material[softbody::Material::mass]; }
+    double kinetic() const { return 0.5 * mass() * square_speed; }  // J
+    double weight() const { return mass() * 9.81 * radius(); }      // J, m g R
   };
 
   softbody::Scene scene;             // its bodies in the order in which they join
