@@ -45,16 +45,14 @@ void run_in_parallel(collide::Workers& workers, std::size_t count, const std::fu
 }
 
 std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options) {
-  const auto scene_named = [](const std::string& name) {
-    softbody::Scene scene = softbody::find_scene(name, files::scene_folder());
-    files::protect_input(softbody::scene_path(name, files::scene_folder()));
-    files::protect_input(softbody::presets_path(files::scene_folder()));
-    files::protect_inputs(scene);
-    return scene;
-  };
-  if (options.scene) return {scene_named(*options.scene)};
+  const std::filesystem::path folder = files::scene_folder();
   std::vector<softbody::Scene> scenes;
-  for (const std::string& key : softbody::scene_keys(files::scene_folder())) scenes.push_back(scene_named(key));
+  for (const std::string& name : options.scene ? std::vector{*options.scene} : softbody::scene_keys(folder)) {
+    scenes.push_back(softbody::find_scene(name, folder));
+    files::protect_input(softbody::scene_path(name, folder));
+    files::protect_input(softbody::presets_path(folder));
+    files::protect_inputs(scenes.back());
+  }
   return scenes;
 }
 

@@ -12,7 +12,7 @@ constexpr double bound = 2e-5;  // R
 /// Returns the order of a curve with these errors at 1, 2, 4 ... steps. An error of 0 means that it blew up.
 std::optional<double> order(const std::vector<double>& errors, bool at_rest = false) {
   const report::SolverCase c{.scene = {.key = "ball", .name = "Ball", .at_rest = at_rest},
-                             .reference = {.change = 1e-6}};
+                             .reference = {{.change = 1e-6}}};
   report::WorkCurve curve{nullptr};
   int steps = 1;
   for (const double e : errors) {

@@ -8,6 +8,7 @@
 
 #include "app/base/text.h"
 #include "app/report/solver/results.h"
+#include "app/report/sums.h"
 #include "softbody/state/lanes.h"
 
 namespace app::report {
@@ -152,17 +153,17 @@ void add_promise(Page& page, const SolverResults& r) {
 
 void add_stiffness(Page& page, const SolverResults& r) {
   Table table;
-  for (const StiffnessCase& c : r.stiffness)
-    for (const Stiffness& s : c.meshes) {
+  for (const auto& meshes : groups_of(r.stiffness, &Stiffness::body))
+    for (const Stiffness& s : meshes) {
       const auto beside_first = [](double value, double first) {
         return fmt::format("{:+.1f} %", 100 * (value / first - 1));
       };
-      table.add({{"body", c.name},
+      table.add({{"body", s.body},
                  {"particles", whole(double(s.particles))},
                  {"sag, R", brief(s.sag)},
-                 {"beside the coarsest", beside_first(s.sag, c.meshes[0].sag)},
+                 {"beside the coarsest", beside_first(s.sag, meshes[0].sag)},
                  {"period, ms", brief(1e3 * s.period)},
-                 {"beside it", beside_first(s.period, c.meshes[0].period)}});
+                 {"beside it", beside_first(s.period, meshes[0].period)}});
     }
   if (table.empty()) return;
   page.add("stiffness");

@@ -36,15 +36,12 @@ std::vector<SolverScene> solver_scenes();
 inline constexpr int solver_frames = 30;
 inline constexpr double solver_frame_time = 1.0 / 60, solver_seconds = solver_frames * solver_frame_time;
 
-/// What the outcomes of a scene are compared with.
-struct SolverReference {
+/// What the outcomes of a scene are compared with: the end of a run and how far it can be trusted. Only ReferenceBody
+/// fills in `end`, of the one body that it models.
+struct SolverReference : reference::Reference {
   std::vector<reference::BodyState> bodies{};  // at the end
   double energy = 0, energy_scale = 0;         // J
   std::string what{};                          // it is
-  double step = 0;                             // s
-  double change = 0;                           // R, when its step was halved
-  double growth = 0;                           // of a disturbance
-  bool converged = false;                      // change is within the bound
 };
 
 /// One integrator with one number of steps per frame.
@@ -127,21 +124,17 @@ struct CoarseResults {
 /// `shapes` at several resolutions, the finest of them the mesh itself. quick: once, with fewer.
 CoarseResults measure_coarse(bool quick);
 
-/// A body of one mesh.
+/// A body of one shape and one material.
 struct Stiffness {
-  std::size_t particles;
-  double sag;     // R: how much lower it is on the ground, at rest, than in free flight
-  double period;  // s, of its slowest swing after it was stretched
+  std::string body;       // its shape and its forces
+  std::size_t particles;  // of its mesh
+  double sag;             // R: how much lower it is on the ground, at rest, than in free flight
+  double period;          // s, of its slowest swing after it was stretched
 };
 
-/// A body of one shape and one material, in meshes from coarse to fine.
-struct StiffnessCase {
-  std::string name;
-  std::vector<Stiffness> meshes;
-};
-
-/// Measures whether a material is as stiff in a fine mesh as in a coarse one. quick: without the finest meshes.
-std::vector<StiffnessCase> measure_stiffness(bool quick);
+/// Measures whether a material is as stiff in a fine mesh as in a coarse one, each body in meshes from coarse to fine.
+/// quick: without the finest meshes.
+std::vector<Stiffness> measure_stiffness(bool quick);
 
 struct SolverEffort {
   double seconds = 0;                 // of processor time: a curve ends with the first run that takes longer ...
@@ -156,8 +149,8 @@ struct SolverResults {
   SolverEffort effort{};
   TimedParts timed{};  // the repetitions
   std::vector<SolverCase> cases{};
-  CoarseResults coarse{};                  // empty where a scene was asked for
-  std::vector<StiffnessCase> stiffness{};  // empty if one scene was asked for
+  CoarseResults coarse{};              // empty where a scene was asked for
+  std::vector<Stiffness> stiffness{};  // empty if one scene was asked for
 };
 
 /// Returns solver.csv: a row per point. What has no meaning is empty.

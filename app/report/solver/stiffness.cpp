@@ -117,18 +117,16 @@ double period(const softbody::Scene& scene) {
 
 }  // namespace
 
-std::vector<StiffnessCase> measure_stiffness(bool quick) {
-  std::vector<StiffnessCase> cases;
-  for (const Shape& shape : shapes) {
-    StiffnessCase& c = cases.emplace_back(StiffnessCase{shape.name, {}});
+std::vector<Stiffness> measure_stiffness(bool quick) {
+  std::vector<Stiffness> bodies;
+  for (const Shape& shape : shapes)
     for (int subdivisions = shape.coarsest; subdivisions <= (quick ? shape.coarsest + 1 : finest); ++subdivisions) {
-      say(c.name, double(subdivisions - shape.coarsest) / (finest + 1 - shape.coarsest));
+      say(shape.name, double(subdivisions - shape.coarsest) / (finest + 1 - shape.coarsest));
       softbody::Scene scene = lone_scene(material(shape.shape_frequency));
       scene.bodies[0].mesh = shape.mesh(subdivisions);
-      c.meshes.push_back({scene.bodies[0].mesh.make().vertices.size(), sag(scene), period(scene)});
+      bodies.push_back({shape.name, scene.bodies[0].mesh.make().vertices.size(), sag(scene), period(scene)});
     }
-  }
-  return cases;
+  return bodies;
 }
 
 }  // namespace app::report

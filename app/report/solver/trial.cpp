@@ -102,12 +102,10 @@ SolverReference world_reference(const SolverScene& scene, double bound, std::uin
 
 SolverReference body_reference(const World& world, double bound, std::uint64_t steps) {
   const reference::ReferenceBody body(world.model(0), world.scene());
-  reference::Reference r =
-      find_reference(body, reference::state_of(world, 0), bound, {.seconds = solver_seconds, .steps = steps});
-  SolverReference t{};
-  t.energy = body.energy(r.end);
-  t.bodies.push_back(std::move(r.end));
-  t.step = r.step, t.change = r.change, t.growth = r.growth, t.converged = r.converged;
+  SolverReference t{
+      find_reference(body, reference::state_of(world, 0), bound, {.seconds = solver_seconds, .steps = steps})};
+  t.energy = body.energy(t.end);
+  t.bodies = {t.end};
   t.what = "RK4 in double, a program of its own";
   return t;
 }
