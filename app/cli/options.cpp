@@ -154,12 +154,12 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
   return detect;
 }
 
-CLI::App* add_report(CLI::App& cli, Options& options, std::optional<double>& tolerance) {
+CLI::App* add_report(CLI::App& cli, Options& options) {
   report::ReportOptions& r = options.report;
   CLI::App* report = cli.add_subcommand("report", "measure for minutes; write tables and plots");
   report->add_option("what", r.name, "detection, contact, solver or stability");
   report->add_option("FILE", r.files, "detection: OBJ or PLY files, consecutive frames of your own in place of scenes");
-  add(*report, "--tolerance", "H", tolerance, "of FILE: collision tolerance in metres");
+  add(*report, "--tolerance", "H", r.tolerance, "of FILE: collision tolerance in metres");
   add_bodies_option(*report, r.by);
   add(*report, "--rest", "FILE", r.rest, "of FILE: bodies at rest, as for `detect`");
   add(*report, "--scene", "S", r.scene, "only this scene: a key of `list scenes` or a .toml file");
@@ -226,11 +226,11 @@ void check(const Options& options) {
   if (options.animation) check_animation(options);
 }
 
-/// Completes the options of a report. tolerance: as given. Throws UsageError.
-void complete_report(report::ReportOptions& r, std::optional<double> tolerance) {
+/// Throws UsageError for what does not go with the report.
+void check_report(const report::ReportOptions& r) {
   if (r.name.empty()) throw UsageError("report: say which one: detection, contact, solver or stability");
   if (r.files.empty()) {
-    for (const auto& [option, given] : {std::pair("--tolerance", tolerance.has_value()),
+    for (const auto& [option, given] : {std::pair("--tolerance", r.tolerance.has_value()),
                                         {"--bodies", r.by.has_value()},
                                         {"--rest", r.rest.has_value()}})
       if (given) throw UsageError(std::string(option) + ": goes with files; write report detection FILE...");
@@ -239,12 +239,11 @@ void complete_report(report::ReportOptions& r, std::optional<double> tolerance) 
   if (r.name != "detection")
     throw UsageError("report " + r.name + " " + r.files.front() + ": only report detection takes files");
   if (r.scene) throw UsageError("--scene " + *r.scene + ": goes without files; leave one of them out");
-  if (!tolerance) throw UsageError("--tolerance: is missing; files need one, in metres");
+  if (!r.tolerance) throw UsageError("--tolerance: is missing; files need one, in metres");
   DetectionOptions detection;
-  detection.tolerance = tolerance;
+  detection.tolerance = r.tolerance;
   collide::Settings settings;
   apply(detection, settings);
-  r.tolerance = *tolerance;
 }
 
 /// Throws UsageError for what does not go with recorded frames.
@@ -279,7 +278,6 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   Options options;
   options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   std::string size, captures;
-  std::optional<double> report_tolerance;
 
   CLI::App cli{
       "Soft spheres fall on a solid sphere while a detector finds their collisions and self-collisions.\n"
@@ -299,7 +297,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
 
   const CLI::App* simulate = add_simulate(cli, options, size, captures);
   const CLI::App* detect = add_detect(cli, options);
-  const CLI::App* report = add_report(cli, options, report_tolerance);
+  const CLI::App* report = add_report(cli, options);
   CLI::App* list = cli.add_subcommand("list", "print keys and names, a line each");
   list->add_option("what", options.list_of, "scenes, methods, integrators or contact-surfaces (default: all)")
       ->check(CLI::IsMember({"scenes", "methods", "integrators", "contact-surfaces"}));
@@ -316,7 +314,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     throw UsageError(reason(error) + "; see sbcollide " + command + "--help");
   }
   refuse_missing_values(cli);
-  if (*report) complete_report(options.report, report_tolerance);
+  if (*report) check_report(options.report);
   if (*detect && !options.detect.continuous && !options.detection.tolerance)
     throw UsageError("--tolerance: is missing; contacts need one, in metres, unless --continuous is given");
   options.command = *simulate ? Command::simulate

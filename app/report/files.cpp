@@ -1,6 +1,5 @@
 #include "app/report/files.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <iostream>
 
@@ -46,46 +45,32 @@ void run_in_parallel(collide::Workers& workers, std::size_t count, const std::fu
 }
 
 std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options) {
-  const auto scene_named = [](const std::string& name) {
-    softbody::Scene scene = softbody::find_scene(name, files::scene_folder());
-    files::protect_input(softbody::scene_path(name, files::scene_folder()));
-    files::protect_input(softbody::presets_path(files::scene_folder()));
-    files::protect_inputs(scene);
-    return scene;
-  };
-  if (options.scene) return {scene_named(*options.scene)};
+  const std::filesystem::path folder = files::scene_folder();
   std::vector<softbody::Scene> scenes;
-  for (const std::string& key : softbody::scene_keys(files::scene_folder())) scenes.push_back(scene_named(key));
+  for (const std::string& name : options.scene ? std::vector{*options.scene} : softbody::scene_keys(folder)) {
+    scenes.push_back(softbody::find_scene(name, folder));
+    files::protect_input(softbody::scene_path(name, folder));
+    files::protect_input(softbody::presets_path(folder));
+    files::protect_inputs(scenes.back());
+  }
   return scenes;
 }
 
-std::string command_of(const ReportOptions& o) {
-  std::string text = "sbcollide report " + o.name;
-  if (o.scene) text.append(" --scene ").append(*o.scene);
-  if (!o.files.empty()) {
-    text.append(" ").append(o.files.front());
-    if (o.files.size() > 2) text += " ...";
-    if (o.files.size() > 1) text.append(" ").append(o.files.back());
-    text += fmt::format(" --tolerance {:.9g}", o.tolerance);
-  }
-  if (o.by)
-    text.append(" --bodies ").append(std::ranges::find(files::bodies_by_keys, *o.by, &files::BodiesByKey::value)->key);
-  if (o.rest) text.append(" --rest ").append(*o.rest);
-  if (o.quick) text += " --quick";
-  if (o.threads) text.append(" --threads ").append(std::to_string(*o.threads));
-  return text + " --out DIR";
+std::uint64_t vertex_count(const softbody::Scene& scene) {
+  std::uint64_t vertices = 0;
+  for (const softbody::BodySource& body : scene.bodies) vertices += body.mesh.vertex_count();
+  return vertices;
 }
 
-void write_report(const std::filesystem::path& folder, std::string_view csv_name, const Table& figures,
-                  std::string_view page_name, const Page& page) {
+void write_report(const ReportOptions& options, const Table& figures, std::string_view page_name, const Page& page) {
   auto files = draw_all(page.plots());
   clear_progress();
   const std::string text = page.markdown(!files.empty());
-  files.emplace(files.begin(), csv_name, figures.csv());
+  files.emplace(files.begin(), options.name + ".csv", figures.csv());
   files.emplace_back(page_name, text);
-  for (const auto& [name, bytes] : files) files::require_no_input(folder / name);
-  for (const auto& [name, bytes] : files) files::write_file(folder / name, bytes);
-  for (const auto& [name, bytes] : files) std::cout << (folder / name).string() << '\n';
+  for (const auto& [name, bytes] : files) files::require_no_input(options.out / name);
+  for (const auto& [name, bytes] : files) files::write_file(options.out / name, bytes);
+  for (const auto& [name, bytes] : files) std::cout << (options.out / name).string() << '\n';
   for (const std::string& warning : page.warnings()) std::fprintf(stderr, "sbcollide: %s\n", warning.c_str());
 }
 

@@ -23,12 +23,11 @@ void run_in_parallel(collide::Workers& workers, std::size_t count, const std::fu
 /// Returns the scene that is asked for, or all. Throws SceneError.
 std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options);
 
-/// Returns the command that makes the report again; of more than two files of a sequence it has the first and the last.
-std::string command_of(const ReportOptions& options);
+/// Returns the number of vertices of all bodies, also of those that appear later.
+std::uint64_t vertex_count(const softbody::Scene& scene);
 
 /// Writes the figures, the page and its plots into a folder that exists, and prints the path of each file. The page's
 /// warnings go to standard error. Without gnuplot it leaves out the plots and says so there, too.
-void write_report(const std::filesystem::path& folder, std::string_view csv_name, const Table& figures,
-                  std::string_view page_name, const Page& page);
+void write_report(const ReportOptions& options, const Table& figures, std::string_view page_name, const Page& page);
 
 }  // namespace app::report

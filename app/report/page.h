@@ -10,6 +10,7 @@
 #include "app/base/table.h"
 #include "app/base/timings.h"
 #include "app/report/plot.h"
+#include "app/report/report.h"
 
 namespace app::report {
 
@@ -17,22 +18,42 @@ namespace app::report {
 /// empty where they are good. Parts on several threads count as good if they had one core together.
 std::string warn_of_busy_machine(const TimedParts& timed);
 
+/// Returns the command that makes the report again; of more than two files of a sequence it has the first and the last.
+std::string command_of(const ReportOptions& options);
+
 class Page {
  public:
-  /// report: names assets/reports/`report`.txt, which has the longer texts of the page.
-  explicit Page(std::string report) : report_(std::move(report)) {}
+  /// Its longer texts are the parts of assets/reports/NAME.txt, where NAME is that of the report. A part is what stands
+  /// between the line "=== PART" and the next such line. Throws engine::ResourceError if the file cannot be read.
+  explicit Page(const ReportOptions& options) : options_(options) {}
 
   /// Adds a heading or a paragraph.
   template <class... Values>
   void text(fmt::format_string<Values...> pattern, Values&&... values) {
     parts_.push_back(fmt::format(pattern, std::forward<Values>(values)...) + "\n");
   }
-  /// Adds a part of the page's file: what stands between its line "=== part" and the next such line. holes: fmt::arg()
-  /// for each of its {names}. Leaves out an item that is only a hole, and empty. Throws engine::ResourceError if the
-  /// file cannot be read.
+  /// Returns a part of the page's file without its last newline. holes: fmt::arg() for each of its {names}.
+  template <class... Holes>
+  std::string text_of(const std::string& part, const Holes&... holes) const {
+    return fmt::vformat(part_of_file(part), fmt::make_format_args(holes...));
+  }
+  /// Adds a part of the page's file. Leaves out an item that is only a hole, and empty.
   template <class... Holes>
   void add(const std::string& part, const Holes&... holes) {
-    fill(part, fmt::make_format_args(holes...));
+    add_filled(text_of(part, holes...));
+  }
+  /// Adds the part "introduction". Besides `holes` it has {command}, which makes the report again, and {quick}: the
+  /// part of this name if the report is quick.
+  template <class... Holes>
+  void introduce(const Holes&... holes) {
+    add("introduction", holes..., fmt::arg("command", command_of(options_)),
+        fmt::arg("quick", options_.quick ? text_of("quick") : ""));
+  }
+  /// Returns a plot without series. The part has a line each for the caption, the title and the axes x and y; the rest
+  /// are its settings.
+  template <class... Holes>
+  Plot plot_of(const std::string& part, std::string name, const Holes&... holes) const {
+    return empty_plot(std::move(name), text_of(part, holes...));
   }
   /// Adds a paragraph that write_report() also prints on standard error. An empty one is left out.
   void warn(const std::string& text);
@@ -47,9 +68,11 @@ class Page {
   std::string markdown(bool with_plots) const;
 
  private:
-  void fill(const std::string& part, fmt::format_args holes);
+  std::string part_of_file(const std::string& part) const;
+  void add_filled(std::string text);
+  static Plot empty_plot(std::string name, const std::string& text);
 
-  std::string report_;
+  ReportOptions options_;
   std::vector<std::string> parts_;  // empty: the next plot
   std::vector<Plot> plots_;
   std::vector<std::string> warnings_;

@@ -1,21 +1,15 @@
 #include "app/report/plot.h"
 
-#include <fcntl.h>
-#include <spawn.h>
+#include <stdio.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <array>
 #include <cassert>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <stdexcept>
 
 #include <fmt/core.h>
-
-extern char** environ;
 
 namespace app::report {
 namespace {
@@ -25,30 +19,6 @@ std::string literal(std::string_view text) {
   std::string result = "'";
   for (const char c : text) result.append(c == '\'' ? 2 : 1, c);
   return result + "'";
-}
-
-using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
-/// Returns a file without a name, for input or output of the child. It holds any amount, so that neither side waits.
-File temporary() {
-  File file(std::tmpfile(), &std::fclose);
-  if (!file) throw std::runtime_error("gnuplot: no temporary file can be made; is the disk full?");
-  return file;
-}
-
-File holding(const std::string& text) {
-  File file = temporary();
-  std::fwrite(text.data(), 1, text.size(), file.get());
-  std::rewind(file.get());  // for the child, which shares the position; flushes, too
-  return file;
-}
-
-std::string contents(std::FILE* file) {
-  std::string text;
-  std::array<char, 4096> part;
-  std::rewind(file);
-  while (const std::size_t size = std::fread(part.data(), 1, part.size(), file)) text.append(part.data(), size);
-  return text;
 }
 
 const char* terminal(Picture kind) {
@@ -84,22 +54,19 @@ std::string script(const Plot& plot) {
 }
 
 std::string draw(const std::string& script, Picture kind) {
-  const File in = holding(terminal(kind) + script), out = temporary();
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ::fileno(in.get()), STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, ::fileno(out.get()), STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  std::array<std::string, 2> words{"gnuplot", "-"};
-  char* const argv[] = {words[0].data(), words[1].data(), nullptr};
-  pid_t child = 0;
-  const int error = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, argv, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw std::runtime_error("gnuplot cannot be started; install gnuplot-nox");
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  std::string picture = contents(out.get());
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || picture.empty())
+  // The picture goes into a file without a name, which holds any amount, so that neither side waits.
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::tmpfile(), &std::fclose);
+  if (!out) throw std::runtime_error("gnuplot: no temporary file can be made; is the disk full?");
+  const std::string text = terminal(kind) + script;
+  std::FILE* const in = ::popen(fmt::format("gnuplot - 2>/dev/null >/dev/fd/{}", ::fileno(out.get())).c_str(), "w");
+  if (in) std::fwrite(text.data(), 1, text.size(), in);
+  const int status = in ? ::pclose(in) : -1;
+  constexpr int not_found = 127;  // as the shell says it
+  if (!in || (WIFEXITED(status) && WEXITSTATUS(status) == not_found))
+    throw std::runtime_error("gnuplot cannot be started; install gnuplot-nox");
+  std::string picture;
+  for (int c = std::fgetc(out.get()); c != EOF; c = std::fgetc(out.get())) picture.push_back(static_cast<char>(c));
+  if (status != 0 || picture.empty())
     throw std::runtime_error("gnuplot could not draw a plot; it needs version 5.2 or later");
   return picture;
 }

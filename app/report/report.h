@@ -15,7 +15,7 @@ struct ReportOptions {
   std::optional<std::string> scene;  // only this one
   // detection: the frames of a recorded sequence, in place of scenes
   std::vector<std::string> files;
-  double tolerance = 0;               // m, of the sequence
+  std::optional<double> tolerance;    // m, of the sequence
   std::optional<files::BodiesBy> by;  // what a body of the sequence is; otherwise the format's default
   std::optional<std::string> rest;    // the bodies of the sequence at rest
   bool quick = false;                 // within a minute: less of everything

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/report/solver/trial.h"
+#include "app/report/solver/results.h"
 #include "tests/cli/report_rig.h"
 
 namespace cli::test {
@@ -82,15 +82,15 @@ TEST_F(SolverReport, SaysThatTheReferenceDoesNotModelAScene) {
 }
 
 TEST(MeasureStiffness, FindsThatAMaterialSagsAndSwingsAlikeInFinerMeshes) {
-  const auto cases = app::report::measure_stiffness(true);
-  EXPECT_EQ(cases.size(), 3u);
-  for (const auto& c : cases) {
-    ASSERT_EQ(c.meshes.size(), 2u);
-    const auto &coarse = c.meshes[0], &fine = c.meshes[1];
+  const auto bodies = app::report::measure_stiffness(true);
+  ASSERT_EQ(bodies.size(), 6u);
+  for (std::size_t i = 0; i < bodies.size(); i += 2) {
+    const auto &coarse = bodies[i], &fine = bodies[i + 1];
+    EXPECT_EQ(fine.body, coarse.body);
     EXPECT_GT(fine.particles, 3 * coarse.particles);
-    EXPECT_GT(coarse.sag, 0.05) << c.name << ": it is soft";
-    EXPECT_NEAR(fine.sag, coarse.sag, 0.1 * coarse.sag) << c.name;
-    EXPECT_NEAR(fine.period, coarse.period, 0.1 * coarse.period) << c.name;
+    EXPECT_GT(coarse.sag, 0.05) << coarse.body << ": it is soft";
+    EXPECT_NEAR(fine.sag, coarse.sag, 0.1 * coarse.sag) << coarse.body;
+    EXPECT_NEAR(fine.period, coarse.period, 0.1 * coarse.period) << coarse.body;
   }
 }
 
@@ -112,11 +112,10 @@ TEST(SolverReportErrors, ComeBeforeAnythingRuns) {
 
 /// The reference is coarser than the report's, but for the errors at hand fine enough.
 TEST(SolverScenes, AutoKeepsItsPromise) {
-  constexpr app::report::SolverRun run;
   constexpr double bound = 1e-3;           // R, a tenth of what is promised
   constexpr std::uint64_t steps = 60'000;  // of the reference, at most
   for (const app::report::SolverScene& scene : app::report::solver_scenes()) {
-    const app::report::SolverCase c = begin_case(scene, run, bound, steps);
+    const app::report::SolverCase c = begin_case(scene, bound, steps);
     EXPECT_TRUE(c.reference.converged) << scene.key;
     EXPECT_TRUE(c.keeps_promise()) << scene.key << ": " << c.own("auto").error << " R of " << c.allowed() << " R";
   }

@@ -57,7 +57,7 @@ TEST(Plot, IsDrawnSeriesBySeries) {
 }
 
 TEST(Page, HasOneEmptyLineBetweenItsParts) {
-  report::Page page("");
+  report::Page page({});
   page.text("# {}", "Balls");
   page.text("- first\n- second");
   page.plot(line());
@@ -69,20 +69,23 @@ TEST(Page, HasOneEmptyLineBetweenItsParts) {
 }
 
 TEST(Page, FillsTheHolesOfIntroductionsAndLeavesOutEmptyItems) {
-  const auto check = [](auto results, report::Page (*page_of)(const decltype(results)&)) {
-    results.command = "this";
+  const auto check = [](const std::string& name, auto results, report::Page (*page_of)(const decltype(results)&)) {
+    results.options.name = name;
     for (const bool quick : {false, true}) {
-      results.quick = quick;
+      results.options.quick = quick;
       const std::string text = page_of(results).markdown(false);
-      EXPECT_NE(text.find("\n\n`this` makes this report."), text.npos) << text;
+      EXPECT_NE(
+          text.find("\n\n`sbcollide report " + name + (quick ? " --quick" : "") + " --out DIR` makes this report."),
+          text.npos)
+          << text;
       EXPECT_EQ(text.find_first_of("{}"), text.npos) << text;
       EXPECT_EQ(text.find("\n- \n"), text.npos) << text;
       EXPECT_EQ(text.find("\n- This is the quick report") != text.npos, quick) << text;
     }
   };
-  check(report::ContactResults{}, report::contact_page);
-  check(report::DetectionResults{}, report::detection_page);
-  check(report::StabilityResults{}, report::stability_page);
+  check("contact", report::ContactResults{}, report::contact_page);
+  check("detection", report::DetectionResults{}, report::detection_page);
+  check("stability", report::StabilityResults{}, report::stability_page);
 }
 
 TEST(WarnOfBusyMachine, ComparesProcessorTimeWithTheClock) {
@@ -94,7 +97,7 @@ TEST(WarnOfBusyMachine, ComparesProcessorTimeWithTheClock) {
 }
 
 TEST(Page, KeepsItsWarningsApartToo) {
-  report::Page page("");
+  report::Page page({});
   page.text("# Balls");
   page.warn("");
   page.warn("Times may be off.");

@@ -6,7 +6,7 @@
 
 #include <limits>
 
-#include "app/report/stability/cases.h"
+#include "app/report/worlds.h"
 #include "tests/solids.h"
 
 namespace app::test {

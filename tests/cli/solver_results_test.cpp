@@ -12,7 +12,7 @@ constexpr double bound = 2e-5;  // R
 /// Returns the order of a curve with these errors at 1, 2, 4 ... steps. An error of 0 means that it blew up.
 std::optional<double> order(const std::vector<double>& errors, bool at_rest = false) {
   const report::SolverCase c{.scene = {.key = "ball", .name = "Ball", .at_rest = at_rest},
-                             .reference = {.change = 1e-6}};
+                             .reference = {{.change = 1e-6}}};
   report::WorkCurve curve{nullptr};
   int steps = 1;
   for (const double e : errors) {
@@ -75,6 +75,7 @@ TEST(SolverCasePromise, IsNotKeptByWhatBlowsUp) {
 
 TEST(SolverPage, ShowsWhetherThePromiseIsKept) {
   report::SolverResults r;
+  r.options.name = "solver";
   r.cases.push_back(with_own_errors(0.004, 1e-3));
   EXPECT_NE(report::solver_page(r).markdown(false).find("| kept |"), std::string::npos);
   r.cases.push_back(with_own_errors(0.02, 1e-3));
@@ -92,6 +93,7 @@ TEST(SolverCaseOrder, IsNothingIfErrorsDoNotFallOrNothingMoves) {
 /// Returns what the page says about curves that end early. Each has one point, with so many steps.
 std::string left_out(const std::vector<int>& ends) {
   report::SolverResults r;
+  r.options.name = "solver";
   r.effort = {.seconds = 0.5, .max_substeps = 64, .bound = bound};
   report::SolverCase& c = r.cases.emplace_back(with_own_errors(1e-6, 1e-6));
   for (const int n : ends)

@@ -1,14 +1,13 @@
 // Cells of `report stability` in which bodies join a running world: they are credited with what they bring, and no
 // more.
 
-#include "app/report/stability/cell.h"
+#include "app/report/stability/results.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/report/stability/cases.h"
 #include "softbody/contact/keys.h"
 #include "tests/solids.h"
 

@@ -3,7 +3,6 @@
 
 #include "app/files/output_file.h"
 #include "app/report/contact/results.h"
-#include "app/report/detection/recording.h"
 #include "app/report/files.h"
 
 namespace app::report {
@@ -26,80 +25,43 @@ std::vector<ContactChoice> make_choices(bool quick) {
   return choices;
 }
 
-/// One run.
-struct Job {
-  softbody::Scene scene;
-  TrialLimits limits;
-  std::size_t of_case, choice;  // indices
-};
-
-class ContactReport {
- public:
-  explicit ContactReport(const ReportOptions& options) : options_(options) {
-    const bool quick = options.quick;
-    results.quick = quick;
-    results.command = command_of(options);
-    results.limits = quick ? TrialLimits{.frames = 600, .stride = 20, .seconds = 10} : TrialLimits{};
-    results.vertex_frames = quick ? 3'000'000 : 10'000'000;
-    results.choices = make_choices(quick);
-  }
-
-  void add_scene(const softbody::Scene& scene) {
-    const std::uint64_t cost = vertex_count(scene) * static_cast<std::uint64_t>(results.limits.frames);
-    const bool over = cost > results.vertex_frames;
-    add({.key = scene.key, .name = scene.name}, scene, results.limits, over);
-  }
-
-  void add_impact(const Impact& impact, double speed) {
-    const softbody::Scene scene = impact.make(speed);
-    // Until a second after the ball got there.
-    const int frames = 60 + static_cast<int>(60 * 0.3 / speed);
-    add({.impact = true, .key = std::string(impact.key), .name = std::string(impact.name), .speed = speed}, scene,
-        {.frames = frames, .stride = 1, .seconds = results.limits.seconds}, false);
-  }
-
-  void run() {
-    collide::Workers workers(options_.threads.value_or(options_.cores));
-    const auto what = [&](std::size_t i) {
-      return jobs_[i].scene.key + ", " + choice_name(results.choices[jobs_[i].choice]);
-    };
-    run_in_parallel(workers, jobs_.size(), what, [&](std::size_t i) {
-      ContactTrial& trial = results.cases[jobs_[i].of_case].trials[jobs_[i].choice];
-      trial = run_contact_trial(std::move(jobs_[i].scene), trial.choice, jobs_[i].limits);
-    });
-  }
-
-  ContactResults results;
-
- private:
-  void add(ContactCase c, const softbody::Scene& scene, const TrialLimits& limits, bool over_budget) {
-    for (const ContactChoice& choice : results.choices) {
-      if (!over_budget) jobs_.push_back({scene, limits, results.cases.size(), c.trials.size()});
-      c.trials.push_back({.choice = choice, .not_run = over_budget ? "over the budget of vertices times frames" : ""});
+ContactResults planned(const ReportOptions& options) {
+  const bool quick = options.quick;
+  ContactResults r{.options = options, .choices = make_choices(quick)};
+  if (quick) r.limits = {.frames = 600, .stride = 20, .seconds = 10};
+  r.vertex_frames = quick ? 3'000'000 : 10'000'000;
+  for (const softbody::Scene& scene : chosen_scenes(options))
+    if (!quick || options.scene || std::ranges::count(quick_scenes, scene.key) > 0)
+      r.cases.push_back({scene, r.limits});
+  for (const Impact impact : options.scene ? std::span<const Impact>() : impacts())
+    for (const double speed : quick ? std::span<const double>(quick_speeds) : speeds) {
+      const int frames = 60 + static_cast<int>(60 * 0.3 / speed);  // until a second after the ball got there
+      r.cases.push_back({impact(speed), {.frames = frames, .stride = 1, .seconds = r.limits.seconds}, speed});
     }
-    results.cases.push_back(std::move(c));
-  }
-
-  const ReportOptions& options_;
-  std::vector<Job> jobs_;
-};
+  for (ContactCase& c : r.cases)
+    for (const ContactChoice& choice : r.choices) c.trials.push_back({.choice = choice});
+  return r;
+}
 
 }  // namespace
 
 void report_contact(const ReportOptions& options) {
-  const std::vector<softbody::Scene> scenes = chosen_scenes(options);
+  ContactResults r = planned(options);
   files::prepare_folder(options.out);
-  ContactReport report(options);
-  for (const softbody::Scene& scene : scenes) {
-    if (!options.quick || options.scene || std::ranges::count(quick_scenes, scene.key) > 0) report.add_scene(scene);
-  }
-  if (!options.scene) {
-    for (const Impact& impact : impacts())
-      for (const double speed : options.quick ? std::span<const double>(quick_speeds) : speeds)
-        report.add_impact(impact, speed);
-  }
-  report.run();
-  write_report(options.out, "contact.csv", contact_table(report.results), "contact.md", contact_page(report.results));
+  const std::size_t choices = r.choices.size();
+  const auto what = [&](std::size_t i) {
+    return r.cases[i / choices].scene.key + ", " + choice_name(r.choices[i % choices]);
+  };
+  collide::Workers workers(options.threads.value_or(options.cores));
+  run_in_parallel(workers, r.cases.size() * choices, what, [&](std::size_t i) {
+    ContactCase& c = r.cases[i / choices];
+    ContactTrial& trial = c.trials[i % choices];
+    if (vertex_count(c.scene) * static_cast<std::uint64_t>(c.limits.frames) > r.vertex_frames)
+      trial.not_run = "over the budget of vertices times frames";
+    else
+      trial = run_contact_trial(c.scene, trial.choice, c.limits);
+  });
+  write_report(options, contact_table(r), "contact.md", contact_page(r));
 }
 
 }  // namespace app::report

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cassert>
 #include <span>
+#include <utility>
 
 #include <fmt/core.h>
 
 #include "app/base/text.h"
 #include "app/report/contact/results.h"
+#include "app/report/sums.h"
 
 namespace app::report {
 
@@ -15,21 +17,21 @@ std::string choice_name(const ContactChoice& choice) {
                      choice.tolerance);
 }
 
-// ---- the table of figures ----
-
 namespace {
+
+// ---- the table of figures ----
 
 std::string_view key_of(softbody::ContactSurface surface) {
   return std::ranges::find(softbody::contact_surfaces, surface, &softbody::ContactSurfaceInfo::value)->key;
 }
 
 TableRow row_of(const ContactCase& c, const ContactTrial& t) {
-  const bool run = t.not_run.empty();
+  const bool run = t.was_run();
   const bool vertices = t.choice.surface == softbody::ContactSurface::vertices;  // else it has no method and tolerance
   return {
-      {"part", c.impact ? "impact" : "scene"},
-      {"scene", c.key},
-      {"speed", when(c.impact, c.speed)},
+      {"part", c.speed ? "impact" : "scene"},
+      {"scene", c.scene.key},
+      {"speed", c.speed},
       {"contact_surface", key_of(t.choice.surface)},
       {"method", when(vertices, t.choice.method)},
       {"tolerance_ratio", when(vertices, t.choice.tolerance)},
@@ -62,21 +64,7 @@ TableRow row_of(const ContactCase& c, const ContactTrial& t) {
   };
 }
 
-}  // namespace
-
-Table contact_table(const ContactResults& results) {
-  Table table;
-  for (const ContactCase& c : results.cases)
-    for (const ContactTrial& t : c.trials) table.add(row_of(c, t));
-  return table;
-}
-
-namespace {
-
 // ---- plots ----
-
-constexpr const char* axis_from_zero =
-    "unset logscale y\nset yrange [0:*]\nset offsets graph 0, graph 0, graph 0.05, graph 0\n";
 
 /// Series have the methods' colours, black for surface contact, and a shape per tolerance.
 Series series(const ContactChoice& choice, std::string_view lines, std::vector<Point> points) {
@@ -87,33 +75,25 @@ Series series(const ContactChoice& choice, std::string_view lines, std::vector<P
           fmt::format("{} pointtype {} pointsize 1.5 linewidth 2", lines, shape), std::move(points)};
 }
 
-Plot depth_against_time(const ContactCase& c) {
-  Plot plot{.name = "contact-time-" + c.key,
-            .caption = c.name + ": left is cheaper, down is more accurate.",
-            .title = c.name + ": the deepest penetration against run time",
-            .x = "processor time per frame, ms",
-            .y = "deepest penetration, R",
-            .settings = axis_from_zero};
+Plot depth_against_time(const Page& page, const ContactCase& c) {
+  Plot plot = page.plot_of("depth against time", "contact-time-" + c.scene.key, fmt::arg("scene", c.scene.name));
   for (const ContactTrial& t : c.trials)
-    if (t.not_run.empty() && t.radius > 0) plot.add(series(t.choice, "points", {{t.cpu_ms, t.deepest / t.radius}}));
+    if (t.was_run() && t.radius > 0) plot.add(series(t.choice, "points", {{t.cpu_ms, t.deepest / t.radius}}));
   return plot;
 }
 
-Plot passed_against_speed(std::span<const ContactCase> cases) {
+Plot passed_against_speed(const Page& page, std::span<const ContactCase> cases) {
   assert(!cases.empty());
   const ContactCase& first = cases.front();
-  const bool solid = first.key == "solid";
-  Plot plot{.name = "contact-impact-" + first.key,
-            .caption = first.name + ": 0 is right.",
-            .title = first.name + ": what passed through",
-            .x = "speed, m/s",
-            .y = solid ? "bodies that went through the solid" : "vertices that passed through",
-            .settings = axis_from_zero};
+  const bool solid = first.scene.key == "solid";
+  Plot plot =
+      page.plot_of("passed against speed", "contact-impact-" + first.scene.key, fmt::arg("impact", first.scene.name),
+                   fmt::arg("what", solid ? "bodies that went through the solid" : "vertices that passed through"));
   for (std::size_t i = 0; i < first.trials.size(); ++i) {
     std::vector<Point> points;
     for (const ContactCase& c : cases) {
       const ContactTrial& t = c.trials[i];
-      if (t.not_run.empty()) points.push_back({c.speed, static_cast<double>(solid ? t.through_solids : t.passed)});
+      if (t.was_run()) points.push_back({*c.speed, static_cast<double>(solid ? t.through_solids : t.passed)});
     }
     plot.add(series(first.trials[i].choice, "linespoints", std::move(points)));
   }
@@ -122,16 +102,9 @@ Plot passed_against_speed(std::span<const ContactCase> cases) {
 
 // ---- the page ----
 
-void add_introduction(Page& page, const ContactResults& r) {
-  page.add("introduction", fmt::arg("command", r.command), fmt::arg("stride", r.limits.stride),
-           fmt::arg("depth", ContactTrial::depth_bound), fmt::arg("frames", r.limits.frames),
-           fmt::arg("budget", whole(static_cast<double>(r.vertex_frames))), fmt::arg("seconds", r.limits.seconds),
-           fmt::arg("quick", r.quick ? "This is the quick report: fewer scenes, frames, speeds and tolerances." : ""));
-}
-
-std::string missed_share(std::size_t missed, std::size_t penetrations, const ContactChoice& choice) {
+std::string missed_share(double missed, double penetrations, const ContactChoice& choice) {
   if (choice.surface == softbody::ContactSurface::surfaces || penetrations == 0) return "";
-  return fmt::format("{:.1f} %", 100 * static_cast<double>(missed) / static_cast<double>(penetrations));
+  return fmt::format("{:.1f} %", 100 * missed / penetrations);
 }
 
 std::string verdict(const ContactTrial& t, std::string_view in_order = "ok") {
@@ -139,51 +112,31 @@ std::string verdict(const ContactTrial& t, std::string_view in_order = "ok") {
   return failures.empty() ? std::string(in_order) : joined(failures, "; ");
 }
 
-bool was_run(const ContactTrial& t) { return t.not_run.empty(); }
-
 // ---- all scenes ----
 
-/// One choice over all scenes in which every choice was run.
-struct Total {
-  std::size_t run = 0, failing = 0, penetrations = 0, missed = 0, passed = 0, through = 0, awake = 0;
-  double deepest = 0, end_depth = 0, mean_depth = 0, jitter = 0, ms = 0;  // depths in R; mean_depth a sum
-
-  void add(const ContactTrial& t) {
-    ++run;
-    failing += !t.failures().empty();
-    penetrations += t.penetrations;
-    missed += t.missed;
-    passed += t.passed;
-    through += t.through_solids;
-    awake += t.settles && !t.asleep;
-    jitter = std::max(jitter, t.jitter);
-    ms += t.cpu_ms;
-    if (t.radius == 0) return;
-    deepest = std::max(deepest, t.deepest / t.radius);
-    end_depth = std::max(end_depth, t.end_depth / t.radius);
-    mean_depth += static_cast<double>(t.penetrations) * t.mean_depth / t.radius;
-  }
-};
-
+/// Returns a row per choice, over all scenes in which every choice was run.
 Table overview(const ContactResults& r) {
   Table table;
   for (std::size_t i = 0; i < r.choices.size(); ++i) {
-    Total total;
+    std::vector<ContactTrial> trials;
     for (const ContactCase& c : r.cases)
-      if (!c.impact && std::ranges::all_of(c.trials, was_run)) total.add(c.trials[i]);
-    const double count = static_cast<double>(std::max<std::size_t>(total.penetrations, 1));
+      if (!c.speed && std::ranges::all_of(c.trials, &ContactTrial::was_run)) trials.push_back(c.trials[i]);
+    using Trial = const ContactTrial&;
+    const double failing = sum_of(trials, [](Trial t) { return !t.failures().empty(); }),
+                 penetrations = sum_of(trials, &ContactTrial::penetrations),
+                 depths = sum_of(trials, [](Trial t) { return double(t.penetrations) * t.in_radii(t.mean_depth); });
     table.add({{"contact", choice_name(r.choices[i])},
-               {"scenes that fail", fmt::format("{} of {}", total.failing, total.run)},
-               {"penetrating", grouped(total.penetrations)},
-               {"missed", missed_share(total.missed, total.penetrations, r.choices[i])},
-               {"deepest, R", brief(total.deepest)},
-               {"mean, R", brief(total.mean_depth / count)},
-               {"at the end, R", brief(total.end_depth)},
-               {"passed", grouped(total.passed)},
-               {"through a solid", grouped(total.through)},
-               {"awake", grouped(total.awake)},
-               {"jitter, mm/s", brief(1e3 * total.jitter)},
-               {"ms", brief(total.ms)}});
+               {"scenes that fail", fmt::format("{} of {}", whole(failing), trials.size())},
+               {"penetrating", whole(penetrations)},
+               {"missed", missed_share(sum_of(trials, &ContactTrial::missed), penetrations, r.choices[i])},
+               {"deepest, R", brief(max_of(trials, [](Trial t) { return t.in_radii(t.deepest); }))},
+               {"mean, R", brief(depths / std::max(penetrations, 1.0))},
+               {"at the end, R", brief(max_of(trials, [](Trial t) { return t.in_radii(t.end_depth); }))},
+               {"passed", whole(sum_of(trials, &ContactTrial::passed))},
+               {"through a solid", whole(sum_of(trials, &ContactTrial::through_solids))},
+               {"awake", whole(sum_of(trials, [](Trial t) { return t.settles && !t.asleep; }))},
+               {"jitter, mm/s", brief(1e3 * max_of(trials, &ContactTrial::jitter))},
+               {"ms", brief(sum_of(trials, &ContactTrial::cpu_ms))}});
   }
   return table;
 }
@@ -195,12 +148,12 @@ Table side_by_side(const ContactResults& r) {
   });
   Table table;
   for (const ContactCase& c : r.cases) {
-    if (c.impact || std::ranges::none_of(c.trials, was_run)) continue;
+    if (c.speed || std::ranges::none_of(c.trials, &ContactTrial::was_run)) continue;
     const ContactTrial &surface = c.trials.front(), &other = c.trials[std::size_t(exact - r.choices.begin())];
-    const bool run = was_run(other);
-    table.add({{"scene", fmt::format("`{}`", c.key)},
+    const bool run = other.was_run();
+    table.add({{"scene", fmt::format("`{}`", c.scene.key)},
                {"surface contact", verdict(surface, surface.asleep ? "nothing passed, all asleep" : "nothing passed")},
-               {"ms", when(was_run(surface), brief(surface.cpu_ms, 2))},
+               {"ms", when(surface.was_run(), brief(surface.cpu_ms, 2))},
                {"vertex-vertex: passed", run ? grouped(other.passed) : other.not_run},
                {"deepest, mm", when(run && other.radius > 0, whole(1e3 * other.deepest))},
                {"ms", when(run, brief(other.cpu_ms, 2))}});
@@ -211,15 +164,16 @@ Table side_by_side(const ContactResults& r) {
 // ---- scenes and impacts ----
 
 void add_scene(Page& page, const ContactCase& c) {
-  page.text("### {}", c.name);
-  if (std::ranges::none_of(c.trials, was_run)) return page.text("Not run: {}.", c.trials.front().not_run);
+  page.text("### {}", c.scene.name);
+  if (std::ranges::none_of(c.trials, &ContactTrial::was_run))
+    return page.text("Not run: {}.", c.trials.front().not_run);
   Table table;
   for (const ContactTrial& t : c.trials) {
-    const bool run = was_run(t);
-    const auto in_radii = [&](double depth) { return run && t.radius > 0 ? brief(depth / t.radius) : ""; };
+    const bool run = t.was_run();
+    const auto in_radii = [&](double depth) { return when(run && t.radius > 0, brief(t.in_radii(depth))); };
     table.add({{"contact", choice_name(t.choice)},
                {"penetrating", when(run, brief(static_cast<double>(t.penetrations) / std::max(t.looks, 1)))},
-               {"missed", when(run, missed_share(t.missed, t.penetrations, t.choice))},
+               {"missed", when(run, missed_share(double(t.missed), double(t.penetrations), t.choice))},
                {"deepest, R", in_radii(t.deepest)},
                {"mean, R", in_radii(t.mean_depth)},
                {"at the end, R", in_radii(t.end_depth)},
@@ -230,27 +184,36 @@ void add_scene(Page& page, const ContactCase& c) {
                {"verdict", verdict(t)}});
   }
   page.table(table);
-  page.plot(depth_against_time(c));
+  page.plot(depth_against_time(page, c));
 }
 
 /// A row per choice, a column per speed.
 void add_impact(Page& page, std::span<const ContactCase> cases) {
-  page.text("### {}", cases.front().name);
+  page.text("### {}", cases.front().scene.name);
   Table table;
   for (std::size_t i = 0; i < cases.front().trials.size(); ++i) {
     TableRow row{{"contact", choice_name(cases.front().trials[i].choice)}};
-    for (const ContactCase& c : cases) row.push_back({fmt::format("{:g} m/s", c.speed), verdict(c.trials[i])});
+    for (const ContactCase& c : cases) row.push_back({fmt::format("{:g} m/s", *c.speed), verdict(c.trials[i])});
     table.add(row);
   }
   page.table(table, 1 + cases.size());
-  page.plot(passed_against_speed(cases));
+  page.plot(passed_against_speed(page, cases));
 }
 
 }  // namespace
 
+Table contact_table(const ContactResults& results) {
+  Table table;
+  for (const ContactCase& c : results.cases)
+    for (const ContactTrial& t : c.trials) table.add(row_of(c, t));
+  return table;
+}
+
 Page contact_page(const ContactResults& results) {
-  Page page("contact");
-  add_introduction(page, results);
+  Page page(results.options);
+  page.introduce(fmt::arg("stride", results.limits.stride), fmt::arg("depth", ContactTrial::depth_bound),
+                 fmt::arg("frames", results.limits.frames), fmt::arg("budget", grouped(results.vertex_frames)),
+                 fmt::arg("seconds", results.limits.seconds));
   TimedParts timed;
   for (const ContactCase& c : results.cases)
     for (const ContactTrial& trial : c.trials) timed += trial.timed;
@@ -262,14 +225,14 @@ Page contact_page(const ContactResults& results) {
     page.table(table, 2);
   }
   page.text("## Scenes");
-  auto c = results.cases.begin();
-  for (; c != results.cases.end() && !c->impact; ++c) add_scene(page, *c);
-  if (c != results.cases.end()) page.text("## Impacts");
-  while (c != results.cases.end()) {
-    const auto end =
-        std::find_if(c, results.cases.end(), [&](const ContactCase& other) { return other.key != c->key; });
-    add_impact(page, {c, end});
-    c = end;
+  bool impacts = false;
+  for (const auto& cases : groups_of(results.cases, [](const ContactCase& c) { return c.scene.key; })) {
+    if (!cases.front().speed) {
+      add_scene(page, cases.front());
+      continue;
+    }
+    if (!std::exchange(impacts, true)) page.text("## Impacts");
+    add_impact(page, cases);
   }
   return page;
 }

@@ -1,4 +1,4 @@
-#include "app/report/contact/trial.h"
+#include "app/report/contact/results.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,10 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
-#include "app/base/timings.h"
-#include "app/base/usage_error.h"
 #include "app/compare/world_oracle.h"
 #include "app/files/scene_folder.h"
 #include "app/report/solid_passages.h"
-#include "app/report/steps.h"
+#include "app/report/worlds.h"
 #include "softbody/model/body_model.h"
 #include "softbody/world/measures.h"
 
@@ -185,66 +183,60 @@ class Trial {
 
 constexpr double ball_radius = 0.5, gap = 0.3;  // m
 
-/// Returns the scene A without gravity, solids and bodies. Its first material is that of the balls.
-softbody::Scene empty_scene(const std::string& key) {
+/// Returns scene A without gravity and solids, in which only a ball flies down to the origin, a little off the middle.
+/// `top`: height of what is there.
+softbody::Scene thrown_ball(std::string key, std::string name, double top, double speed) {
   softbody::Scene scene = softbody::find_scene("A", files::scene_folder());
+  scene.key = std::move(key);
+  scene.name = std::move(name);
   scene.gravity = glm::dvec3(0.0);
   scene.solids.clear();
-  scene.bodies.clear();
-  scene.key = key;
+  scene.bodies.assign(1, {});
+  scene.bodies[0].mesh.radius = ball_radius;
+  scene.bodies[0].position = {0.04, top + gap + ball_radius, 0.03};
+  scene.bodies[0].velocity = {0, -speed, 0};
   return scene;
 }
 
-/// Adds a ball that flies down to the origin, a little off the middle. `top`: height of what is there.
-void add_ball(softbody::Scene& scene, double top, double speed) {
-  softbody::BodySource ball;
-  ball.mesh.radius = ball_radius;
-  ball.position = {0.04, top + gap + ball_radius, 0.03};
-  ball.velocity = {0, -speed, 0};
-  scene.bodies.push_back(ball);
+/// Puts a body at the origin, at rest.
+softbody::BodySource& add_target(softbody::Scene& scene) {
+  softbody::BodySource& target = *scene.bodies.insert(scene.bodies.begin(), softbody::BodySource());
+  target.position = glm::dvec3(0.0);
+  return target;
 }
 
 softbody::Scene at_sphere(double speed) {
-  softbody::Scene scene = empty_scene("sphere");
-  softbody::BodySource target;
-  target.mesh.radius = ball_radius;
-  target.position = glm::dvec3(0.0);
-  scene.bodies.push_back(target);
-  add_ball(scene, ball_radius, speed);
+  softbody::Scene scene = thrown_ball("sphere", "A sphere thrown at a resting sphere", ball_radius, speed);
+  add_target(scene).mesh.radius = ball_radius;
   return scene;
 }
 
 softbody::Scene at_solid(double speed) {
-  softbody::Scene scene = empty_scene("solid");
   const softbody::SolidSphere sphere;
+  softbody::Scene scene = thrown_ball("solid", "A sphere thrown at the solid sphere", sphere.radius, speed);
   scene.solids = {{sphere}};
-  add_ball(scene, sphere.radius, speed);
   return scene;
 }
 
 softbody::Scene at_sheet(double speed) {
-  softbody::Scene scene = empty_scene("sheet");
+  softbody::Scene scene = thrown_ball("sheet", "A sphere thrown at a hanging sheet", 0, speed);
   scene.materials.push_back(softbody::find_scene("cloth", files::scene_folder()).materials.front());
-  softbody::BodySource sheet;
+  softbody::BodySource& sheet = add_target(scene);
   sheet.mesh = {.kind = "grid", .columns = 24, .rows = 24, .width = 2, .depth = 2};
   sheet.material = 1;
-  sheet.position = glm::dvec3(0.0);
-  scene.bodies.push_back(sheet);
-  add_ball(scene, 0, speed);
   return scene;
 }
 
-constexpr std::array all_impacts{Impact{"sphere", "A sphere thrown at a resting sphere", at_sphere},
-                                 Impact{"solid", "A sphere thrown at the solid sphere", at_solid},
-                                 Impact{"sheet", "A sphere thrown at a hanging sheet", at_sheet}};
-
 }  // namespace
 
-std::span<const Impact> impacts() { return all_impacts; }
+std::span<const Impact> impacts() {
+  static constexpr std::array all{at_sphere, at_solid, at_sheet};
+  return all;
+}
 
 std::vector<std::string> ContactTrial::failures() const {
   std::vector<std::string> all;
-  if (!not_run.empty()) return {not_run};
+  if (!was_run()) return {not_run};
   if (!finite) all.push_back("not finite");
   if (through_solids > 0) all.push_back(fmt::format("through a solid: {}", through_solids));
   if (radius > 0 && solid_depth > depth_bound * radius)

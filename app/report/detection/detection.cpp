@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "app/files/output_file.h"
-#include "app/report/detection/recording.h"
 #include "app/report/detection/results.h"
 #include "app/report/files.h"
 
@@ -17,28 +16,20 @@ compare::SweepLimits limits_of(const ReportOptions& options) {
   return {};
 }
 
-/// Lets every method run on all bodies of the largest scene, brute force for some ten seconds; except in a quick
-/// report.
-compare::SweepLimits growth_limits(const DetectionResults& results) {
-  compare::SweepLimits limits = results.limits;
-  if (!results.quick) limits.budget = 500'000'000'000;
-  return limits;
-}
-
-StateResult sweep_state(const RecordedState& state, const std::vector<compare::Configuration>& configurations,
-                        const compare::SweepLimits& limits, collide::Workers& workers, const std::string& what) {
-  compare::Sweep sweep(state.view(), configurations, limits, workers);
-  while (sweep.step()) say(what, sweep.progress());
-  return {state.frame, state.bodies.count(), state.bodies.vertex_count(), sweep.report()};
-}
-
-SceneResult sweep_scene(const Recording& recording, const DetectionResults& results, collide::Workers& workers) {
-  SceneResult scene{recording.scene, recording.name, recording.buckets, {}};
-  for (const RecordedState& state : recording.states) {
-    const std::string what = recording.scene + ", frame " + std::to_string(state.frame);
-    scene.states.push_back(sweep_state(state, recording.configurations, results.limits, workers, what));
+/// Measures all configurations on all states. what: says which state it is.
+void sweep(SceneResult& scene, TimedParts& timed, const compare::SweepLimits& limits, collide::Workers& workers,
+           const auto& what) {
+  for (MeasuredState& state : scene.states) {
+    compare::Sweep sweep(state.view(), scene.configurations, limits, workers);
+    while (sweep.step()) say(what(state), sweep.progress());
+    state.sweep = sweep.report();
+    timed += state.sweep.timed;
   }
-  return scene;
+}
+
+void sweep_frames(SceneResult& scene, DetectionResults& results, collide::Workers& workers) {
+  sweep(scene, results.timed, results.limits, workers,
+        [&](const MeasuredState& state) { return scene.scene + ", frame " + std::to_string(state.frame); });
 }
 
 /// Returns those with the paper's level and the automatic cell, with its 1001 buckets and with the sweep's largest
@@ -55,18 +46,19 @@ std::vector<compare::Configuration> growth_configurations(std::vector<compare::C
   return all;
 }
 
-SceneResult sweep_growth(const Recording& recording, const DetectionResults& results, collide::Workers& workers) {
-  SceneResult growth{recording.scene, recording.name, recording.buckets, {}};
-  const RecordedState& all = recording.states.front();  // no pile yet: the middle is as dense as the rest
-  const auto configurations = growth_configurations(recording.configurations);
-  const auto add = [&](const RecordedState& state) {
-    const std::string what = "growth, bodies: " + std::to_string(state.bodies.count());
-    growth.states.push_back(sweep_state(state, configurations, growth_limits(results), workers, what));
-  };
-  for (const collide::Index count : growth_bodies) {
-    if (count < all.bodies.count()) add(middle_bodies(all, count));
-  }
-  if (!growth.states.empty()) add(all);
+/// Returns piles of more and more bodies out of the scene's first state, which is no pile yet: the middle is as dense
+/// as the rest.
+SceneResult sweep_growth(const SceneResult& scene, DetectionResults& results, collide::Workers& workers) {
+  SceneResult growth{scene.scene, scene.name, scene.buckets, growth_configurations(scene.configurations)};
+  const MeasuredState& all = scene.states.front();
+  for (const collide::Index count : growth_bodies)
+    if (count < all.bodies.count()) growth.states.push_back(middle_bodies(all, count));
+  if (!growth.states.empty()) growth.states.push_back(all);
+  compare::SweepLimits limits = results.limits;
+  // Every method is to run on all bodies of the largest scene, brute force for some ten seconds.
+  if (!results.options.quick) limits.budget = 500'000'000'000;
+  sweep(growth, results.timed, limits, workers,
+        [](const MeasuredState& state) { return "growth, bodies: " + std::to_string(state.bodies.count()); });
   return growth;
 }
 
@@ -80,33 +72,26 @@ void measure_scenes(const ReportOptions& options, DetectionResults& results, col
     const bool swept = !options.quick || options.scene || std::ranges::count(paper_scenes, scene.key) > 0;
     if (!swept && !largest) continue;
     say(scene.key + ": simulating", 0);
-    const Recording recording = record(scene, options.quick, options.cores);
-    if (swept) results.scenes.push_back(sweep_scene(recording, results, workers));
-    if (largest) results.growth = sweep_growth(recording, results, workers);
+    SceneResult result = record(scene, options.quick, options.cores);
+    if (swept) sweep_frames(result, results, workers);
+    if (largest) results.growth = sweep_growth(result, results, workers);
+    if (swept) results.scenes.push_back(std::move(result));
   }
-}
-
-void measure_sequence(const ReportOptions& options, DetectionResults& results, collide::Workers& workers) {
-  const Recording recording = record_sequence(options);
-  files::prepare_folder(options.out);
-  results.scenes.push_back(sweep_scene(recording, results, workers));
 }
 
 }  // namespace
 
 void report_detection(const ReportOptions& options) {
-  DetectionResults results;
-  results.quick = options.quick;
-  results.threads = options.threads.value_or(1);
-  results.limits = limits_of(options);
-  results.command = command_of(options);
-  results.of_files = options.files.size();
-  collide::Workers workers(results.threads);
-  if (options.files.empty())
+  DetectionResults results{.options = options, .limits = limits_of(options)};
+  collide::Workers workers(options.threads.value_or(1));
+  if (options.files.empty()) {
     measure_scenes(options, results, workers);
-  else
-    measure_sequence(options, results, workers);
-  write_report(options.out, "detection.csv", detection_table(results), "report.md", detection_page(results));
+  } else {
+    SceneResult& sequence = results.scenes.emplace_back(record_sequence(options));
+    files::prepare_folder(options.out);
+    sweep_frames(sequence, results, workers);
+  }
+  write_report(options, detection_table(results), "report.md", detection_page(results));
 }
 
 }  // namespace app::report

@@ -14,57 +14,48 @@ namespace {
 
 /// Returns the hashes of a scene with the automatic cell: of the vertex hash, then of the boxes' corners by level.
 TableRow hash_row(const SceneResult& scene) {
-  double vertices = 0;  // on average: bodies may appear between the states
-  for (const StateResult& s : scene.states) vertices += static_cast<double>(s.vertices);
-  vertices /= static_cast<double>(scene.states.size());
+  const double vertices = sum_of(scene.states, [](const MeasuredState& s) { return s.bodies.vertex_count(); }) /
+                          static_cast<double>(scene.states.size());  // on average: bodies may appear between the states
   const std::vector<Mean> all = means(scene);
-  const auto hashes = [&](std::string_view method, std::optional<int> level) -> std::string {
-    const auto found = std::ranges::find_if(all, [&](const Mean& m) {
-      const compare::Configuration& c = m.configuration;
-      return m.not_run.empty() && c.cell == 1 && method_of(c).key == method && (!level || c.settings.levels == *level);
-    });
-    return found == all.end() ? "not run" : fmt::format("{} ({:.2f})", whole(found->hashes), found->hashes / vertices);
+  const auto hashes = [&](std::string_view method, int level) -> std::string {
+    const Mean* found = find(all, method, level);
+    if (!found) return "not run";
+    const double mean = found->mean([](const compare::SweepRow* row) { return row->counters.hashes; });
+    return fmt::format("{} ({:.2f})", whole(mean), mean / vertices);
   };
-  TableRow row{{"scene", scene.scene}, {"N", whole(vertices)}, {"Grid Hash", hashes("grid-hash", std::nullopt)}};
+  TableRow row{{"scene", scene.scene}, {"N", whole(vertices)}, {"Grid Hash", hashes("grid-hash", 0)}};
   for (const int level : compare::sweep_levels)
     row.push_back({fmt::format("8 corners per box, level {}", level), hashes(collide::paper_method, level)});
   return row;
 }
 
-void add_hash_counts(Page& page, const DetectionResults& r) {
-  Table table;
-  for (const SceneResult& scene : r.scenes) table.add(hash_row(scene));
-  page.add("hashes");
-  page.table(table);
-}
-
-/// The exponents p of cost ~ bodies^p between the last two states that a configuration ran on. Nothing where a cost is
-/// 0, or if there are no two such states.
-struct Exponents {
-  std::optional<double> hashes, pair_tests, ms;
+/// What grows with the number of bodies.
+struct Cost {
+  const char* exponent;  // its column
+  double (*of)(const compare::SweepRow& row);
 };
+constexpr Cost hash_cost{"p of hashes", [](const compare::SweepRow& r) { return double(r.counters.hashes); }};
+constexpr Cost pair_cost{"p of pair tests", [](const compare::SweepRow& r) { return double(r.counters.pair_tests); }};
+constexpr Cost time_cost{"p of ms", [](const compare::SweepRow& r) { return r.times.median(); }};
 
-Exponents exponents(const SceneResult& growth, std::size_t row) {
-  std::vector<const StateResult*> run;
-  for (const StateResult& s : growth.states)
-    if (s.sweep.rows[row].not_run.empty()) run.push_back(&s);
-  if (run.size() < 2) return {};
-  const StateResult &before = *run[run.size() - 2], &last = *run.back();
-  const compare::SweepRow &a = before.sweep.rows[row], &b = last.sweep.rows[row];
-  const double bodies = static_cast<double>(last.bodies) / before.bodies;
-  const auto p = [&](auto from, auto to) -> std::optional<double> {
-    if (!(from > 0 && to > 0)) return std::nullopt;
-    return std::log(static_cast<double>(to) / static_cast<double>(from)) / std::log(bodies);
-  };
-  return {p(a.counters.hashes, b.counters.hashes), p(a.counters.pair_tests, b.counters.pair_tests),
-          p(a.times.median(), b.times.median())};
+/// Returns the exponent p of cost ~ bodies^p between the last two states that a configuration ran on. Returns nothing
+/// where a cost is 0, or if there are no two such states.
+std::optional<double> exponent(const SceneResult& growth, std::size_t configuration, const Cost& cost) {
+  std::vector<const MeasuredState*> run;
+  for (const MeasuredState& s : growth.states)
+    if (s.sweep.rows[configuration].not_run.empty()) run.push_back(&s);
+  if (run.size() < 2) return std::nullopt;
+  const MeasuredState &before = *run[run.size() - 2], &last = *run.back();
+  const double from = cost.of(before.sweep.rows[configuration]), to = cost.of(last.sweep.rows[configuration]);
+  if (!(from > 0 && to > 0)) return std::nullopt;
+  return std::log(to / from) / std::log(double(last.bodies.count()) / before.bodies.count());
 }
 
 /// Returns the range of one exponent over all configurations: "1.00 to 1.97".
-std::string range(const SceneResult& growth, std::optional<double> Exponents::*which) {
+std::string range(const SceneResult& growth, const Cost& cost) {
   std::vector<double> all;
-  for (std::size_t i = 0; i < growth.states.front().sweep.rows.size(); ++i)
-    if (const auto p = exponents(growth, i).*which) all.push_back(*p);
+  for (std::size_t i = 0; i < growth.configurations.size(); ++i)
+    if (const auto p = exponent(growth, i, cost)) all.push_back(*p);
   if (all.empty()) return "not known";
   const auto [min, max] = std::ranges::minmax(all);
   return fmt::format("{:.2f} to {:.2f}", min, max);
@@ -77,44 +68,36 @@ std::string cost(const compare::SweepRow& row, collide::Index vertices) {
 }
 
 Table growth_table(const SceneResult& growth) {
-  const auto text = [](std::optional<double> p) { return p ? fmt::format("{:.2f}", *p) : ""; };
   Table table;
-  for (std::size_t i = 0; i < growth.states.front().sweep.rows.size(); ++i) {
-    const compare::Configuration& c = growth.states.front().sweep.rows[i].configuration;
+  for (std::size_t i = 0; i < growth.configurations.size(); ++i) {
+    const compare::Configuration& c = growth.configurations[i];
     TableRow row{{"method", method_of(c).name}, {"buckets", buckets_of(c)}};
-    for (const StateResult& s : growth.states)
-      row.push_back({fmt::format("{} bodies", grouped(s.bodies)), cost(s.sweep.rows[i], s.vertices)});
-    const Exponents p = exponents(growth, i);
-    row.push_back({"p of hashes", text(p.hashes)});
-    row.push_back({"p of pair tests", text(p.pair_tests)});
-    row.push_back({"p of ms", text(p.ms)});
+    for (const MeasuredState& s : growth.states)
+      row.push_back(
+          {fmt::format("{} bodies", grouped(s.bodies.count())), cost(s.sweep.rows[i], s.bodies.vertex_count())});
+    for (const Cost& of : {hash_cost, pair_cost, time_cost}) {
+      const auto p = exponent(growth, i, of);
+      row.push_back({of.exponent, p ? fmt::format("{:.2f}", *p) : ""});
+    }
     table.add(row);
   }
   return table;
 }
 
-Plot cost_against_bodies(const SceneResult& growth) {
-  const bool all_ran = std::ranges::all_of(growth.states, [](const StateResult& state) {
-    return std::ranges::all_of(state.sweep.rows, [](const compare::SweepRow& row) { return row.not_run.empty(); });
-  });
-  Plot plot{.name = "cost-bodies",
-            .caption = all_ran
-                           ? "Cost against bodies, level 3, automatic cell size."
-                           : "Cost against bodies, level 3, automatic cell size; a line ends where the budget does.",
-            .title = "Cost of a frame against the number of bodies",
-            .x = "bodies",
-            .y = "detection from scratch, ms per frame",
-            .settings = "set ytics format '%g'\n"};
-  for (std::size_t i = 0; i < growth.states.front().sweep.rows.size(); ++i) {
-    const compare::Configuration& c = growth.states.front().sweep.rows[i].configuration;
+Plot cost_against_bodies(const Page& page, const SceneResult& growth) {
+  const bool all_ran = std::ranges::all_of(means(growth), &Mean::ran);
+  Plot plot = page.plot_of("cost against bodies", "cost-bodies",
+                           fmt::arg("budget", all_ran ? "" : "; a line ends where the budget does"));
+  for (std::size_t i = 0; i < growth.configurations.size(); ++i) {
+    const compare::Configuration& c = growth.configurations[i];
     const collide::Method& method = method_of(c);
     const bool dashed = method.uses_hash && c.settings.buckets == compare::sweep_buckets.back();
     Series series{method.name + (method.uses_hash ? fmt::format(", {} buckets", buckets_of(c)) : ""), colour(method),
                   fmt::format("linespoints pointtype {} pointsize 1.1 linewidth 1.5 dashtype {}", point_type(method),
                               dashed ? 2 : 1)};
-    for (const StateResult& state : growth.states)
+    for (const MeasuredState& state : growth.states)
       if (const compare::SweepRow& row = state.sweep.rows[i]; row.not_run.empty())
-        series.points.push_back({static_cast<double>(state.bodies), row.times.median()});
+        series.points.push_back({static_cast<double>(state.bodies.count()), row.times.median()});
     plot.add(std::move(series));
   }
   return plot;
@@ -124,13 +107,15 @@ Plot cost_against_bodies(const SceneResult& growth) {
 
 void add_growth(Page& page, const DetectionResults& results) {
   const SceneResult& growth = results.growth;
-  add_hash_counts(page, results);
+  Table hashes;
+  for (const SceneResult& scene : results.scenes) hashes.add(hash_row(scene));
+  page.add("hashes");
+  page.table(hashes);
   if (growth.states.empty()) return;
   page.add("growth", fmt::arg("scene", growth.scene), fmt::arg("frame", growth.states.back().frame),
-           fmt::arg("hashes", range(growth, &Exponents::hashes)),
-           fmt::arg("pair_tests", range(growth, &Exponents::pair_tests)));
+           fmt::arg("hashes", range(growth, hash_cost)), fmt::arg("pair_tests", range(growth, pair_cost)));
   page.table(growth_table(growth));
-  page.plot(cost_against_bodies(growth));
+  page.plot(cost_against_bodies(page, growth));
 }
 
 }  // namespace app::report

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -12,13 +11,14 @@
 
 namespace app::report {
 
-// ---- the table of figures ----
-
 namespace {
+
+// ---- the table of figures ----
 
 constexpr std::array coverage_names{"exact", "covered", "exceeded"};  // by value
 
-TableRow row_of(std::string_view part, const SceneResult& scene, const StateResult& state, const compare::SweepRow& r) {
+TableRow row_of(std::string_view part, const SceneResult& scene, const MeasuredState& state,
+                const compare::SweepRow& r) {
   const compare::Configuration& c = r.configuration;
   const collide::Method& method = method_of(c);
   const glm::vec3 cell = *c.settings.cell_size;
@@ -26,8 +26,8 @@ TableRow row_of(std::string_view part, const SceneResult& scene, const StateResu
   TableRow row{{"part", part},
                {"scene", scene.scene},
                {"frame", state.frame},
-               {"bodies", state.bodies},
-               {"vertices", state.vertices},
+               {"bodies", state.bodies.count()},
+               {"vertices", state.bodies.vertex_count()},
                {"method", method.key},
                {"levels", when(method.uses_levels, c.settings.levels)},
                {"buckets", when(method.uses_hash, c.settings.buckets)},
@@ -55,21 +55,6 @@ TableRow row_of(std::string_view part, const SceneResult& scene, const StateResu
   return row;
 }
 
-}  // namespace
-
-Table detection_table(const DetectionResults& results) {
-  Table table;
-  const auto add = [&](std::string_view part, const SceneResult& scene) {
-    for (const StateResult& state : scene.states)
-      for (const compare::SweepRow& row : state.sweep.rows) table.add(row_of(part, scene, state, row));
-  };
-  for (const SceneResult& scene : results.scenes) add("sweep", scene);
-  add("growth", results.growth);
-  return table;
-}
-
-namespace {
-
 // ---- plots ----
 
 /// Places points without any error on the logarithmic axis of errors, which has no 0: in a band below all others, with
@@ -79,21 +64,17 @@ class ZeroBand {
   explicit ZeroBand(const std::vector<Mean>& means) {
     double min = 0.1;
     for (const Mean& m : means)
-      if (m.not_run.empty() && m.error() > 0) min = std::min(min, m.error());
+      if (m.ran() && m.error() > 0) min = std::min(min, m.error());
     top_ = std::pow(10, std::floor(std::log10(min)));
   }
-  Point point(const Mean& m) const { return {m.ms, m.error() > 0 ? m.error() : lane(m.configuration.method)}; }
-  /// Returns the axis as gnuplot commands.
-  std::string axis() const {
-    const double bottom = lane(collide::method_table().size());
+  Point point(const Mean& m) const { return {m.ms(), m.error() > 0 ? m.error() : lane(m.configuration.method)}; }
+  double bottom() const { return lane(collide::method_table().size()); }
+  double top() const { return top_; }
+  /// Returns the ticks above the band as gnuplot reads them.
+  std::string ticks() const {
     std::string ticks;
     for (double tick = 1; tick > 0.99 * top_; tick /= 10) ticks += fmt::format("'{0:g}' {0:g}, ", tick);
-    return fmt::format(
-        "set yrange [{0:g}:1.5]\n"
-        "set object 1 rectangle from graph 0, first {0:g} to graph 1, first {1:g} behind fillcolor '#eef4ee' fillstyle "
-        "solid noborder\n"
-        "set ytics ({2}'0' {3:g})\n",
-        bottom, top_, ticks, std::sqrt(top_ * bottom));
+    return ticks;
   }
 
  private:
@@ -102,40 +83,30 @@ class ZeroBand {
   double top_;  // the smallest error that the axis shows
 };
 
-/// Returns the points of a method, or of one of its levels: the higher the level, the larger.
-Series series(const std::vector<Mean>& means, const ZeroBand& band, std::size_t method, std::optional<int> level) {
-  const collide::Method& row = collide::method_table()[method];
-  const double size = level ? 0.6 + 0.1 * *level : 1.2;
-  Series series{row.name, colour(row),
-                fmt::format("points pointtype {} pointsize {:g} linewidth 1.5", point_type(row), size)};
-  for (const Mean& m : means)
-    if (m.not_run.empty() && m.configuration.method == method && (!level || m.configuration.settings.levels == *level))
-      series.points.push_back(band.point(m));
-  return series;
-}
-
-/// Adds the points of a method, with one entry in the key.
+/// Adds the points of a method, with one entry in the key: the higher the level, the larger.
 void add_method(Plot& plot, const std::vector<Mean>& means, const ZeroBand& band, std::size_t method) {
-  if (!collide::method_table()[method].uses_levels) return plot.add(series(means, band, method, {}));
-  bool in_key = false;
+  const collide::Method& row = collide::method_table()[method];
+  std::string title = row.name;
   for (auto level = compare::sweep_levels.rbegin(); level != compare::sweep_levels.rend(); ++level) {
-    Series points = series(means, band, method, *level);
-    if (std::exchange(in_key, in_key || !points.points.empty())) points.title.clear();
-    plot.add(std::move(points));
+    const double size = row.uses_levels ? 0.6 + 0.1 * *level : 1.2;
+    Series series{title, colour(row),
+                  fmt::format("points pointtype {} pointsize {:g} linewidth 1.5", point_type(row), size)};
+    for (const Mean& m : means)
+      if (m.ran() && m.configuration.method == method &&
+          (!row.uses_levels || m.configuration.settings.levels == *level))
+        series.points.push_back(band.point(m));
+    if (!series.points.empty()) title.clear();
+    plot.add(std::move(series));
+    if (!row.uses_levels) return;
   }
 }
 
-Plot error_against_time(const SceneResult& scene) {
+Plot error_against_time(const Page& page, const SceneResult& scene) {
   const std::vector<Mean> all = means(scene);
   const ZeroBand band(all);
-  Plot plot{.name = "error-time-" + scene.scene,
-            .caption = "Every configuration that ran on all states of " + scene.name +
-                       "; down and left is better, the shaded band holds those that miss nothing. The larger a mark, "
-                       "the higher its level (0, 3, 6, 9).",
-            .title = scene.name + ": error against run time",
-            .x = "detection from scratch, ms per frame",
-            .y = "missed share of the true contacts",
-            .settings = band.axis()};
+  Plot plot = page.plot_of("error against time", "error-time-" + scene.scene, fmt::arg("scene", scene.name),
+                           fmt::arg("bottom", band.bottom()), fmt::arg("top", band.top()),
+                           fmt::arg("ticks", band.ticks()), fmt::arg("middle", std::sqrt(band.top() * band.bottom())));
   std::vector<Point> front;
   for (const std::size_t i : pareto_front(all)) front.push_back(band.point(all[i]));
   plot.add({"Pareto front", "#000000", "steps linewidth 1.5", front});
@@ -155,41 +126,25 @@ std::string in_words(const compare::Configuration& c) {
 
 void add_introduction(Page& page, const DetectionResults& r) {
   const compare::SweepLimits& l = r.limits;
-  const std::string sequence = fmt::format(
-      "The states are frames of a recorded sequence of {}, counted from 0. Left out is what needs the scenes of the "
-      "program: the paper's Table 1 and the growth with the number of bodies.",
-      grouped(r.of_files));
-  page.add("introduction", fmt::arg("command", r.command), fmt::arg("sequence", r.of_files > 0 ? sequence : ""),
-           fmt::arg("shape", r.of_files > 0 ? "at rest (without --rest, in the first frame)" : "at rest"),
-           fmt::arg("threads", r.threads), fmt::arg("plural", r.threads == 1 ? "" : "s"),
-           fmt::arg("repetitions", l.repetitions), fmt::arg("repeat_ms", l.repeat_ms),
-           fmt::arg("budget", grouped(l.budget)),
-           fmt::arg("quick", r.quick ? "This is the quick report: fewer scenes, frames, states and repetitions." : ""));
+  const std::size_t files = r.options.files.size();
+  const int threads = r.options.threads.value_or(1);
+  page.introduce(fmt::arg("sequence", files > 0 ? page.text_of("sequence", fmt::arg("files", grouped(files))) : ""),
+                 fmt::arg("shape", files > 0 ? "at rest (without --rest, in the first frame)" : "at rest"),
+                 fmt::arg("threads", threads), fmt::arg("plural", threads == 1 ? "" : "s"),
+                 fmt::arg("repetitions", l.repetitions), fmt::arg("repeat_ms", l.repeat_ms),
+                 fmt::arg("budget", grouped(l.budget)));
 }
 
 // ---- Table 1 ----
 
-/// Returns the mean with the paper's settings: level 3, the scene's own buckets, the automatic cell. Returns nothing if
-/// it was not run.
-const Mean* with_papers_settings(const std::vector<Mean>& means, const SceneResult& scene, std::size_t method) {
-  const auto found = std::ranges::find_if(means, [&](const Mean& m) {
-    const compare::Configuration& c = m.configuration;
-    const collide::Method& row = method_of(c);
-    return c.method == method && (!row.uses_levels || c.settings.levels == paper_level) &&
-           (!row.uses_hash || (c.settings.buckets == scene.buckets && c.cell == 1));
-  });
-  return found == means.end() || !found->not_run.empty() ? nullptr : &*found;
-}
-
 std::string detections_per_second(const Mean* m) {
   if (!m) return "not run";
-  return whole(1000 / m->ms) + (m->error() > 0 ? fmt::format(" (recall {:.4f})", 1 - m->error()) : "");
+  return whole(1000 / m->ms()) + (m->error() > 0 ? fmt::format(" (recall {:.4f})", 1 - m->error()) : "");
 }
 
 void add_table_1(Page& page, const DetectionResults& r) {
   Table table;
-  for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
-    const collide::Method& method = collide::method_table()[i];
+  for (const collide::Method& method : collide::method_table()) {
     if (method.key == collide::reference_method) continue;
     const std::string_view whose = method.key == collide::paper_method     ? " (the paper's)"
                                    : method.key == collide::default_method ? " (ours)"
@@ -197,8 +152,8 @@ void add_table_1(Page& page, const DetectionResults& r) {
     TableRow row{{"group", group_name(method)}, {"method", fmt::format("{}{}", method.name, whose)}};
     for (const SceneResult& s : r.scenes)
       if (std::ranges::count(paper_scenes, s.scene) > 0)
-        row.push_back({fmt::format("{}: {} bodies, {} buckets", s.scene, s.states.back().bodies, s.buckets),
-                       detections_per_second(with_papers_settings(means(s), s, i))});
+        row.push_back({fmt::format("{}: {} bodies, {} buckets", s.scene, s.states.back().bodies.count(), s.buckets),
+                       detections_per_second(find(means(s), method.key, paper_level, s.buckets))});
     if (row.size() == 2) return;
     table.add(row);
   }
@@ -213,18 +168,16 @@ void add_table_1(Page& page, const DetectionResults& r) {
 std::vector<std::size_t> best_rows(const std::vector<Mean>& means) {
   std::vector<std::size_t> best;
   for (std::size_t method = 0; method < collide::method_table().size(); ++method) {
-    std::optional<std::size_t> fastest, most_accurate;
-    for (std::size_t i = 0; i < means.size(); ++i) {
-      const Mean& m = means[i];
-      if (m.configuration.method != method || !m.not_run.empty()) continue;
-      const auto better = [&](std::size_t other) {
-        return std::pair(m.error(), m.ms) < std::pair(means[other].error(), means[other].ms);
-      };
-      if (!fastest || m.ms < means[*fastest].ms) fastest = i;
-      if (!most_accurate || better(*most_accurate)) most_accurate = i;
-    }
-    if (fastest) best.push_back(*fastest);
-    if (most_accurate && most_accurate != fastest) best.push_back(*most_accurate);
+    std::vector<std::size_t> ran;
+    for (std::size_t i = 0; i < means.size(); ++i)
+      if (means[i].configuration.method == method && means[i].ran()) ran.push_back(i);
+    if (ran.empty()) continue;
+    const auto ms = [&](std::size_t i) { return means[i].ms(); };
+    const auto error = [&](std::size_t i) { return std::pair(means[i].error(), means[i].ms()); };
+    const std::size_t fastest = *std::ranges::min_element(ran, {}, ms),
+                      most_accurate = *std::ranges::min_element(ran, {}, error);
+    best.push_back(fastest);
+    if (most_accurate != fastest) best.push_back(most_accurate);
   }
   return best;
 }
@@ -235,18 +188,19 @@ Table best_table(const std::vector<Mean>& all) {
   for (const std::size_t i : best_rows(all)) {
     const Mean& m = all[i];
     const compare::Configuration& c = m.configuration;
+    using Row = const compare::SweepRow*;
     table.add({{"method", method_of(c).name},
                {"level", levels_of(c)},
                {"buckets", buckets_of(c)},
                {"cell", cell_of(c)},
-               {"ms median", brief(m.ms)},
-               {"ms min", brief(m.min_ms)},
+               {"ms median", brief(m.ms())},
+               {"ms min", brief(m.mean([](Row r) { return r->times.min(); }))},
                {"recall", m.error() > 0 ? fmt::format("{:.5f}", 1 - m.error()) : "1"},
                {"precision", fmt::format("{:g}", m.precision())},
-               {"pair tests", whole(m.pair_tests)},
-               {"hashes", whole(m.hashes)},
-               {"boxes", whole(m.boxes)},
-               {"memory KiB", whole(static_cast<double>(m.memory) / 1024)},
+               {"pair tests", whole(m.mean([](Row r) { return r->counters.pair_tests; }))},
+               {"hashes", whole(m.mean([](Row r) { return r->counters.hashes; }))},
+               {"boxes", whole(m.mean([](Row r) { return r->counters.boxes; }))},
+               {"memory KiB", whole(max_of(m.rows, &compare::SweepRow::memory) / 1024)},
                {"front", std::ranges::count(front, i) ? "yes" : ""}});
   }
   return table;
@@ -254,9 +208,10 @@ Table best_table(const std::vector<Mean>& all) {
 
 /// Says what is in the scene, in which states, and which method found the true contacts.
 std::string scene_facts(const SceneResult& scene) {
-  const StateResult& last = scene.states.back();
-  std::string text = fmt::format("Bodies: {}, vertices: {}", grouped(last.bodies), grouped(last.vertices));
-  for (const StateResult& s : scene.states)
+  const MeasuredState& last = scene.states.back();
+  std::string text =
+      fmt::format("Bodies: {}, vertices: {}", grouped(last.bodies.count()), grouped(last.bodies.vertex_count()));
+  for (const MeasuredState& s : scene.states)
     text += fmt::format("; frame {}: {} contacts", s.frame, grouped(s.sweep.true_contacts));
   if (!last.sweep.reference)
     return fmt::format("{}. No method could find the true contacts: {}.", text, last.sweep.reference_note);
@@ -265,39 +220,45 @@ std::string scene_facts(const SceneResult& scene) {
 }
 
 std::string over_budget(const std::vector<Mean>& means) {
-  std::map<std::size_t, std::pair<int, int>> count;  // by method: not run, all
-  for (const Mean& m : means) {
-    auto& [not_run, all] = count[m.configuration.method];
-    not_run += !m.not_run.empty();
-    ++all;
-  }
   std::vector<std::string> methods;
-  for (const auto& [method, n] : count)
-    if (n.first > 0)
-      methods.push_back(fmt::format("{}: {} of {}", collide::method_table()[method].name, n.first, n.second));
+  for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
+    const auto count = [&](bool ran) {
+      return std::ranges::count_if(means, [&](const Mean& m) { return m.configuration.method == i && m.ran() == ran; });
+    };
+    if (count(false) > 0)
+      methods.push_back(
+          fmt::format("{}: {} of {}", collide::method_table()[i].name, count(false), count(false) + count(true)));
+  }
   if (methods.empty()) return "Nothing was over budget.";
   return fmt::format("Over budget in one state or more: {} configurations.", joined(methods, "; "));
 }
 
 }  // namespace
 
+Table detection_table(const DetectionResults& results) {
+  Table table;
+  const auto add = [&](std::string_view part, const SceneResult& scene) {
+    for (const MeasuredState& state : scene.states)
+      for (const compare::SweepRow& row : state.sweep.rows) table.add(row_of(part, scene, state, row));
+  };
+  for (const SceneResult& scene : results.scenes) add("sweep", scene);
+  add("growth", results.growth);
+  return table;
+}
+
 Page detection_page(const DetectionResults& results) {
-  Page page("detection");
+  Page page(results.options);
   add_introduction(page, results);
-  TimedParts timed;
-  for (const SceneResult& scene : results.scenes)
-    for (const StateResult& state : scene.states) timed += state.sweep.timed;
-  for (const StateResult& state : results.growth.states) timed += state.sweep.timed;
-  page.warn(warn_of_busy_machine(timed));
+  page.warn(warn_of_busy_machine(results.timed));
   add_table_1(page, results);
-  page.add("best", fmt::arg("scenes", results.of_files > 0 ? "The sequence" : "Scenes"));
+  page.add("best", fmt::arg("scenes", results.options.files.size() > 0 ? "The sequence" : "Scenes"));
   for (const SceneResult& scene : results.scenes) {
     const std::vector<Mean> all = means(scene);
     page.text("### {}", scene.name);
     page.text("{}", scene_facts(scene));
     page.table(best_table(all));
     page.text("{}", over_budget(all));
-    page.plot(error_against_time(scene));
+    page.plot(error_against_time(page, scene));
   }
   add_growth(page, results);
   return page;

@@ -1,4 +1,4 @@
-#include "app/report/detection/recording.h"
+#include "app/report/detection/results.h"
 
 #include <algorithm>
 #include <set>
@@ -16,13 +16,13 @@ namespace {
 
 constexpr std::uint64_t large_scene = 50'000;  // vertices
 
-RecordedState copy(const softbody::World& world) {
-  RecordedState state{{}, world.frame()};
+MeasuredState copy(const softbody::World& world) {
+  MeasuredState state{{}, world.frame()};
   state.copy(world.positions());
   return state;
 }
 
-glm::dvec3 middle(const RecordedState& state, collide::Index begin, collide::Index end) {
+glm::dvec3 middle(const MeasuredState& state, collide::Index begin, collide::Index end) {
   glm::dvec3 sum{0.0};
   for (collide::Index v = begin; v < end; ++v) sum += glm::dvec3(position(state.view(), v));
   return sum / std::max(1.0, static_cast<double>(end - begin));
@@ -30,13 +30,7 @@ glm::dvec3 middle(const RecordedState& state, collide::Index begin, collide::Ind
 
 }  // namespace
 
-std::uint64_t vertex_count(const softbody::Scene& scene) {
-  std::uint64_t vertices = 0;
-  for (const softbody::BodySource& body : scene.bodies) vertices += body.mesh.vertex_count();
-  return vertices;
-}
-
-Recording record(const softbody::Scene& scene, bool quick, int threads) {
+SceneResult record(const softbody::Scene& scene, bool quick, int threads) {
   const std::uint64_t vertices = std::max<std::uint64_t>(vertex_count(scene), 1);
   const std::uint64_t steps = quick ? 1'000'000 : 60'000'000;  // of one vertex each
   const auto last = static_cast<int>(std::clamp<std::uint64_t>(steps / vertices, 2, 800));
@@ -45,8 +39,8 @@ Recording record(const softbody::Scene& scene, bool quick, int threads) {
   if (!quick) frames.insert(std::max(1, last / 8));
   if (!quick && !large) frames.insert(last / 2);
   softbody::World world(scene, {.threads = threads});
-  Recording recording{scene.key, scene.name, world.collision().buckets, {}, {}};
-  std::optional<RecordedState> busiest;
+  SceneResult recording{scene.key, scene.name, world.collision().buckets, {}, {}};
+  std::optional<MeasuredState> busiest;
   std::size_t max_contacts = 0;
   for (const int frame : frames) {
     while (world.frame() < frame) {
@@ -59,7 +53,7 @@ Recording record(const softbody::Scene& scene, bool quick, int threads) {
     recording.states.push_back(copy(world));
   }
   if (busiest && !frames.contains(busiest->frame)) recording.states.push_back(std::move(*busiest));
-  std::ranges::sort(recording.states, {}, &RecordedState::frame);
+  std::ranges::sort(recording.states, {}, &MeasuredState::frame);
   if (recording.states.back().bodies.vertex_count() == 0)
     throw UsageError("scene '" + scene.key + "': no body has arrived by frame " + std::to_string(world.frame()) +
                      ", so there is nothing to measure");
@@ -67,13 +61,13 @@ Recording record(const softbody::Scene& scene, bool quick, int threads) {
   return recording;
 }
 
-Recording record_sequence(const ReportOptions& options) {
+SceneResult record_sequence(const ReportOptions& options) {
   files::FrameSequence sequence({options.files.begin(), options.files.end()}, {.by = options.by, .rest = options.rest});
   collide::Settings settings;
-  settings.tolerance = static_cast<float>(options.tolerance);
+  settings.tolerance = static_cast<float>(*options.tolerance);
   const auto state = [&](std::size_t frame) {
     files::SequenceFrame read = sequence.read(frame);
-    return RecordedState{{{std::move(read.at)}, read.of->bodies}, static_cast<int>(frame)};
+    return MeasuredState{{{std::move(read.at)}, read.of->bodies}, static_cast<int>(frame)};
   };
   const std::size_t count = sequence.count(), last = count - 1;
   std::size_t busiest = 0, max_contacts = 0;
@@ -82,7 +76,7 @@ Recording record_sequence(const ReportOptions& options) {
   collide::Result found;
   for (std::size_t frame = 0; frame < count; ++frame) {
     say("looking for the frame with the most contacts", static_cast<double>(frame) / static_cast<double>(count));
-    const RecordedState here = state(frame);
+    const MeasuredState here = state(frame);
     try {
       detector->detect(here.view(), settings, workers, found);
     } catch (const std::length_error& error) {  // more contacts than a method may report
@@ -97,16 +91,16 @@ Recording record_sequence(const ReportOptions& options) {
   if (!options.quick && sequence.bodies()->bodies.vertex_count() < large_scene) frames.insert({count / 8, count / 2});
 
   const std::filesystem::path first = options.files.front();
-  Recording recording{first.stem().string(), first.filename().string(), settings.buckets, {}, {}};
+  SceneResult recording{first.stem().string(), first.filename().string(), settings.buckets, {}, {}};
   if (count > 1) recording.name += " to " + sequence.file(last).filename().string();
   for (const std::size_t frame : frames) recording.states.push_back(state(frame));
-  const RecordedState begin = state(0);
+  const MeasuredState begin = state(0);
   recording.configurations = compare::sweep_configurations(
       settings, [&](int levels) { return collide::automatic_cell_size(begin.view(), levels, settings.tolerance); });
   return recording;
 }
 
-RecordedState middle_bodies(const RecordedState& state, collide::Index count) {
+MeasuredState middle_bodies(const MeasuredState& state, collide::Index count) {
   const collide::Bodies& all = state.bodies;
   const glm::dvec3 centre = middle(state, 0, all.vertex_count());
   std::vector<std::pair<double, collide::Index>> nearest;  // the body's distance, and which one
@@ -116,7 +110,7 @@ RecordedState middle_bodies(const RecordedState& state, collide::Index count) {
   nearest.resize(std::min<std::size_t>(count, nearest.size()));
   std::ranges::sort(nearest, {}, &std::pair<double, collide::Index>::second);
 
-  RecordedState part{{}, state.frame};
+  MeasuredState part{{}, state.frame};
   for (const auto& [distance, b] : nearest) {
     part.bodies.add(all.shape[b]);
     for (collide::Index v = all.first[b]; v < all.first[b + 1]; ++v) {

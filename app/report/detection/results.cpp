@@ -9,49 +9,53 @@
 #include "app/base/text.h"
 
 namespace app::report {
-namespace {
-
-double share(std::size_t part, std::size_t whole) {
-  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+bool Mean::ran() const {
+  return std::ranges::all_of(rows, [](const compare::SweepRow* row) { return row->not_run.empty(); });
 }
 
-void add(Mean& mean, const compare::SweepRow& row, std::size_t true_contacts, double weight) {
-  if (!row.not_run.empty()) mean.not_run = row.not_run;
-  if (!mean.not_run.empty()) return;
-  mean.ms += weight * row.times.median();
-  mean.min_ms += weight * row.times.min();
-  mean.pair_tests += weight * static_cast<double>(row.counters.pair_tests);
-  mean.hashes += weight * static_cast<double>(row.counters.hashes);
-  mean.boxes += weight * static_cast<double>(row.counters.boxes);
-  mean.contacts += row.contacts;
-  mean.missed += row.missed;
-  mean.true_contacts += true_contacts;
-  mean.memory = std::max(mean.memory, row.memory);
+double Mean::ms() const {
+  return mean([](const compare::SweepRow* row) { return row->times.median(); });
 }
 
-}  // namespace
+double Mean::error() const {
+  return true_contacts == 0 ? 0 : sum_of(rows, &compare::SweepRow::missed) / static_cast<double>(true_contacts);
+}
 
-double Mean::error() const { return share(missed, true_contacts); }
-
-double Mean::precision() const { return 1 - share(contacts - (true_contacts - missed), contacts); }
+double Mean::precision() const {
+  const double contacts = sum_of(rows, &compare::SweepRow::contacts),
+               found = static_cast<double>(true_contacts) - sum_of(rows, &compare::SweepRow::missed);
+  return contacts == 0 ? 1 : 1 - (contacts - found) / contacts;
+}
 
 std::vector<Mean> means(const SceneResult& scene) {
   assert(!scene.states.empty());
   std::vector<Mean> all;
-  for (const compare::SweepRow& row : scene.states.front().sweep.rows)
-    all.emplace_back().configuration = row.configuration;
-  const double weight = 1.0 / static_cast<double>(scene.states.size());
-  for (const StateResult& state : scene.states) {
-    for (std::size_t i = 0; i < all.size(); ++i) add(all[i], state.sweep.rows[i], state.sweep.true_contacts, weight);
+  for (std::size_t i = 0; i < scene.configurations.size(); ++i) {
+    Mean& mean = all.emplace_back(Mean{scene.configurations[i]});
+    for (const MeasuredState& state : scene.states) {
+      mean.rows.push_back(&state.sweep.rows[i]);
+      mean.true_contacts += state.sweep.true_contacts;
+    }
   }
   return all;
+}
+
+const Mean* find(const std::vector<Mean>& means, std::string_view key, int level,
+                 std::optional<std::uint32_t> buckets) {
+  const auto found = std::ranges::find_if(means, [&](const Mean& m) {
+    const compare::Configuration& c = m.configuration;
+    const collide::Method& method = method_of(c);
+    return method.key == key && c.cell == 1 && (!method.uses_levels || c.settings.levels == level) &&
+           (!method.uses_hash || !buckets || c.settings.buckets == *buckets) && m.ran();
+  });
+  return found == means.end() ? nullptr : &*found;
 }
 
 std::vector<std::size_t> pareto_front(const std::vector<Mean>& means) {
   constexpr double never = std::numeric_limits<double>::infinity();
   std::vector<compare::Tradeoff> points;
   for (const Mean& m : means)
-    points.push_back(m.not_run.empty() ? compare::Tradeoff{m.ms, m.error()} : compare::Tradeoff{never, never});
+    points.push_back(m.ran() ? compare::Tradeoff{m.ms(), m.error()} : compare::Tradeoff{never, never});
   return pareto_front(points);
 }
 

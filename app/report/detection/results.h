@@ -2,54 +2,79 @@
 // What `report detection` measures, and its table, page and plots.
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/compare/positions.h"
 #include "app/compare/sweep.h"
 #include "app/report/page.h"
+#include "app/report/sums.h"
 
 namespace app::report {
 
-/// A sweep of one recorded state.
-struct StateResult {
-  int frame = 0;
-  collide::Index bodies = 0, vertices = 0;
-  compare::SweepReport sweep;
+/// A copy of a frame, and a sweep of it.
+struct MeasuredState : compare::FrameCopy {
+  int frame = 0;                 // its number
+  compare::SweepReport sweep{};  // empty until it is measured
 };
 
 /// The same configurations on several states of a scene or of a recorded sequence.
 struct SceneResult {
   std::string scene, name;    // its key and its name; of a sequence the names of its files
   std::uint32_t buckets = 0;  // the scene's own
-  std::vector<StateResult> states;
+  std::vector<compare::Configuration> configurations{};
+  std::vector<MeasuredState> states{};  // in the order of their frames
 };
 
+/// Runs the scene and copies states. A scene runs for at most 800 frames, as the paper's do, and is copied after an
+/// eighth, half and all of them, and in the frame with the most contacts (the first of them). A large scene runs as far
+/// as time allows and is copied twice. `quick` runs less and copies less. Throws UsageError if no body appears, and
+/// SceneError.
+SceneResult record(const softbody::Scene& scene, bool quick, int threads);
+
+/// Returns the frames of a recorded sequence to measure on: the one with the most contacts (the first of them); unless
+/// `quick`, also the last one, and of few vertices those after an eighth and half of all. Throws UsageError or
+/// MeshFileError.
+SceneResult record_sequence(const ReportOptions& options);
+
+/// Returns the `count` bodies nearest to the middle of all: a smaller pile of the same kind.
+MeasuredState middle_bodies(const MeasuredState& state, collide::Index count);
+
 struct DetectionResults {
-  std::string command;  // to make the report again
-  bool quick = false;
-  int threads = 1;  // of the detectors
-  compare::SweepLimits limits;
-  std::size_t of_files = 0;         // frames of the recorded sequence; 0: there is none
-  std::vector<SceneResult> scenes;  // or the one sequence
-  SceneResult growth;  // piles of more and more bodies, cut out of one state; no states if its scene is too small
+  ReportOptions options{};
+  compare::SweepLimits limits{};
+  TimedParts timed{};                 // all sweeps
+  std::vector<SceneResult> scenes{};  // or the one sequence
+  SceneResult growth{};  // piles of more and more bodies, cut out of one state; no states if its scene is too small
 };
 
 /// One configuration over all states of a scene.
 struct Mean {
   compare::Configuration configuration;
-  std::string not_run;        // why it was not run on one of them; if empty, all of these have a meaning
-  double ms = 0, min_ms = 0;  // means of the states' medians and minima
-  double pair_tests = 0, hashes = 0, boxes = 0;             // means
-  std::size_t contacts = 0, missed = 0, true_contacts = 0;  // sums
-  std::size_t memory = 0;                                   // maximum
+  std::vector<const compare::SweepRow*> rows{};  // of the states
+  std::size_t true_contacts = 0;                 // of all states
 
+  /// Returns whether it was run on all states. If not, nothing else has a meaning.
+  bool ran() const;
+  template <class Figure>
+  double mean(const Figure& figure) const {
+    return sum_of(rows, figure) / static_cast<double>(rows.size());
+  }
+  double ms() const;     // mean of the states' medians
   double error() const;  // 1 - recall over all states
   double precision() const;
 };
 
-/// Returns the means in the order of the rows of a state's sweep. The scene has a state.
+/// Returns them in the order of the configurations. They point into the scene.
 std::vector<Mean> means(const SceneResult& scene);
+
+/// Returns a method with that level, the automatic cell and those buckets, as far as it uses them; nothing if it was
+/// not run. Without buckets, the first number of them that was run.
+const Mean* find(const std::vector<Mean>& means, std::string_view method, int level,
+                 std::optional<std::uint32_t> buckets = {});
 
 /// Returns the indices of those on the Pareto front of error against run time.
 std::vector<std::size_t> pareto_front(const std::vector<Mean>& means);

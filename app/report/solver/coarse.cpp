@@ -79,18 +79,22 @@ CoarseResults measure_coarse(bool quick) {
       falls[i] = fall(scenes[i]);
       solving[i].ms.push_back(falls[i].solve_ms);
     }
-  CoarseResults results{vertices, {}};
+  CoarseResults results{.vertices = vertices};
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const softbody::ImportedMesh& mesh = *scenes[i].bodies[0].mesh.imported;
     const double radius = softbody::bounding_radius(mesh.mesh);
-    CoarseRun& run = results.runs.emplace_back(CoarseRun{mesh.findings.particles, 0, 0, 0, 0});
-    run.distance = mesh.findings.distance.value_or(0) / radius;
+    double middle = 0, shape = 0;  // R
     for (std::size_t k = 0; k < falls[i].looks.size(); ++k) {
       const Look &here = falls[i].looks[k], &finest = falls.back().looks[k];
-      run.middle = std::max(run.middle, glm::distance(here.middle, finest.middle) / radius);
-      run.shape = std::max(run.shape, reference::rms_distance(here.about, finest.about) / radius);
+      middle = std::max(middle, glm::distance(here.middle, finest.middle) / radius);
+      shape = std::max(shape, reference::rms_distance(here.about, finest.about) / radius);
     }
-    run.cost = solving[i].median() / solving.back().median();
+    const auto apart = mesh.findings.distance;  // nothing: the mesh itself is simulated
+    results.runs.add({{"particles", whole(double(mesh.findings.particles))},
+                      {"surfaces apart, R", when(apart.has_value(), fmt::format("{:.2g}", apart.value_or(0) / radius))},
+                      {"middle, R", fmt::format("{:.2g}", middle)},
+                      {"shape, R", fmt::format("{:.2g}", shape)},
+                      {"run time", fmt::format("{:.2g}", solving[i].median() / solving.back().median())}});
   }
   return results;
 }

@@ -2,10 +2,13 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <functional>
 
 #include <fmt/core.h>
 
+#include "app/base/text.h"
 #include "app/report/solver/results.h"
+#include "app/report/sums.h"
 #include "softbody/state/lanes.h"
 
 namespace app::report {
@@ -18,30 +21,30 @@ Table solver_table(const SolverResults& results) {
     for (const WorkCurve& curve : c.curves)
       for (const WorkPoint& p : curve.points) {
         const bool fixed = p.substeps > 0, good = !p.blew_up;
-        table.add({{"scene", c.scene.key},
-                   {"integrator", curve.integrator->key},
-                   {"substeps", when(fixed, p.substeps)},
-                   {"substeps_taken", p.taken},
-                   {"steps_per_second",
-                    when(fixed, p.substeps * curve.integrator->substeps_per_step / results.run.frame_time)},
-                   {"cpu_ms_alone", p.cpu_alone},
-                   {"cpu_ms_batch", p.cpu_batch},
-                   {"blew_up", p.blew_up},
-                   {"error", when(good, p.error)},
-                   {"energy_error", when(good, p.energy)},
-                   {"linear_error", when(good, p.linear)},
-                   {"angular_error", when(good, p.angular)},
-                   {"volume_error", when(good, p.volume)},
-                   {"internal_speed", when(good, p.speed)},
-                   {"observed_order", c.order(curve, results.effort.bound)},
-                   {"own_substeps", when(curve.own.has_value(), curve.own.value_or(WorkPoint{}).taken)},
-                   {"own_error", when(curve.own && !curve.own->blew_up, curve.own.value_or(WorkPoint{}).error)},
-                   {"promised_error", c.allowed()},
-                   {"promise_kept", c.keeps_promise()},
-                   {"reference_step", c.reference.step},
-                   {"reference_change", c.reference.change},
-                   {"reference_converged", c.reference.converged},
-                   {"perturbation_growth", c.reference.growth}});
+        table.add(
+            {{"scene", c.scene.key},
+             {"integrator", curve.integrator->key},
+             {"substeps", when(fixed, p.substeps)},
+             {"substeps_taken", p.taken},
+             {"steps_per_second", when(fixed, p.substeps * curve.integrator->substeps_per_step / solver_frame_time)},
+             {"cpu_ms_alone", p.cpu_alone},
+             {"cpu_ms_batch", p.cpu_batch},
+             {"blew_up", p.blew_up},
+             {"error", when(good, p.error)},
+             {"energy_error", when(good, p.energy)},
+             {"linear_error", when(good, p.linear)},
+             {"angular_error", when(good, p.angular)},
+             {"volume_error", when(good, p.volume)},
+             {"internal_speed", when(good, p.speed)},
+             {"observed_order", c.order(curve, results.effort.bound)},
+             {"own_substeps", when(curve.own.has_value(), curve.own.value_or(WorkPoint{}).taken)},
+             {"own_error", when(curve.own && !curve.own->blew_up, curve.own.value_or(WorkPoint{}).error)},
+             {"promised_error", c.allowed()},
+             {"promise_kept", c.keeps_promise()},
+             {"reference_step", c.reference.step},
+             {"reference_change", c.reference.change},
+             {"reference_converged", c.reference.converged},
+             {"perturbation_growth", c.reference.growth}});
       }
   return table;
 }
@@ -78,23 +81,10 @@ void add_crosses(Plot& plot, const WorkCurve& curve, std::size_t number) {
   plot.add(std::move(series));
 }
 
-Plot error_against_time(const SolverCase& c, double bound) {
-  Plot plot{
-      .name = "solver-" + c.scene.key,
-      .caption =
-          c.scene.name + ": left is cheaper, down is more accurate; numbers are steps per frame, crosses blew up.",
-      .title = fmt::format("{}: error against run time (a disturbance grows {:.3g} times)", c.scene.name,
-                           c.reference.growth),
-      .x = "processor time, ms per simulated second and body",
-      .y = "error in position, RMS / R",
-      .settings = fmt::format(
-          "set yrange [*:{0:g}]\n"
-          "set ytics 1e-9, 10, 10 format '%g'\n"
-          "set label 'blew up:' at graph 0.01, graph 0.97\n"
-          "set arrow from graph 0, first {1:g} to graph 1, first {1:g} nohead dashtype 2 linecolor rgb '#666666'\n"
-          "set label 'uncertainty of the reference' at graph 0.01, first {1:g} offset 0,0.5 font ',8' textcolor rgb "
-          "'#666666'\n",
-          cross_height(c.curves.size()), c.uncertainty(bound))};
+Plot error_against_time(const Page& page, const SolverCase& c, double bound) {
+  Plot plot = page.plot_of("error against time", "solver-" + c.scene.key, fmt::arg("scene", c.scene.name),
+                           fmt::arg("growth", c.reference.growth), fmt::arg("top", cross_height(c.curves.size())),
+                           fmt::arg("uncertainty", c.uncertainty(bound)));
   for (std::size_t i = 0; i < c.curves.size(); ++i) add_errors(plot, c.curves[i], i, c.order(c.curves[i], bound));
   for (std::size_t i = 0; i < c.curves.size(); ++i) add_crosses(plot, c.curves[i], i);
   return plot;
@@ -104,33 +94,20 @@ Plot error_against_time(const SolverCase& c, double bound) {
 
 constexpr std::array bounds{1e-1, 1e-2, 5e-3, 2e-3, 1e-3, 1e-4};  // R
 
-void add_introduction(Page& page, const SolverResults& r) {
-  page.add("introduction", fmt::arg("command", r.command), fmt::arg("seconds", r.run.seconds()),
-           fmt::arg("frame_rate", 1 / r.run.frame_time), fmt::arg("repetitions", r.effort.repetitions),
-           fmt::arg("run_seconds", r.effort.seconds), fmt::arg("lanes", softbody::lanes),
-           fmt::arg("bound", r.effort.bound), fmt::arg("substeps", r.effort.max_substeps),
-           fmt::arg("order_error", SolverCase::max_order_error), fmt::arg("clear_fall", SolverCase::clear_fall),
-           fmt::arg("least_order", -std::log2(SolverCase::clear_fall)),
-           fmt::arg("quick",
-                    r.quick ? "This is the quick report: fewer scenes, steps and repetitions, and a coarser reference."
-                            : ""));
-}
-
 std::string two_digits(std::optional<double> value) { return value ? fmt::format("{:.2g}", *value) : ""; }
 
-/// Returns nothing if all blew up.
-const WorkPoint* most_accurate(const WorkCurve& curve) {
+/// Returns the point that has least of a figure, of those within an error; nothing if there is none or all blew up.
+template <class Figure>
+const WorkPoint* least(const WorkCurve& curve, const Figure& figure, double error = HUGE_VAL) {
   const WorkPoint* best = nullptr;
   for (const WorkPoint& p : curve.points)
-    if (!p.blew_up && (!best || p.error < best->error)) best = &p;
+    if (!p.blew_up && p.error <= error && (!best || std::invoke(figure, p) < std::invoke(figure, *best))) best = &p;
   return best;
 }
 
 /// Returns the cost of the cheapest point within an error, and its steps: "1.36 (16)".
 std::string cheapest(const WorkCurve& curve, double error) {
-  const WorkPoint* best = nullptr;
-  for (const WorkPoint& p : curve.points)
-    if (!p.blew_up && p.error <= error && (!best || p.cost() < best->cost())) best = &p;
+  const WorkPoint* best = least(curve, &WorkPoint::cost, error);
   if (!best) return "";
   return brief(best->cost()) + (best->substeps > 0 ? fmt::format(" ({})", best->substeps) : "");
 }
@@ -144,7 +121,7 @@ void add_overview(Page& page, const SolverResults& r) {
     TableRow row{{"integrator", r.cases.front().curves[i].integrator->name}};
     for (const SolverCase& c : r.cases) {
       const std::string cost = cheapest(c.curves[i], bound);
-      const WorkPoint* best = most_accurate(c.curves[i]);
+      const WorkPoint* best = least(c.curves[i], &WorkPoint::error);
       row.push_back({c.scene.name, !cost.empty() ? cost
                                    : best        ? fmt::format("only {:.4g} R", best->error)
                                                  : "blew up"});
@@ -176,33 +153,20 @@ void add_promise(Page& page, const SolverResults& r) {
 
 void add_stiffness(Page& page, const SolverResults& r) {
   Table table;
-  for (const StiffnessCase& c : r.stiffness)
-    for (const Stiffness& s : c.meshes) {
+  for (const auto& meshes : groups_of(r.stiffness, &Stiffness::body))
+    for (const Stiffness& s : meshes) {
       const auto beside_first = [](double value, double first) {
         return fmt::format("{:+.1f} %", 100 * (value / first - 1));
       };
-      table.add({{"body", c.name},
+      table.add({{"body", s.body},
                  {"particles", whole(double(s.particles))},
                  {"sag, R", brief(s.sag)},
-                 {"beside the coarsest", beside_first(s.sag, c.meshes[0].sag)},
+                 {"beside the coarsest", beside_first(s.sag, meshes[0].sag)},
                  {"period, ms", brief(1e3 * s.period)},
-                 {"beside it", beside_first(s.period, c.meshes[0].period)}});
+                 {"beside it", beside_first(s.period, meshes[0].period)}});
     }
   if (table.empty()) return;
   page.add("stiffness");
-  page.table(table);
-}
-
-void add_coarse(Page& page, const CoarseResults& coarse) {
-  if (coarse.runs.empty()) return;
-  Table table;
-  for (const CoarseRun& run : coarse.runs)
-    table.add({{"particles", whole(double(run.particles))},
-               {"surfaces apart, R", run.distance > 0 ? two_digits(run.distance) : ""},
-               {"middle, R", two_digits(run.middle)},
-               {"shape, R", two_digits(run.shape)},
-               {"run time", fmt::format("{:.2g}", run.cost)}});
-  page.add("coarse", fmt::arg("vertices", whole(double(coarse.vertices))));
   page.table(table);
 }
 
@@ -221,7 +185,7 @@ Table costs(const SolverResults& r, const SolverCase& c) {
 Table details(const SolverCase& c) {
   Table table;
   for (const WorkCurve& curve : c.curves) {
-    const WorkPoint* best = most_accurate(curve);
+    const WorkPoint* best = least(curve, &WorkPoint::error);
     std::vector<const WorkPoint*> shown{best ? &*std::ranges::find(curve.points, false, &WorkPoint::blew_up)
                                              : &curve.points.front()};
     if (best && best != shown.front()) shown.push_back(best);
@@ -244,34 +208,42 @@ Table details(const SolverCase& c) {
 /// Says which curves end before the reference's own uncertainty, and why.
 void add_left_out(Page& page, const SolverResults& r, const SolverCase& c) {
   const double known = c.uncertainty(r.effort.bound);
-  std::string too_long, too_many;
-  for (const WorkCurve& curve : c.curves) {
-    const WorkPoint& last = curve.points.back();
-    if (last.substeps == 0 || curve.reaches(known)) continue;
-    std::string& list = last.substeps >= r.effort.max_substeps ? too_many : too_long;
-    list += fmt::format("{}{} beyond {} steps per frame{}", list.empty() ? "" : "; ", curve.integrator->name,
-                        last.substeps, last.blew_up ? " (blew up)" : "");
+  bool all_end = true;
+  for (const bool too_many : {false, true}) {
+    std::vector<std::string> list;
+    for (const WorkCurve& curve : c.curves) {
+      const WorkPoint& last = curve.points.back();
+      if (last.substeps == 0 || curve.reaches(known) || (last.substeps >= r.effort.max_substeps) != too_many) continue;
+      list.push_back(fmt::format("{} beyond {} steps per frame{}", curve.integrator->name, last.substeps,
+                                 last.blew_up ? " (blew up)" : ""));
+    }
+    if (list.empty()) continue;
+    all_end = false;
+    page.text("Left out, above the reference's uncertainty of {:.2g} R, since {}: {}.", known,
+              too_many ? "no more steps were tried" : fmt::format("runs took longer than {:g} s", r.effort.seconds),
+              joined(list, "; "));
   }
-  if (too_long.empty() && too_many.empty())
-    return page.text("All curves end at an error of {:.2g} R, the uncertainty of the reference.", known);
-  const auto add_reason = [&](const std::string& why, const std::string& list) {
-    if (!list.empty())
-      page.text("Left out, above the reference's uncertainty of {:.2g} R, since {}: {}.", known, why, list);
-  };
-  add_reason(fmt::format("runs took longer than {:g} s", r.effort.seconds), too_long);
-  add_reason("no more steps were tried", too_many);
+  if (all_end) page.text("All curves end at an error of {:.2g} R, the uncertainty of the reference.", known);
 }
 
 }  // namespace
 
 Page solver_page(const SolverResults& results) {
-  Page page("solver");
-  add_introduction(page, results);
+  Page page(results.options);
+  page.introduce(fmt::arg("seconds", solver_seconds), fmt::arg("frame_rate", 1 / solver_frame_time),
+                 fmt::arg("repetitions", results.effort.repetitions), fmt::arg("run_seconds", results.effort.seconds),
+                 fmt::arg("lanes", softbody::lanes), fmt::arg("bound", results.effort.bound),
+                 fmt::arg("substeps", results.effort.max_substeps),
+                 fmt::arg("order_error", SolverCase::max_order_error), fmt::arg("clear_fall", SolverCase::clear_fall),
+                 fmt::arg("least_order", -std::log2(SolverCase::clear_fall)));
   page.warn(warn_of_busy_machine(results.timed));
   add_overview(page, results);
   add_promise(page, results);
   add_stiffness(page, results);
-  add_coarse(page, results.coarse);
+  if (!results.coarse.runs.empty()) {
+    page.add("coarse", fmt::arg("vertices", whole(double(results.coarse.vertices))));
+    page.table(results.coarse.runs);
+  }
   for (const SolverCase& c : results.cases) {
     const SolverReference& r = c.reference;
     page.add("case", fmt::arg("name", c.scene.name), fmt::arg("reference", r.what), fmt::arg("step", r.step),
@@ -283,7 +255,7 @@ Page solver_page(const SolverResults& results) {
     add_left_out(page, results, c);
     page.text("With the fewest steps that do not blow up, and with the steps that give the least error:");
     page.table(details(c));
-    page.plot(error_against_time(c, results.effort.bound));
+    page.plot(error_against_time(page, c, results.effort.bound));
   }
   return page;
 }

@@ -9,29 +9,39 @@
 #include <vector>
 
 #include "app/base/timings.h"
-#include "app/reference/reference_body.h"
+#include "app/reference/reference_trajectory.h"
 #include "app/report/page.h"
-#include "app/report/solver/scenes.h"
+#include "app/report/worlds.h"
 #include "softbody/integrate/integrators.h"
 
 namespace app::report {
 
-/// How far a scene is simulated.
-struct SolverRun {
-  int frames = 30;
-  double frame_time = 1.0 / 60;
-  double seconds() const { return frames * frame_time; }
+/// What a solver is measured on. Only springs, gas, gravity and solids act on lone bodies, so that the reference models
+/// them.
+struct SolverScene {
+  std::string key, name;
+  softbody::Scene scene{};
+  std::vector<Particles> start{};  // per body; empty: as the scene has it
+  bool at_rest = false;            // all motion is jitter
+  bool of_centres = false;         // the error is the largest of a body's centre; else the RMS of all particles
+  double promised = 0.01;          // R, the error that `auto` promises, see SolverCase::allowed()
+  /// Copies side by side do not touch, so a batch of them can be timed.
+  bool repeatable = true;
 };
 
-/// What the outcomes of a scene are compared with.
-struct SolverReference {
+/// Returns the scenes of `report solver`: easy ones, and those in which IMEX Euler is weakest.
+std::vector<SolverScene> solver_scenes();
+
+// How far a scene is simulated.
+inline constexpr int solver_frames = 30;
+inline constexpr double solver_frame_time = 1.0 / 60, solver_seconds = solver_frames * solver_frame_time;
+
+/// What the outcomes of a scene are compared with: the end of a run and how far it can be trusted. Only ReferenceBody
+/// fills in `end`, of the one body that it models.
+struct SolverReference : reference::Reference {
   std::vector<reference::BodyState> bodies{};  // at the end
   double energy = 0, energy_scale = 0;         // J
   std::string what{};                          // it is
-  double step = 0;                             // s
-  double change = 0;                           // R, when its step was halved
-  double growth = 0;                           // of a disturbance
-  bool converged = false;                      // change is within the bound
 };
 
 /// One integrator with one number of steps per frame.
@@ -85,39 +95,46 @@ struct SolverCase {
   std::optional<double> order(const WorkCurve& curve, double bound) const;
 };
 
-/// A fine body that falls on a solid sphere, simulated by so many particles.
-struct CoarseRun {
-  std::size_t particles;
-  double distance;  // R, between the two surfaces at rest, see softbody::coarsen(); 0: the mesh itself is simulated
-  double middle;    // R: the most that its middle is away from that of the finest run
-  double shape;     // R, the same of its vertices about the middle, RMS
-  double cost;      // time of the solver, in that of the finest run
+struct Outcome {
+  TimedParts timed{};  // the steps
+  bool finite = true;
+  std::vector<reference::BodyState> bodies{};
+  double energy = 0;  // J
+  double taken = 0;   // substeps per frame, on average
 };
 
+/// Runs `copies` of the scene side by side, with `substeps` a frame, or with those that the integrator chooses itself
+/// if it is `auto` or `substeps` is 0. Ends with the first frame that is not finite.
+Outcome run_solver(const SolverScene& scene, const softbody::Integrator& integrator, int substeps, int copies);
+
+/// Returns the point without its substeps and times.
+WorkPoint judge(const SolverCase& of, const Outcome& outcome);
+
+/// Returns the case with a curve for each integrator, that has no points yet: only the runs of own_step_integrators.
+/// The reference is ReferenceBody where it models the scene, else the world's rk4. Its step is halved until the
+/// positions change by less than `bound` (R), with at most `steps` steps.
+SolverCase begin_case(const SolverScene& scene, double bound, std::uint64_t steps);
+
 struct CoarseResults {
-  std::size_t vertices = 0;     // of the mesh
-  std::vector<CoarseRun> runs;  // from coarse to fine
+  std::size_t vertices = 0;  // of the fine mesh
+  Table runs{};              // from few particles to many
 };
 
 /// Measures what a coarse mesh that is simulated in place of a fine one costs and saves: the creature of the scene
 /// `shapes` at several resolutions, the finest of them the mesh itself. quick: once, with fewer.
 CoarseResults measure_coarse(bool quick);
 
-/// A body of one mesh.
+/// A body of one shape and one material.
 struct Stiffness {
-  std::size_t particles;
-  double sag;     // R: how much lower it is on the ground, at rest, than in free flight
-  double period;  // s, of its slowest swing after it was stretched
+  std::string body;       // its shape and its forces
+  std::size_t particles;  // of its mesh
+  double sag;             // R: how much lower it is on the ground, at rest, than in free flight
+  double period;          // s, of its slowest swing after it was stretched
 };
 
-/// A body of one shape and one material, in meshes from coarse to fine.
-struct StiffnessCase {
-  std::string name;
-  std::vector<Stiffness> meshes;
-};
-
-/// Measures whether a material is as stiff in a fine mesh as in a coarse one. quick: without the finest meshes.
-std::vector<StiffnessCase> measure_stiffness(bool quick);
+/// Measures whether a material is as stiff in a fine mesh as in a coarse one, each body in meshes from coarse to fine.
+/// quick: without the finest meshes.
+std::vector<Stiffness> measure_stiffness(bool quick);
 
 struct SolverEffort {
   double seconds = 0;                 // of processor time: a curve ends with the first run that takes longer ...
@@ -128,14 +145,12 @@ struct SolverEffort {
 };
 
 struct SolverResults {
-  std::string command{};
-  bool quick = false;
-  SolverRun run{};
+  ReportOptions options{};
   SolverEffort effort{};
   TimedParts timed{};  // the repetitions
   std::vector<SolverCase> cases{};
-  CoarseResults coarse{};                  // empty where a scene was asked for
-  std::vector<StiffnessCase> stiffness{};  // empty if one scene was asked for
+  CoarseResults coarse{};              // empty where a scene was asked for
+  std::vector<Stiffness> stiffness{};  // empty if one scene was asked for
 };
 
 /// Returns solver.csv: a row per point. What has no meaning is empty.

@@ -1,4 +1,4 @@
-#include "app/report/solver/scenes.h"
+#include "app/report/solver/results.h"
 
 #include <cmath>
 #include <numbers>
@@ -6,7 +6,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/report/steps.h"
 #include "softbody/contact/keys.h"
 #include "softbody/forces/gas.h"
 #include "softbody/forces/springs.h"
@@ -23,10 +22,9 @@ using glm::dvec3;
 /// A ball that flies and turns. Its gas has a tenth more pressure than in balance, so that it pulsates.
 SolverScene free_flight(double stiffness, const std::string& in_words) {
   SolverScene s{.key = "free-" + in_words, .name = "Free flight, " + in_words + " N/m"};
-  Material calm = ball_material(stiffness, 0.02);
-  s.scene = lone_scene(calm);
-  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.integrator = one_step()}), 0));
-  for (softbody::Particle& p : start) p.velocity = dvec3(1, 2, 0.5) + glm::cross(dvec3(0.5, 3, 1), p.position);
+  s.scene = lone_scene(ball_material(stiffness, 0.02));
+  s.start = changed_start(
+      s.scene, [](softbody::Particle& p) { p.velocity = dvec3(1, 2, 0.5) + glm::cross(dvec3(0.5, 3, 1), p.position); });
   s.scene.materials[0][GasPressure::inside] *= 1.1;
   return s;
 }
@@ -35,7 +33,7 @@ SolverScene free_flight(double stiffness, const std::string& in_words) {
 SolverScene on_the_ground() {
   SolverScene s{.key = "contact-1e3", .name = "On the ground, 1e3 N/m"};
   s.scene = lone_scene(ball_material(1e3, 0.02));
-  const softbody::World world(s.scene, {.integrator = one_step()});
+  const softbody::World world = world_of(s.scene);
   const softbody::Particle lowest = particles_of(world, 0)[0];  // an icosphere's extent is that of any corner
   s.scene.gravity = {0, -9.81, 0};
   s.scene.solids = {{softbody::Ground{}}};
@@ -79,26 +77,18 @@ Material rubber() {
   return m;
 }
 
-/// A rubber ball whose particles start where `start` puts them, at rest or in motion.
-SolverScene deformed(std::string key, std::string name, const auto& start) {
-  SolverScene s{.key = std::move(key), .name = std::move(name)};
-  s.scene = lone_scene(rubber());
-  Particles& particles = s.start.emplace_back(particles_of(softbody::World(s.scene, {.integrator = one_step()}), 0));
-  for (softbody::Particle& p : particles) p = start(p.position);
+/// A rubber ball whose particles `start` changes.
+SolverScene deformed(std::string key, std::string name, const std::function<void(softbody::Particle&)>& start) {
+  SolverScene s{.key = std::move(key), .name = std::move(name), .scene = lone_scene(rubber())};
+  s.start = changed_start(s.scene, start);
   return s;
-}
-
-SolverScene inflated() {
-  return deformed("inflated", "Inflated by 10 %", [](const dvec3& x) {
-    return softbody::Particle{1.1 * x, dvec3(0.0)};
-  });
 }
 
 /// It turns once a second across the axis along which it is stretched.
 SolverScene stretched(std::string key, std::string name, double across) {
-  return deformed(std::move(key), std::move(name), [=](const dvec3& x) {
-    const dvec3 place = x * dvec3(1.2, across, across);
-    return softbody::Particle{place, glm::cross(dvec3(0, 2 * std::numbers::pi, 0), place)};
+  return deformed(std::move(key), std::move(name), [=](softbody::Particle& p) {
+    p.position *= dvec3(1.2, across, across);
+    p.velocity = glm::cross(dvec3(0, 2 * std::numbers::pi, 0), p.position);
   });
 }
 
@@ -106,7 +96,7 @@ SolverScene stretched(std::string key, std::string name, double across) {
 SolverScene four_balls() {
   SolverScene s{.key = "four-balls", .name = "Four balls on a floor", .of_centres = true};
   s.scene = lone_scene(rubber());
-  const double radius = softbody::World(s.scene, {.integrator = one_step()}).model(0).radius;
+  const double radius = world_of(s.scene).model(0).radius;
   s.promised = 0.01 / radius;  // a centimetre
   s.scene.gravity = {0, -9.81, 0};
   s.scene.solids = {{softbody::Ground{}}};
@@ -123,33 +113,6 @@ SolverScene four_balls() {
 
 }  // namespace
 
-Material ball_material(double stiffness, double damping_ratio) {
-  Material m;
-  m.name = "ball";
-  m.set(StructuralSprings::keys, {stiffness, damping_ratio});
-  m.set(BendSprings::keys, {stiffness / 4, damping_ratio});
-  m[GasPressure::inside] = 1.6 * stiffness;
-  m[softbody::contact::rolling_resistance] = 0;
-  return m;
-}
-
-softbody::Scene lone_scene(const Material& material) {
-  softbody::Scene scene;
-  scene.gravity = dvec3(0.0);
-  scene.collision.self_collision = false;
-  scene.sleep.speed = 0;
-  scene.materials = {material};
-  softbody::BodySource& body = scene.bodies.emplace_back();
-  body.position = dvec3(0.0);
-  return scene;
-}
-
-Particles particles_of(const softbody::World& world, softbody::BodyId body) {
-  Particles list;
-  for (softbody::Index i = 0; i < world.model(body).mesh.vertices.size(); ++i) list.push_back(world.particle(body, i));
-  return list;
-}
-
 std::vector<SolverScene> solver_scenes() {
   return {free_flight(1e3, "1e3"),
           free_flight(1e6, "1e6"),
@@ -157,7 +120,7 @@ std::vector<SolverScene> solver_scenes() {
           in_balance(1e3, "1e3"),
           in_balance(1e6, "1e6"),
           cloth(),
-          inflated(),
+          deformed("inflated", "Inflated by 10 %", [](softbody::Particle& p) { p.position *= 1.1; }),
           stretched("stretched", "Stretched by 20 %, spinning", 1 / std::sqrt(1.2)),
           stretched("swollen", "Stretched by 20 % and swollen, spinning", 1),
           four_balls()};

@@ -1,13 +1,10 @@
 #include <algorithm>
 #include <array>
 
-#include "app/base/timings.h"
 #include "app/base/usage_error.h"
 #include "app/files/output_file.h"
 #include "app/report/files.h"
 #include "app/report/solver/results.h"
-#include "app/report/solver/trial.h"
-#include "app/report/steps.h"
 #include "softbody/state/lanes.h"
 
 namespace app::report {
@@ -16,90 +13,71 @@ namespace {
 constexpr std::array quick_scenes{"free-1e3", "contact-1e3", "rest-1e3", "cloth",
                                   "inflated", "stretched",   "swollen",  "four-balls"};
 
-/// A point and its times.
+/// Adds points with more and more steps to a curve, which have no cost yet but that of the run itself.
+void find_errors(const SolverCase& c, WorkCurve& curve, const SolverEffort& effort) {
+  const softbody::Integrator& integrator = *curve.integrator;
+  double took = 0;
+  const int max_steps = integrator.automatic ? 1 : effort.max_substeps;
+  for (int n = 1; n <= max_steps && took < effort.seconds && !curve.reaches(c.uncertainty(effort.bound)); n *= 2) {
+    const Outcome outcome = run_solver(c.scene, integrator, n, 1);
+    took = outcome.finite ? outcome.timed.processor : 0;
+    WorkPoint& point = curve.points.emplace_back(judge(c, outcome));
+    if (!integrator.automatic) point.substeps = n;
+    point.cpu_alone = 1e3 * outcome.timed.processor / solver_seconds / double(outcome.bodies.size());
+  }
+}
+
+/// A point, and the times (ms) of its runs.
 struct TimedPoint {
-  std::size_t scene, curve, point;  // indices
-  int substeps;
-  Timings alone{}, batch{};  // a run
+  const SolverScene& scene;
+  const softbody::Integrator& integrator;
+  WorkPoint& point;
+  Timings alone{}, batch{};
 };
 
-class SolverReport {
- public:
-  SolverReport(const ReportOptions& options, std::vector<SolverScene> scenes)
-      : results{.command = command_of(options),
-                .quick = options.quick,
-                .effort = options.quick ? SolverEffort{0.08, 2, 8'000} : SolverEffort{1, 3, 200'000}},
-        scenes_(std::move(scenes)) {}
-
-  void run() {
-    for (std::size_t s = 0; s < scenes_.size(); ++s) find_errors(s);
-    // One repetition of all points after the other: what disturbs the machine for a while disturbs all alike.
-    for (int r = 0; r < effort_.repetitions; ++r) {
-      for (std::size_t i = 0; i < points_.size(); ++i) {
-        say("repetition " + std::to_string(r + 1), (r + double(i) / double(points_.size())) / effort_.repetitions);
-        repeat(points_[i]);
-      }
-    }
-    for (const TimedPoint& point : points_) take_times(point);
-  }
-
-  SolverResults results;
-
- private:
-  void find_errors(std::size_t s) {
-    const SolverScene& scene = scenes_[s];
-    say(scene.key + ": reference", double(s) / double(scenes_.size()));
-    SolverCase c = begin_case(scene, run_, effort_.bound, effort_.reference_steps);
-    for (WorkCurve& curve : c.curves) {
-      const softbody::Integrator& integrator = *curve.integrator;
-      say(scene.key + ": " + std::string(integrator.key), double(s) / double(scenes_.size()));
-      double took = 0;
-      const int max_steps = integrator.automatic ? 1 : effort_.max_substeps;
-      for (int n = 1; n <= max_steps && took < effort_.seconds && !curve.reaches(c.uncertainty(effort_.bound));
-           n *= 2) {
-        const Outcome outcome = run_solver(scene, run_, integrator, n, 1);
-        took = outcome.finite ? outcome.timed.processor : 0;
-        WorkPoint point = judge(c, outcome);
-        if (!integrator.automatic) point.substeps = n;
-        if (!point.blew_up) points_.push_back({s, std::size_t(&curve - c.curves.data()), curve.points.size(), n});
-        point.cpu_alone = 1e3 * outcome.timed.processor / run_.seconds() / double(outcome.bodies.size());
-        curve.points.push_back(point);
-      }
-    }
-    results.cases.push_back(std::move(c));
-  }
-
-  void repeat(TimedPoint& p) {
-    const SolverScene& scene = scenes_[p.scene];
-    const softbody::Integrator& integrator = *results.cases[p.scene].curves[p.curve].integrator;
-    const auto time = [&](Timings& times, int copies) {
-      if (times.total() > 1e3 * effort_.seconds) return;  // the time of a long run depends less on chance
-      const TimedParts timed = run_solver(scene, run_, integrator, p.substeps, copies).timed;
+void repeat(TimedPoint& p, SolverResults& results) {
+  const auto time = [&](Timings& times, int copies) {
+    if (times.total() <= 1e3 * results.effort.seconds) {  // the time of a long run depends less on chance
+      const TimedParts timed = run_solver(p.scene, p.integrator, p.point.substeps, copies).timed;
       times.ms.push_back(1e3 * timed.processor);
       results.timed += timed;
-    };
-    time(p.alone, 1);
-    if (scene.repeatable) time(p.batch, softbody::lanes);
-  }
+    }
+    return times.median() / solver_seconds / copies / double(p.scene.scene.bodies.size());
+  };
+  p.point.cpu_alone = time(p.alone, 1);
+  if (p.scene.repeatable) p.point.cpu_batch = time(p.batch, softbody::lanes);
+}
 
-  void take_times(const TimedPoint& p) {
-    WorkPoint& point = results.cases[p.scene].curves[p.curve].points[p.point];
-    const double bodies = double(scenes_[p.scene].scene.bodies.size());
-    point.cpu_alone = p.alone.median() / run_.seconds() / bodies;
-    if (!p.batch.ms.empty()) point.cpu_batch = p.batch.median() / run_.seconds() / softbody::lanes / bodies;
+void measure(const std::vector<SolverScene>& scenes, SolverResults& results) {
+  const SolverEffort& effort = results.effort;
+  for (const SolverScene& scene : scenes) {
+    const double progress = double(results.cases.size()) / double(scenes.size());
+    say(scene.key + ": reference", progress);
+    SolverCase& c = results.cases.emplace_back(begin_case(scene, effort.bound, effort.reference_steps));
+    for (WorkCurve& curve : c.curves) {
+      say(scene.key + ": " + std::string(curve.integrator->key), progress);
+      find_errors(c, curve, effort);
+    }
   }
-
-  std::vector<SolverScene> scenes_;
-  const SolverRun& run_ = results.run;
-  const SolverEffort& effort_ = results.effort;
-  std::vector<TimedPoint> points_;
-};
+  std::vector<TimedPoint> points;
+  for (SolverCase& c : results.cases)
+    for (WorkCurve& curve : c.curves)
+      for (WorkPoint& p : curve.points)
+        if (!p.blew_up) points.push_back({c.scene, *curve.integrator, p});
+  // One repetition of all points after the other: what disturbs the machine for a while disturbs all alike.
+  for (int r = 0; r < effort.repetitions; ++r)
+    for (TimedPoint& point : points) {
+      const double part = double(&point - points.data()) / double(points.size());
+      say("repetition " + std::to_string(r + 1), (r + part) / effort.repetitions);
+      repeat(point, results);
+    }
+}
 
 std::vector<SolverScene> scenes_for(const ReportOptions& options) {
   if (options.scene) {
     const softbody::Scene scene = chosen_scenes(options).front();
     if (scene.bodies.empty()) throw UsageError("scene '" + scene.key + "': no body to measure; add a [[body]]");
-    const auto joins = [](const softbody::BodySource& b) { return b.appear > 0 && b.appear <= SolverRun{}.frames; };
+    const auto joins = [](const softbody::BodySource& b) { return b.appear > 0 && b.appear <= solver_frames; };
     const auto starts = [](const softbody::BodySource& b) { return b.appear <= 0; };
     if (std::ranges::any_of(scene.bodies, joins) || std::ranges::none_of(scene.bodies, starts))
       throw UsageError("scene '" + scene.key + "': bodies join after the start; set appear = 0");
@@ -114,15 +92,16 @@ std::vector<SolverScene> scenes_for(const ReportOptions& options) {
 }  // namespace
 
 void report_solver(const ReportOptions& options) {
-  std::vector<SolverScene> scenes = scenes_for(options);
+  const std::vector<SolverScene> scenes = scenes_for(options);
   files::prepare_folder(options.out);
-  SolverReport report(options, std::move(scenes));
-  report.run();
+  SolverResults results{.options = options};
+  results.effort = options.quick ? SolverEffort{0.08, 2, 8'000} : SolverEffort{1, 3, 200'000};
+  measure(scenes, results);
   if (!options.scene) {
-    report.results.stiffness = measure_stiffness(options.quick);
-    report.results.coarse = measure_coarse(options.quick);
+    results.stiffness = measure_stiffness(options.quick);
+    results.coarse = measure_coarse(options.quick);
   }
-  write_report(options.out, "solver.csv", solver_table(report.results), "solver.md", solver_page(report.results));
+  write_report(options, solver_table(results), "solver.md", solver_page(results));
 }
 
 }  // namespace app::report

@@ -9,8 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/report/files.h"
-#include "app/report/solver/scenes.h"
-#include "app/report/solver/trial.h"
+#include "app/report/solver/results.h"
 #include "softbody/forces/gas.h"
 #include "softbody/forces/shape_matching.h"
 #include "softbody/forces/springs.h"
@@ -22,7 +21,8 @@ namespace {
 using glm::dvec3;
 using softbody::GasPressure, softbody::Material, softbody::MeshSource, softbody::World;
 
-constexpr SolverRun watched{.frames = 480, .frame_time = 1.0 / 240};
+constexpr int frames = 480;
+constexpr double frame_time = 1.0 / 240;
 
 MeshSource sphere(int subdivisions) { return {.subdivisions = subdivisions}; }
 
@@ -73,11 +73,11 @@ double sag(softbody::Scene scene) {
   scene.solids = {{softbody::Ground{}}};
   scene.materials[0][Material::internal_damping] = 10;  // it is to come to rest
   scene.bodies[0].position.y = 0.01 - lowest;
-  World world(std::move(scene), {.frame_time = watched.frame_time});
+  World world(std::move(scene), {.frame_time = frame_time});
   double height = 0;  // the mean of the last quarter
-  for (int f = 0; f < watched.frames; ++f) {
+  for (int f = 0; f < frames; ++f) {
     world.step();
-    if (f >= watched.frames * 3 / 4) height += extent_y(particles_of(world, 0)) / (watched.frames / 4);
+    if (f >= frames * 3 / 4) height += extent_y(particles_of(world, 0)) / (frames / 4);
   }
   return (extent_y(free) - height) / world.model(0).radius;
 }
@@ -86,8 +86,8 @@ double sag(softbody::Scene scene) {
 double strongest_period(std::span<const double> signal) {
   double mean = 0, most = 0, best = 0;
   for (const double value : signal) mean += value / double(signal.size());
-  const double seconds = watched.frame_time * double(signal.size());
-  for (double period = seconds / 3; period > 4 * watched.frame_time; period *= 0.998) {
+  const double seconds = frame_time * double(signal.size());
+  for (double period = seconds / 3; period > 4 * frame_time; period *= 0.998) {
     double cosine = 0, sine = 0;
     for (std::size_t f = 0; f < signal.size(); ++f) {
       const double share = double(f) / double(signal.size());
@@ -102,34 +102,31 @@ double strongest_period(std::span<const double> signal) {
 }
 
 double period(const softbody::Scene& scene) {
-  World world(scene, {.frame_time = watched.frame_time});
-  Particles start = particles_of(world, 0);
-  for (softbody::Particle& p : start) p.position *= dvec3(1.03, 1 / std::sqrt(1.03), 1 / std::sqrt(1.03));
-  world.set_particles(0, start);
+  World world = start_world(scene, {.frame_time = frame_time}, changed_start(scene, [](softbody::Particle& p) {
+                              p.position *= dvec3(1.03, 1 / std::sqrt(1.03), 1 / std::sqrt(1.03));
+                            }));
   std::vector<double> length;
-  for (int f = 0; f < watched.frames; ++f) {
+  for (int f = 0; f < frames; ++f) {
     world.step();
     double squares = 0;  // there is no force from outside: the middle stays at the origin
     for (const softbody::Particle& p : particles_of(world, 0)) squares += p.position.x * p.position.x;
-    length.push_back(std::sqrt(squares / double(start.size())));
+    length.push_back(std::sqrt(squares / double(world.model(0).mesh.vertices.size())));
   }
   return strongest_period(length);
 }
 
 }  // namespace
 
-std::vector<StiffnessCase> measure_stiffness(bool quick) {
-  std::vector<StiffnessCase> cases;
-  for (const Shape& shape : shapes) {
-    StiffnessCase& c = cases.emplace_back(StiffnessCase{shape.name, {}});
+std::vector<Stiffness> measure_stiffness(bool quick) {
+  std::vector<Stiffness> bodies;
+  for (const Shape& shape : shapes)
     for (int subdivisions = shape.coarsest; subdivisions <= (quick ? shape.coarsest + 1 : finest); ++subdivisions) {
-      say(c.name, double(subdivisions - shape.coarsest) / (finest + 1 - shape.coarsest));
+      say(shape.name, double(subdivisions - shape.coarsest) / (finest + 1 - shape.coarsest));
       softbody::Scene scene = lone_scene(material(shape.shape_frequency));
       scene.bodies[0].mesh = shape.mesh(subdivisions);
-      c.meshes.push_back({scene.bodies[0].mesh.make().vertices.size(), sag(scene), period(scene)});
+      bodies.push_back({shape.name, scene.bodies[0].mesh.make().vertices.size(), sag(scene), period(scene)});
     }
-  }
-  return cases;
+  return bodies;
 }
 
 }  // namespace app::report

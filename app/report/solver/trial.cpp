@@ -1,12 +1,11 @@
-#include "app/report/solver/trial.h"
+#include "app/report/solver/results.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
-#include "app/base/timings.h"
-#include "app/report/steps.h"
 #include "softbody/model/body_model.h"
 #include "softbody/world/measures.h"
 
@@ -21,28 +20,29 @@ const softbody::Integrator& rk4() { return *softbody::find_integrator("rk4"); }
 constexpr double spacing = 4;  // m, between copies
 
 /// Returns a world of `copies` of the scene side by side.
-World make_world(const SolverScene& of, const SolverRun& run, const softbody::Integrator& integrator, int substeps,
-                 int copies) {
+World make_world(const SolverScene& of, const softbody::Integrator& integrator, int substeps, int copies) {
   softbody::Scene scene = of.scene;
-  for (int c = 1; c < copies; ++c)
+  scene.bodies.clear();
+  std::vector<Particles> starts;
+  for (int c = 0; c < copies; ++c) {
     for (softbody::BodySource body : of.scene.bodies) {
       body.position.x += c * spacing;
       scene.bodies.push_back(body);
     }
-  World world(std::move(scene), {.frame_time = run.frame_time, .integrator = with_steps(integrator, substeps)});
-  for (int c = 0; c < copies; ++c)
-    for (std::size_t b = 0; b < of.start.size(); ++b) {
-      Particles start = of.start[b];
+    for (Particles start : of.start) {
       for (softbody::Particle& p : start) p.position.x += c * spacing;
-      world.set_particles(static_cast<BodyId>(std::size_t(c) * of.scene.bodies.size() + b), start);
+      starts.push_back(std::move(start));
     }
-  return world;
+  }
+  const softbody::IntegratorChoice steps = with_steps(integrator, substeps);
+  return start_world(std::move(scene), {.frame_time = solver_frame_time, .integrator = steps}, starts);
 }
 
-Outcome advance(World& world, int frames) {
+/// Runs the world to the end. It ends with the first frame that is not finite.
+Outcome advance(World world) {
   Outcome o;
   int substeps = 0;
-  for (int frame = 0; frame < frames && o.finite; ++frame) {
+  for (int frame = 0; frame < solver_frames && o.finite; ++frame) {
     const double start = thread_seconds();
     const double wall_ms = time_ms([&] { world.step(); });
     o.timed += {.wall = 1e-3 * wall_ms, .processor = thread_seconds() - start};
@@ -55,45 +55,33 @@ Outcome advance(World& world, int frames) {
   return o;
 }
 
-/// Returns the RMS error (R) over all bodies.
-double rms_error(const std::vector<reference::BodyState>& a, const std::vector<reference::BodyState>& b,
-                 const World& world) {
-  double square_sum = 0;
+/// Returns the difference (R) of two states: the largest of a body's centre, or the RMS over all bodies.
+double difference(const std::vector<reference::BodyState>& a, const std::vector<reference::BodyState>& b,
+                  const World& world, bool of_centres) {
+  double square_sum = 0, largest = 0;
   for (BodyId id = 0; id < b.size(); ++id) {
-    const double e = reference::rms_distance(a[id].x, b[id].x) / world.model(id).radius;
+    const double apart =
+        of_centres ? glm::distance(reference::rigid_motion(a[id]).centre, reference::rigid_motion(b[id]).centre)
+                   : reference::rms_distance(a[id].x, b[id].x);
+    const double e = apart / world.model(id).radius;
+    largest = std::max(largest, e);
     square_sum += e * e / double(b.size());
   }
-  return std::sqrt(square_sum);
-}
-
-/// Returns the error (R) by which the scene is judged.
-double error_of(const std::vector<reference::BodyState>& a, const std::vector<reference::BodyState>& b,
-                const World& world, bool of_centres) {
-  if (!of_centres) return rms_error(a, b, world);
-  double largest = 0;
-  for (BodyId id = 0; id < b.size(); ++id) {
-    const double e = glm::distance(reference::rigid_motion(a[id]).centre, reference::rigid_motion(b[id]).centre);
-    largest = std::max(largest, e / world.model(id).radius);
-  }
-  return largest;
+  return of_centres ? largest : std::sqrt(square_sum);
 }
 
 /// Returns the outcome of the world's own rk4 in floats, for scenes that ReferenceBody does not model.
-SolverReference world_reference(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps) {
-  const World world = make_world(scene, run, rk4(), 1, 1);
-  World trial = make_world(scene, run, rk4(), 1, 1);
+SolverReference world_reference(const SolverScene& scene, double bound, std::uint64_t steps) {
+  const World world = make_world(scene, rk4(), 1, 1);
+  World trial = make_world(scene, rk4(), 1, 1);
   trial.step();
   int substeps = trial.last_step().needed;
-  const auto outcome = [&](const SolverScene& s, int n) {
-    World w = make_world(s, run, rk4(), n, 1);
-    return advance(w, run.frames);
-  };
   SolverReference t{};
-  Outcome best = outcome(scene, substeps);
-  while (!t.converged && std::uint64_t(2 * substeps) * std::uint64_t(run.frames) <= steps) {
+  Outcome best = run_solver(scene, rk4(), substeps, 1);
+  while (!t.converged && std::uint64_t(2 * substeps) * solver_frames <= steps) {
     substeps *= 2;
-    Outcome finer = outcome(scene, substeps);
-    t.change = error_of(best.bodies, finer.bodies, world, scene.of_centres);
+    Outcome finer = run_solver(scene, rk4(), substeps, 1);
+    t.change = difference(best.bodies, finer.bodies, world, scene.of_centres);
     t.converged = t.change <= bound;
     best = std::move(finer);
   }
@@ -103,23 +91,21 @@ SolverReference world_reference(const SolverScene& scene, const SolverRun& run, 
     if (scene.start.empty()) shifted.start.push_back(particles_of(world, b));
     for (std::size_t i = 0; i < shifted.start[b].size(); i += 2) shifted.start[b][i].position.x += shift;
   }
-  t.growth =
-      rms_error(outcome(shifted, substeps).bodies, best.bodies, world) * world.model(0).radius / (shift / std::sqrt(2));
+  t.growth = difference(run_solver(shifted, rk4(), substeps, 1).bodies, best.bodies, world, false) *
+             world.model(0).radius / (shift / std::sqrt(2));
   t.bodies = std::move(best.bodies);
   t.energy = best.energy;
-  t.step = run.frame_time / substeps;
+  t.step = solver_frame_time / substeps;
   t.what = "the world's rk4 in floats";
   return t;
 }
 
-SolverReference body_reference(const World& world, const SolverRun& run, double bound, std::uint64_t steps) {
+SolverReference body_reference(const World& world, double bound, std::uint64_t steps) {
   const reference::ReferenceBody body(world.model(0), world.scene());
-  reference::Reference r =
-      find_reference(body, reference::state_of(world, 0), bound, {.seconds = run.seconds(), .steps = steps});
-  SolverReference t{};
-  t.energy = body.energy(r.end);
-  t.bodies.push_back(std::move(r.end));
-  t.step = r.step, t.change = r.change, t.growth = r.growth, t.converged = r.converged;
+  SolverReference t{
+      find_reference(body, reference::state_of(world, 0), bound, {.seconds = solver_seconds, .steps = steps})};
+  t.energy = body.energy(t.end);
+  t.bodies = {t.end};
   t.what = "RK4 in double, a program of its own";
   return t;
 }
@@ -144,10 +130,8 @@ double relative(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance
 
 }  // namespace
 
-Outcome run_solver(const SolverScene& scene, const SolverRun& run, const softbody::Integrator& integrator, int substeps,
-                   int copies) {
-  World world = make_world(scene, run, integrator, substeps, copies);
-  return advance(world, run.frames);
+Outcome run_solver(const SolverScene& scene, const softbody::Integrator& integrator, int substeps, int copies) {
+  return advance(make_world(scene, integrator, substeps, copies));
 }
 
 WorkPoint judge(const SolverCase& of, const Outcome& o) {
@@ -155,10 +139,10 @@ WorkPoint judge(const SolverCase& of, const Outcome& o) {
   const SolverReference& reference = of.reference;
   WorkPoint p;
   p.taken = o.taken;
-  const World world(scene.scene, {.integrator = one_step()});
+  const World world = world_of(scene.scene);
   p.blew_up = !o.finite;
   if (p.blew_up) return p;
-  p.error = error_of(o.bodies, reference.bodies, world, scene.of_centres);
+  p.error = difference(o.bodies, reference.bodies, world, scene.of_centres);
   p.blew_up = p.error > 10;  // R
   p.energy = std::abs(o.energy - reference.energy) / reference.energy_scale;
   double square_sum = 0, volume = 0;
@@ -182,16 +166,46 @@ WorkPoint judge(const SolverCase& of, const Outcome& o) {
   return p;
 }
 
-SolverCase begin_case(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps) {
-  const World world = make_world(scene, run, rk4(), 1, 1);
-  SolverCase c{scene, reference::ReferenceBody::unsupported_stage(world).empty()
-                          ? body_reference(world, run, bound, steps)
-                          : world_reference(scene, run, bound, steps)};
+bool WorkCurve::reaches(double error) const {
+  return std::ranges::any_of(points, [&](const WorkPoint& p) { return !p.blew_up && p.error <= error; });
+}
+
+const WorkPoint& SolverCase::own(std::string_view integrator) const {
+  const auto curve = std::ranges::find(curves, integrator, [](const WorkCurve& c) { return c.integrator->key; });
+  assert(curve != curves.end() && curve->own);
+  return *curve->own;
+}
+
+double SolverCase::allowed() const {
+  const WorkPoint& rival = own("semi-implicit-euler");
+  return rival.blew_up ? scene.promised : std::max(scene.promised, 2 * rival.error);
+}
+
+std::optional<double> SolverCase::order(const WorkCurve& curve, double bound) const {
+  if (scene.at_rest) return std::nullopt;
+  std::vector<double> row, longest;
+  for (std::size_t i = 1; i < curve.points.size(); ++i) {
+    const WorkPoint &a = curve.points[i - 1], &b = curve.points[i];
+    const bool falls = !a.blew_up && !b.blew_up && a.error <= max_order_error && b.error < clear_fall * a.error;
+    if (!falls) row.clear();
+    if (falls) row.push_back(std::log2(a.error / b.error) / std::log2(double(b.substeps) / a.substeps));
+    if (row.size() >= longest.size()) longest = row;
+  }
+  if (longest.size() < (curve.reaches(uncertainty(bound)) ? 1 : 2)) return std::nullopt;
+  std::ranges::sort(longest);
+  const std::size_t n = longest.size();
+  return (longest[(n - 1) / 2] + longest[n / 2]) / 2;
+}
+
+SolverCase begin_case(const SolverScene& scene, double bound, std::uint64_t steps) {
+  const World world = make_world(scene, rk4(), 1, 1);
+  const bool modelled = reference::ReferenceBody::unsupported_stage(world).empty();
+  SolverCase c{scene, modelled ? body_reference(world, bound, steps) : world_reference(scene, bound, steps)};
   for (BodyId b = 0; b < world.bodies().count(); ++b) c.reference.energy_scale += energy_scale(world, b);
   for (const softbody::Integrator& integrator : softbody::integrators()) {
     WorkCurve& curve = c.curves.emplace_back(WorkCurve{&integrator});
     if (std::ranges::find(own_step_integrators, integrator.key) != own_step_integrators.end())
-      curve.own = judge(c, run_solver(scene, run, integrator, 0, 1));
+      curve.own = judge(c, run_solver(scene, integrator, 0, 1));
   }
   return c;
 }

@@ -1,13 +1,11 @@
-#include "app/report/stability/cases.h"
+#include "app/report/stability/results.h"
 
 #include <array>
 #include <random>
 
 #include <glm/geometric.hpp>
 
-#include "app/base/usage_error.h"
 #include "app/files/scene_folder.h"
-#include "app/report/steps.h"
 #include "softbody/forces/gas.h"
 #include "softbody/forces/shape_matching.h"
 #include "softbody/forces/springs.h"
@@ -30,17 +28,13 @@ StabilityScene lone(double k) { return {.scene = lone_scene(ball_material(k, dam
 template <class Place>
 StabilityScene placed(double k, Place place) {
   StabilityScene s = lone(k);
-  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.integrator = one_step()}), 0));
-  for (softbody::Particle& p : start) p.position = place(p.position);
+  s.start = changed_start(s.scene, [&](softbody::Particle& p) { p.position = place(p.position); });
   return s;
 }
 
 /// Returns the ball with its axes times these factors.
 StabilityScene stretched_by(double k, const dvec3& factors) {
   return placed(k, [&](const dvec3& p) { return p * factors; });
-}
-StabilityScene collapsed(double k) {
-  return placed(k, [](const dvec3&) { return dvec3(0.0); });
 }
 StabilityScene random_vertices(double k) {
   std::mt19937 random(1);
@@ -49,9 +43,6 @@ StabilityScene random_vertices(double k) {
     const double x = coordinate(), y = coordinate(), z = coordinate();
     return dvec3(x, y, z);
   });
-}
-StabilityScene far_away(double k) {
-  return placed(k, [](const dvec3& p) { return 1000.0 + p * dvec3(1, 0.5, 1); });
 }
 
 /// Returns a ball whose middle is `height` over the ground.
@@ -64,9 +55,7 @@ StabilityScene over_ground(double k, double height) {
 }
 
 /// Returns the radius of the ball with its gas; the mesh itself is smaller.
-double inflated(double k) {
-  return glm::length(particles_of(softbody::World(lone(k).scene, {.integrator = one_step()}), 0)[0].position);
-}
+double inflated(double k) { return glm::length(particles_of(world_of(lone(k).scene), 0)[0].position); }
 
 StabilityScene on_the_ground(double k) { return over_ground(k, inflated(k) + 0.006); }
 
@@ -132,15 +121,8 @@ StabilityScene damaged_mesh(double k, Damage damage) {
   damage(imported->mesh.vertices[a], imported->mesh.vertices[b], imported->mesh.vertices[c]);
   s.scene.bodies[0].mesh = {.kind = "file", .file = {}, .imported = imported};
   s.scene.materials[0][softbody::ShapeMatching::frequency] = 0;
-  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.integrator = one_step()}), 0));
-  for (softbody::Particle& p : start) p.position.y *= 0.5;
+  s.start = changed_start(s.scene, [](softbody::Particle& p) { p.position.y *= 0.5; });
   return s;
-}
-StabilityScene duplicates(double k) {
-  return damaged_mesh(k, [](dvec3& a, dvec3& b, dvec3&) { b = a; });
-}
-StabilityScene degenerate(double k) {
-  return damaged_mesh(k, [](dvec3& a, dvec3& b, dvec3& c) { c = 0.5 * (a + b); });
 }
 
 StabilityScene pile(double k) {
@@ -159,7 +141,8 @@ constexpr std::array all_cases{
     StabilityCase{"rest", "At rest", lone},
     StabilityCase{"stretched", "Stretched 10 times", [](double k) { return stretched_by(k, dvec3(10, 1, 1)); }},
     StabilityCase{"flattened", "Flattened", [](double k) { return stretched_by(k, dvec3(1, 0, 1)); }},
-    StabilityCase{"collapsed", "Collapsed to a point", collapsed},
+    StabilityCase{"collapsed", "Collapsed to a point",
+                  [](double k) { return placed(k, [](const dvec3&) { return dvec3(0.0); }); }},
     StabilityCase{"nearly-collapsed", "Collapsed to a thousandth",
                   [](double k) { return stretched_by(k, dvec3(1e-3)); }},
     StabilityCase{"random", "Random vertices", random_vertices},
@@ -175,9 +158,12 @@ constexpr std::array all_cases{
     StabilityCase{"pressure-lost", "Pressure lost", [](double k) { return pressure_times(k, 0); }},
     StabilityCase{"inside-solid", "Begins 0.15 R in the ground", inside_solid},
     StabilityCase{"on-the-ground", "On the ground", on_the_ground},
-    StabilityCase{"duplicates", "Duplicate vertices, half flat", duplicates},
-    StabilityCase{"degenerate", "Degenerate faces, half flat", degenerate},
-    StabilityCase{"far", "1 km from the origin, half flat", far_away},
+    StabilityCase{"duplicates", "Duplicate vertices, half flat",
+                  [](double k) { return damaged_mesh(k, [](dvec3& a, dvec3& b, dvec3&) { b = a; }); }},
+    StabilityCase{"degenerate", "Degenerate faces, half flat",
+                  [](double k) { return damaged_mesh(k, [](dvec3& a, dvec3& b, dvec3& c) { c = 0.5 * (a + b); }); }},
+    StabilityCase{"far", "1 km from the origin, half flat",
+                  [](double k) { return placed(k, [](const dvec3& p) { return 1000.0 + p * dvec3(1, 0.5, 1); }); }},
     StabilityCase{"pile", "A pile of 47", pile},
 };
 

@@ -1,4 +1,4 @@
-#include "app/report/stability/cell.h"
+#include "app/report/stability/results.h"
 
 #include <algorithm>
 #include <cassert>
@@ -9,7 +9,6 @@
 #include <glm/geometric.hpp>
 
 #include "app/report/solid_passages.h"
-#include "app/report/steps.h"
 #include "softbody/forces/gas.h"
 #include "softbody/world/energy_watch.h"
 
@@ -39,8 +38,8 @@ class Run {
   Run(const StabilityStart& start) : start_(start), above_balance_(start.above_balance) {}
 
   World make(double frame_time, const softbody::Integrator& integrator, const std::vector<Particles>& particles) {
-    World world(start_.scene, {.frame_time = frame_time, .integrator = with_steps(integrator, 1)});
-    for (BodyId b = 0; b < particles.size(); ++b) world.set_particles(b, particles[b]);
+    World world =
+        start_world(start_.scene, {.frame_time = frame_time, .integrator = with_steps(integrator, 1)}, particles);
     if (frame_ == 0) {
       passages_.observe(world);
       while (bodies_ < world.bodies().count()) add_body();
@@ -110,16 +109,16 @@ class Run {
   /// Counts the next body as present and returns it.
   const StabilityStart::Member& add_body() {
     const StabilityStart::Member& member = start_.members[bodies_++];
-    balance_ += member.balance;
+    balance_ += member.balance();
     weight_ += member.weight();
-    lightest_ = std::min(lightest_, member.particle_mass);
+    lightest_ = std::min(lightest_, member.model->particle_mass);
     return member;
   }
 
   /// Counts bodies that join in the coming step.
   void join(const World& world) {
     const std::vector<softbody::BodySource>& sources = start_.scene.bodies;  // in this order
-    while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame()) above_balance_ += add_body().kinetic;
+    while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame()) above_balance_ += add_body().kinetic();
   }
 
   const StabilityStart& start_;

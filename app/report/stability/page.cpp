@@ -6,6 +6,7 @@
 
 #include "app/base/text.h"
 #include "app/report/stability/results.h"
+#include "app/report/sums.h"
 
 namespace app::report {
 
@@ -13,34 +14,33 @@ namespace app::report {
 
 Table stability_table(const StabilityResults& results) {
   Table table;
-  for (const StabilitySection& section : results.sections)
-    for (const StabilityRow& row : section.rows)
-      for (const StabilityCell& cell : row.cells) {
-        const reference::StabilityFigures& f = cell.figures;
-        const bool ran = f.refused.empty(), compared = f.reference.has_value();
-        const reference::ReferenceDeviation end = f.reference.value_or(reference::ReferenceDeviation{});
-        table.add({{"part", "cell"},
-                   {"case", section.key},
-                   {"integrator", results.integrators[cell.integrator]->key},
-                   {"dt", results.dts[cell.dt]},
-                   {"stiffness", row.stiffness},
-                   {"passes", cell.passes()},
-                   {"failures", joined(reference::failures(f), "; ")},
-                   {"not_judged", row.not_judged},
-                   {"finite", when(ran, f.finite)},
-                   {"energy_excess", when(ran, f.energy)},
-                   {"speed_ratio", when(ran, f.speed)},
-                   {"extent_ratio", when(ran, f.extent)},
-                   {"transient_depth", when(ran, f.transient)},
-                   {"steady_depth", when(ran, f.steady)},
-                   {"through_solids", when(ran, f.passed_through)},
-                   {"shape", when(compared, end.shape)},
-                   {"volume", when(compared, end.volume)},
-                   {"rest", when(compared, end.rest)},
-                   {"blew_up", when(ran && f.blow_up_time > 0, f.blow_up_time)},
-                   {"stable_step", ""},
-                   {"predicted_step", ""}});
-      }
+  for (const StabilityRow& row : results.rows)
+    for (const StabilityCell& cell : row.cells) {
+      const reference::StabilityFigures& f = cell.figures;
+      const bool ran = f.refused.empty(), compared = f.reference.has_value();
+      const reference::ReferenceDeviation end = f.reference.value_or(reference::ReferenceDeviation{});
+      table.add({{"part", "cell"},
+                 {"case", row.key},
+                 {"integrator", results.integrators[cell.integrator]->key},
+                 {"dt", results.dts[cell.dt]},
+                 {"stiffness", row.stiffness},
+                 {"passes", cell.passes()},
+                 {"failures", joined(reference::failures(f), "; ")},
+                 {"not_judged", row.start.not_judged},
+                 {"finite", when(ran, f.finite)},
+                 {"energy_excess", when(ran, f.energy)},
+                 {"speed_ratio", when(ran, f.speed)},
+                 {"extent_ratio", when(ran, f.extent)},
+                 {"transient_depth", when(ran, f.transient)},
+                 {"steady_depth", when(ran, f.steady)},
+                 {"through_solids", when(ran, f.passed_through)},
+                 {"shape", when(compared, end.shape)},
+                 {"volume", when(compared, end.volume)},
+                 {"rest", when(compared, end.rest)},
+                 {"blew_up", when(ran && f.blow_up_time > 0, f.blow_up_time)},
+                 {"stable_step", ""},
+                 {"predicted_step", ""}});
+    }
   for (std::size_t i = 0; i < results.steps.size(); ++i)
     for (const StableStep& step : results.steps[i])
       table.add({{"part", "step"},
@@ -55,15 +55,9 @@ namespace {
 
 // ---- plots ----
 
-Plot step_against_stiffness(const StabilityResults& results) {
-  Plot plot{.name = "stability-steps",
-            .caption = fmt::format("The largest step that keeps the energy of a disturbed ball (tried up to {:g} s); "
-                                   "dashed: the bound that the solver relies on, with its safety factor.",
-                                   max_step_tried),
-            .title = "Largest stable step against stiffness",
-            .x = "stiffness of a spring, N/m",
-            .y = "step, s",
-            .settings = fmt::format("set yrange [*:{:g}]\nset format xy '%g'\n", 2 * max_step_tried)};
+Plot step_against_stiffness(const Page& page, const StabilityResults& results) {
+  Plot plot = page.plot_of("step against stiffness", "stability-steps", fmt::arg("tried", max_step_tried),
+                           fmt::arg("top", 2 * max_step_tried));
   for (std::size_t i = 0; i < results.steps.size(); ++i) {
     Series found{std::string(results.integrators[i]->name), integrator_colour(i),
                  "linespoints pointtype 7 linewidth 2"};
@@ -80,38 +74,18 @@ Plot step_against_stiffness(const StabilityResults& results) {
 
 // ---- the page ----
 
-void add_introduction(Page& page, const StabilityResults& r) {
-  constexpr reference::StabilityBounds b = reference::stability_bounds;
-  page.add(
-      "introduction", fmt::arg("command", r.command), fmt::arg("seconds", r.seconds),
-      fmt::arg("stiffnesses",
-               r.from_file ? "with all stiffnesses and pressures of the scene times a factor"
-                           : "with springs of 10 to 1e8 N/m (bend springs a fourth of it, gas pressure in proportion)"),
-      fmt::arg("energy", b.energy), fmt::arg("transient", b.transient), fmt::arg("steady", b.steady),
-      fmt::arg("shape", b.shape), fmt::arg("volume", 100 * b.volume), fmt::arg("rest", b.rest),
-      fmt::arg("quick", r.quick ? "This is the quick report: fewer cases and stiffnesses, and half the time." : ""));
-}
-
 /// Returns "1/60".
 std::string fraction(double dt) { return fmt::format("1/{:.0f}", 1 / dt); }
-
-/// Calls `visit(section, row, cell)` for all cells.
-template <class Visit>
-void for_each_cell(const StabilityResults& r, const Visit& visit) {
-  for (const StabilitySection& section : r.sections)
-    for (const StabilityRow& row : section.rows)
-      for (const StabilityCell& cell : row.cells) visit(section, row, cell);
-}
 
 /// Counts the cells that pass, by integrator and length of a frame.
 Table overview(const StabilityResults& r) {
   Table table;
   for (std::size_t i = 0; i < r.integrators.size(); ++i) {
     std::vector<std::size_t> passed(r.dts.size() + 1), all(r.dts.size() + 1);  // by length of a frame; of all lengths
-    for_each_cell(r, [&](const auto&, const auto&, const StabilityCell& cell) {
-      if (cell.integrator != i) return;
-      for (const std::size_t column : {cell.dt, r.dts.size()}) passed[column] += cell.passes(), ++all[column];
-    });
+    for (const StabilityRow& row : r.rows)
+      for (const StabilityCell& cell : row.cells)
+        if (cell.integrator == i)
+          for (const std::size_t column : {cell.dt, r.dts.size()}) passed[column] += cell.passes(), ++all[column];
     TableRow row{{"integrator", r.integrators[i]->name}};
     for (std::size_t c = 0; c < all.size(); ++c)
       row.push_back({c < r.dts.size() ? fraction(r.dts[c]) + " s" : "all", fmt::format("{} of {}", passed[c], all[c])});
@@ -130,42 +104,44 @@ std::string verdict(const StabilityResults& r, const StabilityRow& row, std::siz
 }
 
 /// Adds why stiffnesses are marked.
-void add_marks(Page& page, const StabilitySection& section) {
+void add_marks(Page& page, std::span<const StabilityRow> rows) {
   std::map<std::string, std::vector<std::string>> marked;  // stiffnesses by reason
-  for (const StabilityRow& row : section.rows)
-    if (!row.not_judged.empty()) marked[row.not_judged].push_back(fmt::format("{:g}", row.stiffness));
+  for (const StabilityRow& row : rows)
+    if (!row.start.not_judged.empty()) marked[row.start.not_judged].push_back(fmt::format("{:g}", row.stiffness));
   std::vector<std::string> reasons;
   for (const auto& [why, which] : marked) reasons.push_back(fmt::format("{}: {}", joined(which, ", "), why));
   if (!reasons.empty()) page.text("\\* {}.", joined(reasons, "; "));
 }
 
-void add_section(Page& page, const StabilityResults& r, const StabilitySection& section) {
+/// Adds the rows of one case.
+void add_case(Page& page, const StabilityResults& r, std::span<const StabilityRow> rows) {
   Table table;
   for (std::size_t i = 0; i < r.integrators.size(); ++i) {
     TableRow row{{"integrator", r.integrators[i]->name}};
-    for (const StabilityRow& s : section.rows)
-      row.push_back({fmt::format("{}{:g}{}{}", r.from_file ? "x " : "", s.stiffness, r.from_file ? "" : " N/m",
-                                 s.not_judged.empty() ? "" : " *"),
+    for (const StabilityRow& s : rows)
+      row.push_back({fmt::format("{}{:g}{}{}", r.options.scene ? "x " : "", s.stiffness, r.options.scene ? "" : " N/m",
+                                 s.start.not_judged.empty() ? "" : " *"),
                      verdict(r, s, i)});
     table.add(row);
   }
-  page.text("### {}", section.name);
-  page.table(table, 1 + section.rows.size());
-  add_marks(page, section);
+  page.text("### {}", rows.front().name);
+  page.table(table, 1 + rows.size());
+  add_marks(page, rows);
 }
 
 /// Adds what fails, in words, for the integrators that are meant to be stable at any step.
 void add_failing_cells(Page& page, const StabilityResults& r) {
   Table table;
-  for_each_cell(r, [&](const StabilitySection& section, const StabilityRow& row, const StabilityCell& cell) {
-    const softbody::Integrator& integrator = *r.integrators[cell.integrator];
-    if (cell.passes() || !integrator.stable_at_any_step()) return;
-    table.add({{"integrator", integrator.name},
-               {"case", section.name},
-               {"stiffness", fmt::format("{:g}", row.stiffness)},
-               {"dt, s", fraction(r.dts[cell.dt])},
-               {"what is wrong", joined(reference::failures(cell.figures), "; ")}});
-  });
+  for (const StabilityRow& row : r.rows)
+    for (const StabilityCell& cell : row.cells) {
+      const softbody::Integrator& integrator = *r.integrators[cell.integrator];
+      if (cell.passes() || !integrator.stable_at_any_step()) continue;
+      table.add({{"integrator", integrator.name},
+                 {"case", row.name},
+                 {"stiffness", fmt::format("{:g}", row.stiffness)},
+                 {"dt, s", fraction(r.dts[cell.dt])},
+                 {"what is wrong", joined(reference::failures(cell.figures), "; ")}});
+    }
   if (table.empty()) return;
   page.add("failing");
   page.table(table, 5);
@@ -187,18 +163,22 @@ void add_steps(Page& page, const StabilityResults& r) {
   }
   page.text("## Largest stable step, and its predicted bound, ms");
   page.table(table);
-  page.plot(step_against_stiffness(r));
+  page.plot(step_against_stiffness(page, r));
 }
 
 }  // namespace
 
 Page stability_page(const StabilityResults& results) {
-  Page page("stability");
-  add_introduction(page, results);
+  Page page(results.options);
+  constexpr reference::StabilityBounds b = reference::stability_bounds;
+  page.introduce(fmt::arg("seconds", results.seconds),
+                 fmt::arg("stiffnesses", page.text_of(results.options.scene ? "factors" : "springs")),
+                 fmt::arg("energy", b.energy), fmt::arg("transient", b.transient), fmt::arg("steady", b.steady),
+                 fmt::arg("shape", b.shape), fmt::arg("volume", 100 * b.volume), fmt::arg("rest", b.rest));
   page.text("## Cells that pass");
   page.table(overview(results));
   page.text("## Cases");
-  for (const StabilitySection& section : results.sections) add_section(page, results, section);
+  for (const auto& rows : groups_of(results.rows, &StabilityRow::key)) add_case(page, results, rows);
   add_failing_cells(page, results);
   add_steps(page, results);
   return page;

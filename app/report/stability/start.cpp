@@ -1,6 +1,7 @@
-#include "app/report/stability/cell.h"
+#include "app/report/stability/results.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <queue>
@@ -8,7 +9,6 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
-#include "app/report/steps.h"
 #include "softbody/forces/springs.h"
 #include "softbody/world/body_model_set.h"
 #include "softbody/world/measures.h"
@@ -50,30 +50,6 @@ StabilityStart::SpringChain spring_chain_of(const softbody::BodyModel& p) {
   return {*chain * longest, softest / *chain};
 }
 
-/// Returns the world with its bodies where the case places them.
-World placed(const StabilityScene& from) {
-  World world(from.scene, {.integrator = one_step()});
-  for (BodyId b = 0; b < from.start.size(); ++b) world.set_particles(b, from.start[b]);
-  return world;
-}
-
-/// Returns the body as it starts or joins: in its starting shape.
-StabilityStart::Member member_of(const softbody::BodyModel& p, const softbody::BodySource& source) {
-  return {.chain = spring_chain_of(p),
-          .radius = p.radius,
-          .mass = p.material[softbody::Material::mass],
-          .particle_mass = p.particle_mass,
-          .balance = p.start_energy.total(),
-          .kinetic = 0.5 * p.material[softbody::Material::mass] * glm::dot(source.velocity, source.velocity)};
-}
-
-reference::StabilityLimits limits_of(const World& world, const StabilityStart& start, double seconds) {
-  const softbody::Measures m = softbody::measure(world);
-  double min_radius = infinite;
-  for (const StabilityStart::Member& member : start.members) min_radius = std::min(min_radius, member.radius);
-  return {.seconds = start.first_frame + seconds, .radius = min_radius, .begins_inside = m.deepest_penetration > 0};
-}
-
 /// True if shape and volume agree.
 bool alike(const reference::ReferenceBody& body, const reference::BodyState& a, const reference::BodyState& b) {
   constexpr double close = 1e-3;  // R; of the volume. A tenth of what solvers are allowed
@@ -100,26 +76,24 @@ double height_energy(const World& world, const std::vector<dvec3>& x, BodyId bod
   return energy;
 }
 
-std::vector<Particles> all_particles(const World& world) {
-  std::vector<Particles> list;
-  for (BodyId b = 0; b < world.bodies().count(); ++b) list.push_back(particles_of(world, b));
-  return list;
-}
-
 StabilityStart prepare(const StabilityScene& from, double seconds) {
-  const World world = placed(from);
+  const World world = start_world(from.scene, {.integrator = one_step()}, from.start);
   StabilityStart s{.scene = from.scene, .particles = all_particles(world), .first_frame = from.first_frame};
   std::ranges::stable_sort(s.scene.bodies, {}, &softbody::BodySource::appear);
   for (const softbody::BodySource& source : s.scene.bodies) {
     const auto model =
         softbody::shared_body_model(source.mesh, s.scene.materials[static_cast<std::size_t>(source.material)]);
-    s.members.push_back(member_of(*model, source));
+    s.members.push_back({model, spring_chain_of(*model), glm::dot(source.velocity, source.velocity)});
   }
-  s.above_balance = softbody::measure(world).energy;
+  assert(!s.members.empty());
+  const softbody::Measures measures = softbody::measure(world);
+  s.above_balance = measures.energy;
   for (BodyId b = 0; b < s.particles.size(); ++b)
-    s.above_balance -= height_energy(world, reference::state_of(world, b).x, b) + s.members[b].balance;
+    s.above_balance -= height_energy(world, reference::state_of(world, b).x, b) + s.members[b].balance();
   if (!s.particles.empty()) s.balance_shape = world.model(0).start;
-  s.limits = limits_of(world, s, seconds);
+  s.limits = {.seconds = s.first_frame + seconds,
+              .radius = std::ranges::min(s.members, {}, &StabilityStart::Member::radius).radius(),
+              .begins_inside = measures.deepest_penetration > 0};
   // The bodies are where they start. So no cell has to find their balance again, unless some join later.
   if (s.particles.size() == from.scene.bodies.size())
     for (softbody::Material& m : s.scene.materials) m[softbody::Material::start_in_equilibrium] = false;
@@ -127,7 +101,7 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
 }
 
 void find_reference(StabilityStart& start, std::uint64_t steps) {
-  World world(start.scene, {.integrator = one_step()});
+  World world = world_of(start.scene);
   const auto no = [&](const std::string& why) { start.not_judged = fmt::format("the reference {}", why); };
   if (const std::string missing = reference::ReferenceBody::unsupported_stage(world); !missing.empty())
     return no(fmt::format("does not model {}", missing));

@@ -2,9 +2,7 @@
 #include <random>
 
 #include "app/reference/reference_body.h"
-#include "app/report/solver/scenes.h"
 #include "app/report/stability/results.h"
-#include "app/report/steps.h"
 #include "softbody/forces/bound.h"
 #include "softbody/world/measures.h"
 
@@ -14,16 +12,14 @@ namespace {
 /// A ball of springs and gas. Noise in its start excites every mode.
 class DisturbedBall {
  public:
-  explicit DisturbedBall(double stiffness) : scene_(lone_scene(ball_material(stiffness, 0.1))) {
-    const softbody::World world(scene_, {.integrator = one_step()});
-    start_ = particles_of(world, 0);
-    balance_ = softbody::measure(world).energy;
+  explicit DisturbedBall(double stiffness)
+      : scene_(lone_scene(ball_material(stiffness, 0.1))), balance_(softbody::measure(world_of(scene_)).energy) {
     std::mt19937 random(1);
     const auto noise = [&] { return 0.002 * (2 * double(random()) / double(std::mt19937::max()) - 1); };  // m
-    for (softbody::Particle& p : start_) {
+    start_ = changed_start(scene_, [&](softbody::Particle& p) {
       const double x = noise(), y = noise(), z = noise();
       p.position = p.position * glm::dvec3(1, 0.97, 1) + glm::dvec3(x, y, z);
-    }
+    });
     scene_.materials[0][softbody::Material::start_in_equilibrium] = false;
   }
 
@@ -47,14 +43,12 @@ class DisturbedBall {
 
  private:
   softbody::World make(const softbody::Integrator& integrator, double h) const {
-    softbody::World world(scene_, {.frame_time = h, .integrator = one_step(integrator.key)});
-    world.set_particles(0, start_);
-    return world;
+    return start_world(scene_, {.frame_time = h, .integrator = one_step(integrator.key)}, start_);
   }
 
   softbody::Scene scene_;
-  Particles start_;
   double balance_;
+  std::vector<Particles> start_;
 };
 
 }  // namespace
