@@ -59,8 +59,7 @@ void PenaltyContact::find(const DetectedContacts& detected, const State& state, 
   layer.tolerance = detected.tolerance;
   layer.begun = layer.thickness;
   layer.grow(seconds);
-  impulse_.clear(), returned_.clear();
-  if (detected.contacts.empty()) return pairs.clear();
+  if (detected.contacts.empty()) return clear();
   const std::vector<collide::Contact> before = std::exchange(pairs.contact, {});
   const VectorArray stretch = std::exchange(pairs.stretch, {});
   restitution_.resize(state.body_count());
@@ -222,14 +221,15 @@ void PenaltyContact::add_impact(PenaltyEnd end, double impulse, double taken) {
 }
 
 void PenaltyContact::take_impacts(Rebounds& rebounds) {
-  if (!bounces()) return;
+  const auto impulses = std::exchange(impulse_, {}), returned = std::exchange(returned_, {});
+  if (impulses.empty()) return;
   const std::size_t b = pairs.a.size();
-  assert(impulse_.size() == 2 * b);
+  assert(impulses.size() == 2 * b);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const float impulse = impulse_[i] + impulse_[b + i];
+    const float impulse = impulses[i] + impulses[b + i];
     if (impulse == 0 || pairs.restitution[i] <= 0) continue;
     rebounds.add({pairs.body_a[i], pairs.body_b[i], glm::dvec3(impulse * read(field(pairs.normal), i)),
-                  double(returned_[i] + returned_[b + i])});
+                  double(returned[i] + returned[b + i])});
   }
 }
 

@@ -64,6 +64,8 @@ class PenaltyContact {
   /// Takes the contacts for the coming frame of `seconds`, and hands the friction springs of those that were there
   /// before on to them. The contacts ascend. If the frame is cut short, layer.grow() must follow.
   void find(const DetectedContacts& detected, const State& state, double seconds, collide::Workers& workers);
+  /// Forgets all pairs.
+  void clear() { pairs.clear(), impulse_.clear(), returned_.clear(); }
   /// Finds the particles that the pairs join by their slots, which are below `slots`.
   void group(std::size_t slots, std::span<const Batch> batches);
   /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up.

@@ -44,7 +44,7 @@ void Solver::set_plan(const Plan& plan) {
   resistance_.set_plan(plan);
   contacts_.set_plan(plan);
   solids_.set_parts(plan.has(Stage::solid_features), plan.has(Stage::restitution));
-  if (!plan.has(stage_of<PenaltyContact>)) penalty_.pairs.clear();
+  if (!plan.has(stage_of<PenaltyContact>)) penalty_.clear();
   if (!plan.has(Stage::restitution)) rebounds_ = {};
 }
 
