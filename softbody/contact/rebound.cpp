@@ -15,23 +15,25 @@ glm::dvec3 rebound(Impact& impact, const glm::dvec3& impulse, double returned, c
                    const glm::dvec3& after, double mass, double seconds) {
   constexpr double wait = 0.02;         // s; an implicit step may miss the contact of a body that swings
   constexpr double longest_gap = 0.05;  // s; the other one may swing out of its way
+  constexpr double growth = 1;          // 1/s; what grows more slowly does so in a rebound without end, too
   assert(mass > 0 && seconds >= 0);
   impact.given = 0;
   const double push = glm::length(impulse);
   const glm::dvec3 normal = push > 0 ? impulse / push : glm::dvec3(0.0);
-  if (const double approach = -glm::dot(before, normal); approach > law::impact_speed)
+  if (const double approach = -glm::dot(before, normal); approach > law::impact_speed) {
+    if (impact.speed <= 0) impact.parting = float(-approach);
     impact.speed = std::max(impact.speed, float(approach));
+  }
   if (impact.speed <= 0) return glm::dvec3(0.0);
   impact.energy += returned * normal;
   if (glm::dot(impact.energy, normal) < 0) impact.energy = glm::dvec3(0.0);  // it pushes out more than it took
   const double energy = glm::length(impact.energy);
   const glm::dvec3 way = energy > 0 ? impact.energy / energy : normal;
   const double parting = glm::dot(after, way), came = double(impact.speed);
-  const double little = 0.02 * came;
-  const bool stopped = std::abs(parting) < little;
-  impact.calm = push > 0 && !stopped ? 0 : impact.calm + float(seconds);
-  if (push > 0) impact.parting = float(parting);
-  const bool still_came = double(impact.parting) < -little;
+  const double last = push > 0 ? double(std::exchange(impact.parting, float(parting))) : double(impact.parting);
+  const bool still_came = double(impact.parting) < -0.02 * came;
+  const bool grows = push > 0 && parting > last + growth * came * seconds;
+  impact.calm = grows || (push > 0 && still_came) ? 0 : impact.calm + float(seconds);
   if (still_came && double(impact.calm) > longest_gap) impact = {};  // it has come past, and meets something else next
   if (still_came || double(impact.calm) < wait) return glm::dvec3(0.0);
   // No faster than it came.

@@ -2,8 +2,8 @@
 // Restitution. A contact stops the particles that come at it, and damps the rebound of the body that they belong to.
 // What energy this takes in an impact is summed. If single particles were thrown back, the springs would turn that into
 // swings and damp them; the body would not leave faster. So the share e^2 of that energy, with the restitution e, is
-// given back to the body as a whole, along the contact's normals, when for a while contact has not pushed the two sides
-// that part, or has stopped them flat.
+// given back to the body as a whole, along the contact's normals, when the two sides part and contact has hardly made
+// them faster for a while.
 
 #include <vector>
 

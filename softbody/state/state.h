@@ -45,7 +45,7 @@ struct Impact {
   glm::dvec3 energy{0.0};  // J along the contact's normals, that restitution has to give back
   float speed = 0;         // m/s, the largest with which they came together; 0: it is over, or was slow
   float parting = 0;       // m/s, of the last frame in which contact pushed
-  float calm = 0;          // s, for how long contact has not pushed, or the two sides have stood still
+  float calm = 0;          // s, for how long contact has hardly made the two sides part faster
   float given = 0;         // J, that it gave back in the last frame
 };
 

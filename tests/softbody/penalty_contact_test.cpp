@@ -104,23 +104,20 @@ TEST(PenaltyContact, DampsByTheSpeedOfSeparationBetweenNothingAndThreeTimes) {
 
 /// The damper makes 1.5 times the push at rest of it, at 1 m/s. Its impulse changes the speed while it acts.
 TEST(PenaltyContact, GivesBackTheShareOfRestitutionOfWhatItsDamperTakes) {
-  constexpr double seconds = 0.01, mass = 1;
+  constexpr double seconds = 0.2;
   for (const double e : {0.0, 0.4, 1.0}) {
     Material material = spring_ball();
-    material[Material::mass] = 2 * mass;  // reduced: half of it
+    material[Material::mass] = 2;
     State state;
-    for (const double y : {1.0, 0.0}) state.add(make_unbalanced_body_model({}, material), {0, y, 0}, {0, -y, 0});
+    for (const double y : {0.1, 0.0}) state.add(make_unbalanced_body_model({}, material), {0, y, 0}, {0, y, 0});
     Pair pair({0, 0.05, 0});
     pair.penalty.pairs.restitution[0] = float(e);
     pair.penalty.group(2, {});
-    const double pushed = pair.force({0, -1, 0}, seconds).y, damped = pushed / 3 * seconds,
-                 taken = damped * (1 - damped);
+    const double pushed = pair.force({0, -1, 0}, seconds).y, damped = pushed / 3 * seconds;
     Rebounds rebounds;
     pair.penalty.take_impacts(rebounds);
-    EXPECT_EQ(rebounds.give_back(state, seconds), 0) << "they come together";
-    for (std::size_t i = 0; i < state.batch_of(0).particles(); ++i) state.field_of(0, state.v).set(i, {0, 0.1, 0});
-    for (int frame = 0; frame < 2; ++frame) EXPECT_EQ(rebounds.give_back(state, seconds), 0) << "contact may go on";
-    EXPECT_NEAR(rebounds.give_back(state, seconds), e * e * taken, 1e-6) << e;
+    EXPECT_EQ(rebounds.give_back(state, seconds), 0) << "they have just parted";
+    EXPECT_NEAR(rebounds.give_back(state, seconds), e * e * damped * (1 - damped), 1e-6) << e;
   }
 }
 
