@@ -13,7 +13,8 @@ namespace softbody {
 
 glm::dvec3 rebound(Impact& impact, const glm::dvec3& impulse, double returned, const glm::dvec3& before,
                    const glm::dvec3& after, double mass, double seconds) {
-  constexpr double wait = 0.02;         // s; an implicit step may miss the contact of a body that swings
+  // s; a ball may pause before it swings back, and an implicit step may miss the contact of a body that swings.
+  constexpr double wait_in_contact = 0.1, wait = 0.02;
   constexpr double longest_gap = 0.05;  // s; the other one may swing out of its way
   constexpr double growth = 1;          // 1/s; what grows more slowly does so in a rebound without end, too
   assert(mass > 0 && seconds >= 0);
@@ -35,7 +36,7 @@ glm::dvec3 rebound(Impact& impact, const glm::dvec3& impulse, double returned, c
   const bool grows = push > 0 && parting > last + growth * came * seconds;
   impact.calm = grows || (push > 0 && still_came) ? 0 : impact.calm + float(seconds);
   if (still_came && double(impact.calm) > longest_gap) impact = {};  // it has come past, and meets something else next
-  if (still_came || double(impact.calm) < wait) return glm::dvec3(0.0);
+  if (still_came || double(impact.calm) < (push > 0 ? wait_in_contact : wait)) return glm::dvec3(0.0);
   // No faster than it came.
   const double speed = std::min(std::sqrt(parting * parting + 2 * energy / mass), std::max(parting, came));
   impact.given = float(mass / 2 * (speed * speed - parting * parting));
