@@ -133,6 +133,7 @@ void OutputFile::Remove::operator()(const std::string* temporary) const {
 }
 
 void OutputFile::write(std::string_view bytes) {
+  if (bytes.empty()) return;  // fwrite() takes no null pointer
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) fail(std::strerror(errno));
 }
 

@@ -170,6 +170,7 @@ TEST(BodyTrees, AreCutAnewByTheBodyWhosePatchesHaveSpread) {
 TEST(TreeSearch, FindsTheContactsOfAnyTree) {
   for (const NamedState& named : named_states()) {
     const State state = named.make();
+    const Frame frame = state.frame();  // which the search keeps
     BodyBoxes bodies;
     Settings settings;
     settings.tolerance = state.tolerance;
@@ -180,9 +181,9 @@ TEST(TreeSearch, FindsTheContactsOfAnyTree) {
       TreeSearch tree_search;
       ContactSearch search;
       Result result;
-      bodies.build(state.frame(), result);
-      tree.build(state.frame(), bodies.live, halve_by_x, 3, workers);
-      search.begin(state.frame(), settings, tree.points(), threads);
+      bodies.build(frame, result);
+      tree.build(frame, bodies.live, halve_by_x, 3, workers);
+      search.begin(frame, settings, tree.points(), threads);
       tree_search.run(tree.nodes(), settings.self_collision, contact_cutoff(settings.tolerance), search, workers);
       search.finish(result);
       EXPECT_EQ(result.contacts, oracle(state, settings)) << named.name << ' ' << threads;
