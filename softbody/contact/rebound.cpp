@@ -31,9 +31,9 @@ glm::dvec3 rebound(Impact& impact, const glm::dvec3& impulse, double returned, c
   const double energy = glm::length(impact.energy);
   const glm::dvec3 way = energy > 0 ? impact.energy / energy : normal;
   const double parting = glm::dot(after, way), came = double(impact.speed);
-  const double last = push > 0 ? double(std::exchange(impact.parting, float(parting))) : double(impact.parting);
+  const bool grows = push > 0 && parting > double(impact.parting) + growth * came * seconds;
+  if (push > 0) impact.parting = float(parting);
   const bool still_came = double(impact.parting) < -0.02 * came;
-  const bool grows = push > 0 && parting > last + growth * came * seconds;
   impact.calm = grows || (push > 0 && still_came) ? 0 : impact.calm + float(seconds);
   if (still_came && double(impact.calm) > longest_gap) impact = {};  // it has come past, and meets something else next
   if (still_came || double(impact.calm) < (push > 0 ? wait_in_contact : wait)) return glm::dvec3(0.0);

@@ -2,6 +2,7 @@
 // Solids that bodies meet, as a scene has them. They do not move. What contact knows of a shape stands in
 // contact/solid_geometry.h and contact/solid_shapes.h.
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <variant>
@@ -52,7 +53,8 @@ using Axes = Value<struct AxesKind, glm::dmat3>;            // orthonormal colum
 inline bool is_valid(const glm::dvec3& direction) { return std::abs(glm::dot(direction, direction) - 1) < 1e-9; }
 inline bool is_valid(const glm::dmat3& axes) {
   const glm::dmat3 error = glm::transpose(axes) * axes - glm::dmat3(1.0);
-  return glm::length(error[0]) + glm::length(error[1]) + glm::length(error[2]) < 2e-9 && glm::determinant(axes) > 0;
+  const double most = std::max({glm::length(error[0]), glm::length(error[1]), glm::length(error[2])});
+  return most <= 1e-9 && glm::determinant(axes) > 0;
 }
 }  // namespace solid
 

@@ -31,7 +31,7 @@ std::string problem(const Scene& scene) {
       if constexpr (requires { Value::Kind::limits; })
         for (const double number : numbers_of(v.value)) check(of + key, Value::Kind::limits, number);
       else if (!solid::is_valid(v.value))
-        found = of + key + " must have length 1 in each direction";
+        found = of + key + " must consist of directions of length 1, at right angles to each other";
     });
   }
   return found;
