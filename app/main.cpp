@@ -41,9 +41,7 @@ int run(const app::cli::Options& options) {
                                 .meshes = options.meshes,
                                 .integrator = options.integrator,
                                 .threads = options.threads,
-                                .width = options.width,
-                                .height = options.height,
-                                .size_given = options.size_given});
+                                .size = options.size});
 #else
   throw app::UsageError(
       "this build has no window; use `sbcollide simulate`, or configure with -DSBCOLLIDE_GRAPHICS=ON");

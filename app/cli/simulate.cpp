@@ -197,8 +197,8 @@ class Pictures {
  public:
   explicit Pictures(const Options& options) : options_(options) {
     if (options.captures.empty() && !options.animation) return;
-    capture_ = std::make_unique<render::Capture>(options.width,
-                                                 options.height);  // first: without OpenGL no folder should be made
+    // First: without OpenGL no folder should be made.
+    capture_ = std::make_unique<render::Capture>(options.picture_size());
     if (!options.captures.empty()) files::prepare_folder(options.out);
     for (const int frame : options.captures) files::require_no_input(picture_file(frame));
     if (options.animation) animation_.emplace(*options.animation);

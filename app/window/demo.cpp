@@ -82,9 +82,7 @@ class Demo {
  public:
   explicit Demo(const DemoOptions& options)
       : preferences_(preferences_path()),
-        graphics_(std::make_unique<Graphics>(
-            options.size_given ? glm::ivec2(options.width, options.height) : preferences_.stored().size,
-            options.threads)),
+        graphics_(std::make_unique<Graphics>(options.size.value_or(preferences_.stored().size), options.threads)),
         session_owner_(open_session(options, *graphics_)),
         session_(*session_owner_) {
     session_.settings.set_integrator(options.integrator);
