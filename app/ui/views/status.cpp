@@ -88,8 +88,7 @@ float draw_status(Widgets& w, Session& session, FloatingBox& box, const ScreenRe
           .c_str());
   if (session.simulated()) draw_step_light(w, session);
   ImGui::PopTextWrapPos();
-  const ScreenRect covered = box.end();
-  return box.in_its_place() ? covered.max.y : area.min.y;
+  return box.end(area);
 }
 
 float draw_notices(Widgets& w, const Session& session, const std::string& no_room_message, const ScreenRect& area) {
