@@ -112,21 +112,17 @@ std::string ghost_distance_text(const Session& session) {
 
 namespace {
 
+void draw_legend_line(Widgets& w, const glm::vec3& colour, const std::string& text) {
+  w.swatch(colour);
+  ImGui::TextUnformatted(text.c_str());
+  w.register_item("Legend", nullptr);
+}
+
 void draw_ghost_legend(Widgets& w, const Session& session) {
   ImGui::Text("Opaque: %s", integrator_text(*session.simulated()).c_str());
   w.register_item("Legend", nullptr);
-  w.swatch(render::ghost_colour, ImGui::GetTextLineHeight());
-  ImGui::SameLine();
-  ImGui::Text("Ghost: %s", integrator_text(session.ghost().get()->world()).c_str());
-  w.register_item("Legend", nullptr);
+  draw_legend_line(w, render::ghost_colour, "Ghost: " + integrator_text(session.ghost().get()->world()));
   ImGui::Text("RMS distance: %s", ghost_distance_text(session).c_str());
-}
-
-void draw_legend_line(Widgets& w, const glm::vec3& colour, const std::string& text) {
-  w.swatch(colour, ImGui::GetTextLineHeight());
-  ImGui::SameLine();
-  ImGui::TextUnformatted(text.c_str());
-  w.register_item("Legend", nullptr);
 }
 
 void draw_strain_scale(const Widgets& w) {
