@@ -130,7 +130,7 @@ Material imported_material(double extent) {
 }
 
 std::string Import::progress() const {
-  if (!reading_) return {};
+  if (!progress_) return {};
   const auto seconds =
       std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - began_).count();
   std::string text = progress_->cancelled ? "giving up " : "reading ";
@@ -142,7 +142,7 @@ std::string Import::progress() const {
 void Import::cancel() {
   dropped_.clear();
   together_.clear();
-  if (reading_) progress_->cancelled = true;
+  if (progress_) progress_->cancelled = true;
 }
 
 void Import::add(FileReport file_report) {
@@ -159,7 +159,7 @@ void Import::refuse(const std::string& why) {
 }
 
 void Import::load(Session& session) {
-  if (path.empty() || reading_) return;
+  if (path.empty() || progress_) return;
   report_.clear();
   problem_.clear();
   is_dropped_ = false;
@@ -178,7 +178,6 @@ void Import::open(Session& session) {
 }
 
 void Import::read(decltype(FileReader::Question::file) file) {
-  reading_ = true;
   began_ = std::chrono::steady_clock::now();
   progress_ = std::make_shared<FileReader::Progress>();
   reader_.offer({std::move(file), progress_});
@@ -226,11 +225,9 @@ void Import::drop_first(const std::vector<std::string>& files) {
 }
 
 void Import::update(Session& session) {
-  if (auto answer = reader_.take()) {
-    reading_ = false;
-    if (!progress_->cancelled) take(session, std::move(*answer));
-  }
-  if (reading_ || frames_ || dropped_.empty()) return;
+  if (auto answer = reader_.take(); answer && !std::exchange(progress_, nullptr)->cancelled)
+    take(session, std::move(*answer));
+  if (progress_ || frames_ || dropped_.empty()) return;
   path = dropped_.front();
   dropped_.erase(dropped_.begin());
   is_dropped_ = true;

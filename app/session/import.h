@@ -116,7 +116,7 @@ class Import {
   std::optional<JoinedAt> take_joined() { return std::exchange(joined_, std::nullopt); }
 
   /// Returns true while something is read; not while question() waits for the user.
-  bool busy() const { return reading_ || (!frames_ && !dropped_.empty()); }
+  bool busy() const { return progress_ || (!frames_ && !dropped_.empty()); }
   /// Returns what is being read, what is done with it, and for how long; empty unless busy().
   std::string progress() const;
   /// Gives up what is being read, and all files that wait. busy() until the present stage is over.
@@ -154,9 +154,8 @@ class Import {
   std::vector<std::string> together_;  // what is read now, if it may be frames
   std::optional<Frames> frames_;       // what question() is about
   std::optional<JoinedAt> joined_;
-  bool reading_ = false;
   std::chrono::steady_clock::time_point began_;
-  std::shared_ptr<FileReader::Progress> progress_;  // of what is read
+  std::shared_ptr<FileReader::Progress> progress_;  // of what is read; nullptr: nothing is
   BackgroundWorker<FileReader> reader_;
 };
 
