@@ -125,10 +125,6 @@ void PreferencesFile::store(const Preferences& now, double seconds, bool last) {
   }
   if (pending_ == stored_ || (!last && seconds - pending_since_ < settling)) return;
   stored_ = pending_;  // also if writing fails: the problem is reported once per change, not once per frame
-  write();
-}
-
-void PreferencesFile::write() {
   try {
     fs::create_directories(file_.parent_path());
     files::write_file(file_, text_of(stored_));

@@ -46,8 +46,6 @@ class PreferencesFile {
   std::string take_problem() { return std::exchange(problem_, {}); }
 
  private:
-  void write();
-
   static constexpr double settling = 2;  // s
 
   std::filesystem::path file_;

@@ -25,14 +25,10 @@ void Ghost::step() {
   assert(!blown_up_);
   before_.copy(world_.positions());
   world_.step();
-  blown_up_ = has_blown_up();
-}
-
-bool Ghost::has_blown_up() const {
   constexpr float far = 1e4f;  // m
   const collide::Frame f = world_.positions();
   const auto lost = [](float at) { return !(std::abs(at) < far); };
-  return std::ranges::any_of(f.x, lost) || std::ranges::any_of(f.y, lost) || std::ranges::any_of(f.z, lost);
+  blown_up_ = std::ranges::any_of(f.x, lost) || std::ranges::any_of(f.y, lost) || std::ranges::any_of(f.z, lost);
 }
 
 double Ghost::distance(const softbody::World& of) const {

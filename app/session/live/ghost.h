@@ -33,8 +33,6 @@ class Ghost {
   bool at_rest() const { return blown_up_ || world_.all_at_rest(); }
 
  private:
-  bool has_blown_up() const;
-
   softbody::IntegratorChoice choice_;
   softbody::World world_;
   compare::Positions before_;
