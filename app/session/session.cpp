@@ -30,7 +30,7 @@ void Session::let_pass(double elapsed) {
 
 bool Session::stands_still() const {
   if (simulation.clock.paused) return simulation.clock.stands_still();
-  return simulation.has_come_to_rest() && (!ghost_.get() || ghost_.get()->at_rest());
+  return simulation.has_come_to_rest() && ghost_.at_rest();
 }
 
 bool Session::awaits_answer() const {

@@ -106,7 +106,7 @@ float draw_notices(Widgets& w, const Session& session, const std::string& no_roo
 }
 
 std::string ghost_distance_text(const Session& session) {
-  if (session.ghost().get()->blown_up()) return "has blown up";
+  if (session.ghost().blown_up()) return "has blown up";
   return fmt::format("{:.3g} R", session.ghost().distances().latest());
 }
 
@@ -121,7 +121,7 @@ void draw_legend_line(Widgets& w, const glm::vec3& colour, const std::string& te
 void draw_ghost_legend(Widgets& w, const Session& session) {
   ImGui::Text("Opaque: %s", integrator_text(*session.simulated()).c_str());
   w.register_item("Legend", nullptr);
-  draw_legend_line(w, render::ghost_colour, "Ghost: " + integrator_text(session.ghost().get()->world()));
+  draw_legend_line(w, render::ghost_colour, "Ghost: " + integrator_text(*session.ghost().world()));
   ImGui::Text("RMS distance: %s", ghost_distance_text(session).c_str());
 }
 
@@ -164,12 +164,12 @@ void draw_bucket_legend(Widgets& w, const Session& session) {
 }  // namespace
 
 bool has_legend(const Session& session, const render::Overlays& shown) {
-  return shown.boxes || shown.cells || session.inspector.bucket() || session.ghost().get() || shown.contacts ||
+  return shown.boxes || shown.cells || session.inspector.bucket() || session.ghost().world() || shown.contacts ||
          shown.springs || shown.missed || shown.areas || shown.surface_contacts;
 }
 
 void draw_legend(Widgets& w, const Session& session, const render::Overlays& shown, bool names_method) {
-  if (session.ghost().get()) draw_ghost_legend(w, session);
+  if (session.ghost().world()) draw_ghost_legend(w, session);
   if (shown.boxes || shown.cells || session.inspector.bucket()) draw_table_legend(w, session, shown, names_method);
   if (session.inspector.bucket()) draw_bucket_legend(w, session);
   if (shown.contacts) {
