@@ -90,13 +90,13 @@ FileReader::Answer FileReader::answer(const Question& question, const std::stop_
       return read;
     }
     if (const auto* frames = std::get_if<FramesToRead>(&question.file)) {
-      files::Opened opened = files::open_recording(frames->files);
+      files::Opened opened = files::open_recording(*frames);
       for (const int number : {1, opened.recording->frame_count() - 1}) opened.recording->frame(number);
       std::string look_at = opened.scene.look_at;
-      return world_of(frames->files.front(), std::move(look_at), std::move(opened), frames->threads);
+      return world_of(frames->front(), std::move(look_at), std::move(opened), question.threads);
     }
-    const auto& [path, threads, presets] = std::get<SceneToRead>(question.file);
-    return world_of(path, "scene " + path.filename().string(), softbody::load_scene(path, presets), threads);
+    const auto& [path, presets] = std::get<SceneToRead>(question.file);
+    return world_of(path, "scene " + path.filename().string(), softbody::load_scene(path, presets), question.threads);
   } catch (const Cancelled&) {
     return Cancelled{};
   } catch (const std::exception& error) {
@@ -168,19 +168,18 @@ void Import::load(Session& session) {
 
 void Import::open(Session& session) {
   const std::filesystem::path file(path);
-  if (file.extension() == ".toml")
-    return read(FileReader::SceneToRead{file, session.simulation.threads(), session.scenes.presets_file()});
+  if (file.extension() == ".toml") return read(FileReader::SceneToRead{file, session.scenes.presets_file()}, session);
   if (!is_mesh(file)) return refuse(path + ": neither a mesh (.obj, .ply) nor a scene (.toml)");
   softbody::MeshFile mesh{.path = std::filesystem::absolute(file), .size = double{size}, .weld = weld};
   if (z_is_up) mesh.up = {0, 0, 1};
   mesh.resolution = resolution;
-  read(std::move(mesh));
+  read(std::move(mesh), session);
 }
 
-void Import::read(decltype(FileReader::Question::file) file) {
+void Import::read(decltype(FileReader::Question::file) file, const Session& session) {
   began_ = std::chrono::steady_clock::now();
   progress_ = std::make_shared<FileReader::Progress>();
-  reader_.offer({std::move(file), progress_});
+  reader_.offer({std::move(file), progress_, session.simulation.threads()});
 }
 
 void Import::drop(const std::vector<std::string>& files, Session& session) {
@@ -193,7 +192,7 @@ void Import::drop(const std::vector<std::string>& files, Session& session) {
     std::ranges::sort(frames, [](const auto& a, const auto& b) { return strverscmp(a.c_str(), b.c_str()) < 0; });
     path = frames.front();
     is_dropped_ = true;
-    read(FileReader::FramesToRead{{frames.begin(), frames.end()}, session.simulation.threads()});
+    read(FileReader::FramesToRead(frames.begin(), frames.end()), session);
   } else {
     dropped_.insert(dropped_.end(), files.begin(), files.end());
   }

@@ -41,14 +41,9 @@ struct FileReader {
   };
   struct Cancelled {};
   struct SceneToRead {
-    std::filesystem::path path;
-    int threads;  // of its world
-    std::filesystem::path presets;
+    std::filesystem::path path, presets;
   };
-  struct FramesToRead {
-    std::vector<std::filesystem::path> files;
-    int threads;
-  };
+  using FramesToRead = std::vector<std::filesystem::path>;
   struct Mesh {
     softbody::MeshSource mesh;
     std::shared_ptr<const softbody::BodyModel> model;  // of imported_material(); kept alive so that a world finds it
@@ -62,6 +57,7 @@ struct FileReader {
   struct Question {
     std::variant<softbody::MeshFile, SceneToRead, FramesToRead> file;
     std::shared_ptr<Progress> progress;
+    int threads = 1;  // of the world
   };
   using Answer = std::variant<Mesh, World, std::string, Cancelled>;  // string: what failed
   Answer answer(const Question& question, const std::stop_token& stop) const;
@@ -142,7 +138,7 @@ class Import {
   void drop_first(const std::vector<std::string>& files);
   void add(FileReport file_report);
   void refuse(const std::string& why);
-  void read(decltype(FileReader::Question::file) file);
+  void read(decltype(FileReader::Question::file) file, const Session& session);
   void take(Session& session, FileReader::Answer answer);
   void enter(Session& session, FileReader::World answer);
   void join(Session& session, FileReader::Mesh read);
