@@ -25,19 +25,16 @@ std::string configuration_text(const compare::Configuration& c) {
 }
 
 std::string point_tooltip(const compare::SweepRow& row) {
-  std::string text = configuration_text(row.configuration);
   const glm::vec3& cell = *row.configuration.settings.cell_size;
-  if (collide::method_table()[row.configuration.method].uses_hash) {
-    text += fmt::format("\nCells of {:.3g} x {:.3g} x {:.3g} m", cell.x, cell.y, cell.z);
-  }
-  text += fmt::format("\n{:.4g} ms: median of {}, smallest {:.4g}", row.times.median(), row.times.ms.size(),
-                      row.times.min());
-  text += fmt::format("\nRecall {:.4f}, precision {:.4f}; ", rounded_down(row.recall), rounded_down(row.precision));
-  text += fmt::format("{}{}", grouped(row.missed), row.missed == 1 ? " contact missed" : " contacts missed");
-  text += fmt::format("\n{} pair tests, {} hashes", grouped(row.counters.pair_tests), grouped(row.counters.hashes));
-  text += fmt::format("\nAbout {} KiB of memory", grouped(row.memory / 1024));
-  text.append("\n").append(status_light(row.coverage).sentence);
-  return text + "\nClick to use these settings.";
+  const bool hashes = collide::method_table()[row.configuration.method].uses_hash;
+  return fmt::format(
+      "{}{}\n{:.4g} ms: median of {}, smallest {:.4g}\nRecall {:.4f}, precision {:.4f}; {} contact{} missed\n"
+      "{} pair tests, {} hashes\nAbout {} KiB of memory\n{}\nClick to use these settings.",
+      configuration_text(row.configuration),
+      hashes ? fmt::format("\nCells of {:.3g} x {:.3g} x {:.3g} m", cell.x, cell.y, cell.z) : "", row.times.median(),
+      row.times.ms.size(), row.times.min(), rounded_down(row.recall), rounded_down(row.precision), grouped(row.missed),
+      row.missed == 1 ? "" : "s", grouped(row.counters.pair_tests), grouped(row.counters.hashes),
+      grouped(row.memory / 1024), status_light(row.coverage).sentence);
 }
 
 /// Lists what was not run and why, at most max_reasons of them.
