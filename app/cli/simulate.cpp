@@ -37,19 +37,8 @@ struct FrameRow {
   softbody::StepReport step;
   std::uint64_t bodies, self, solid;  // contacts
   softbody::Measures measures;
-  std::optional<collide::oracle::SurfaceFigures> oracle;  // on request
+  std::optional<collide::oracle::SurfaceFigures> oracle{};  // on request
 };
-
-FrameRow measure_row(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
-  const auto& d = world.detection();
-  return {world.frame(),
-          world.last_step(),
-          d.contacts.size() - d.self_contacts,
-          d.self_contacts,
-          softbody::solid_contacts(world).size(),
-          softbody::measure(world, bodies),
-          {}};
-}
 
 Json to_json(const collide::oracle::SurfaceFigures& f) {
   return {{"penetrating_vertices", f.penetrating_vertices},
@@ -138,13 +127,6 @@ Json document_json(const softbody::World& world, const std::vector<std::string>&
 void print_line(const Json& object) {
   std::cout << object.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
   flush_standard_output();
-}
-
-void print_json(const softbody::World& world, const std::vector<std::string>& warnings,
-                const std::vector<FrameRow>& rows) {
-  Json frames = Json::array();
-  for (const FrameRow& r : rows) frames.push_back(to_json(r));
-  print_line(document_json(world, warnings, std::move(frames)));
 }
 
 std::string ratio_text(const softbody::Measures& measures, double ratio) {
@@ -345,7 +327,13 @@ void simulate(const Options& options) {
     if (!blow_up && (blow_up = monitor.check(world, bodies)))
       warn(warnings, fmt::format("frame {}: {}; see --integrator and --substeps", blow_up->frame, blow_up->what));
     if (world.frame() % stride == 0 || world.frame() == options.frames) {
-      FrameRow row = measure_row(world, bodies);
+      const collide::Result& found = world.detection();
+      FrameRow row{.frame = world.frame(),
+                   .step = world.last_step(),
+                   .bodies = found.contacts.size() - found.self_contacts,
+                   .self = found.self_contacts,
+                   .solid = softbody::solid_contacts(world).size(),
+                   .measures = softbody::measure(world, bodies)};
       if (options.oracle)
         row.oracle =
             collide::oracle::figures_of(world.simulated().positions, oracle.overlaps(world), oracle.crossings(world));
@@ -360,12 +348,11 @@ void simulate(const Options& options) {
   pictures.finish();
   if (progress) clear_progress();
   std::ranges::copy(world_warnings(world), std::back_inserter(warnings));
-  if (options.json_lines)
-    print_line(document_json(world, warnings, {}));
-  else if (options.json)
-    print_json(world, warnings, rows);
-  else
-    print_table(world, warnings, rows);
+  if (!options.json_lines && !options.json) return print_table(world, warnings, rows);
+  std::optional<Json> frames;
+  if (options.json) frames = Json::array();
+  for (const FrameRow& r : rows) frames->push_back(to_json(r));
+  print_line(document_json(world, warnings, std::move(frames)));
 }
 
 }  // namespace app::cli
