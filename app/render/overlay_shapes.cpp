@@ -52,11 +52,7 @@ void add_body_boxes(const softbody::BodiesInMotion& world, Points positions, boo
   }
 }
 
-/// Returns the colour of the bucket of the box's minimum corner.
-glm::vec3 box_colour(const collide::DebugGeometry& debug, std::size_t box) {
-  return bucket_colour(debug.box_bucket[debug.box_first[box]]);
-}
-
+/// Adds the boxes in the colours of the buckets of their minimum corners.
 void add_boxes(const OverlayRequest& request, engine::FrameData& frame) {
   const collide::DebugGeometry& debug = *request.debug;
   engine::BoxSet& set = frame.boxes.emplace_back(
@@ -64,7 +60,7 @@ void add_boxes(const OverlayRequest& request, engine::FrameData& frame) {
   const float alpha = request.bucket ? 0.15f : 0.85f;
   for (std::size_t i = 0; i < std::min(debug.boxes.size(), SceneView::max_boxes); ++i) {
     const auto& [lo, hi, body] = debug.boxes[i];
-    set.boxes.push_back({lo, hi, glm::vec4(box_colour(debug, i), alpha)});
+    set.boxes.push_back({lo, hi, glm::vec4(bucket_colour(debug.box_bucket[debug.box_first[i]]), alpha)});
   }
 }
 

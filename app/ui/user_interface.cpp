@@ -64,20 +64,15 @@ void UserInterface::draw_over_scene(Widgets& widgets, Session& session, UiState&
   if (ui.lights) free.min.y = draw_status(widgets, session, lights_, free, ui.coverage_explained, ui.lights);
   if (ui.shows_story()) {
     const bool both_fit = free.max.x - free.min.x >= widgets.px(2 * min_box_width + 3 * box_margin);
-    const float end = draw_story(widgets, session, ui, both_fit ? beside : free);
+    StoryCard::Action action{};
+    const float end = story_.draw(widgets, session, both_fit ? beside : free, action);
     if (!both_fit) free.min.y = end;
+    if (action == StoryCard::Action::close) ui.set_story(false);
+    if (action == StoryCard::Action::explain) ui.tour.start(session, ui.overlays, miss_step);
   }
   free.min.y = draw_notices(widgets, session, layout_.no_room_message, free);
   if (!layout_.sidebar) draw_floating_legend(widgets, session, ui.drawn_overlays(session), free);
   draw_import_report(widgets, session, ui.import, free);
-}
-
-float UserInterface::draw_story(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area) {
-  StoryCard::Action action{};
-  const float end = story_.draw(widgets, session, area, action);
-  if (action == StoryCard::Action::close) ui.set_story(false);
-  if (action == StoryCard::Action::explain) ui.tour.start(session, ui.overlays, miss_step);
-  return end;
 }
 
 }  // namespace app::ui
