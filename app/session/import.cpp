@@ -66,14 +66,11 @@ FileReader::World world_of(const std::filesystem::path& path, std::string what, 
   return {path, std::move(what), std::move(opened), std::move(shown)};
 }
 
-/// Returns the ending of a file's name in small letters.
-std::string ending_of(const std::filesystem::path& file) {
+bool is_mesh(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
+  return ending == ".obj" || ending == ".ply";
 }
-
-bool is_mesh(const std::filesystem::path& file) { return ending_of(file) == ".obj" || ending_of(file) == ".ply"; }
 
 /// Returns true for the file that an export of motion writes beside its frames.
 bool is_rest_shape(const std::filesystem::path& file) { return file.filename() == files::rest_shape_name; }
@@ -214,13 +211,9 @@ void Import::play(Session& session) {
 
 void Import::import_each(Session& session) {
   assert(frames_);
-  drop_first(std::exchange(frames_, std::nullopt)->files);
-  update(session);
-}
-
-/// Queues files before those that wait already.
-void Import::drop_first(const std::vector<std::string>& files) {
+  const std::vector<std::string> files = std::exchange(frames_, std::nullopt)->files;
   dropped_.insert(dropped_.begin(), files.begin(), files.end());
+  update(session);
 }
 
 void Import::update(Session& session) {
@@ -240,7 +233,7 @@ void Import::take(Session& session, FileReader::Answer answer) {
       frames_.emplace(Frames{std::move(files), std::move(*world)});
       if (!session.simulated()) play(session);  // no body could join
     } else {                                    // they are no frames
-      drop_first(files);
+      dropped_.insert(dropped_.begin(), files.begin(), files.end());
     }
     return;
   }

@@ -135,7 +135,6 @@ class Import {
   };
 
   void open(Session& session);
-  void drop_first(const std::vector<std::string>& files);
   void add(FileReport file_report);
   void refuse(const std::string& why);
   void read(decltype(FileReader::Question::file) file, const Session& session);

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace app::session {
 
 bool SimulationClock::take_single_step(const Stepper& step) {
-  if (!single_step_) return false;
-  single_step_ = false;
+  if (!std::exchange(single_step_, false)) return false;
   step();
   return true;
 }
