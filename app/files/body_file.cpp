@@ -96,14 +96,8 @@ Partition components_of(const FileMesh& mesh) {
 }
 
 Partition partition_of(const FileMesh& mesh, BodiesBy by, std::vector<std::string>& notes) {
-  switch (by) {
-    case BodiesBy::objects:
-      return objects_of(mesh, notes);
-    case BodiesBy::components:
-      return components_of(mesh);
-    case BodiesBy::one:
-      break;
-  }
+  if (by == BodiesBy::objects) return objects_of(mesh, notes);
+  if (by == BodiesBy::components) return components_of(mesh);
   return {std::vector<Index>(mesh.x.size(), 0), 1};
 }
 
