@@ -1,6 +1,7 @@
 #include "app/ui/views/status.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -41,19 +42,16 @@ StatusLight status_light(const collide::Method& method) {
 }
 
 StatusLight status_light(collide::Coverage coverage) {
-  switch (coverage) {
-    case collide::Coverage::exact:
-      return {render::status_green, "Green", "exact",
-              "The method is exact: it finds every pair of vertices closer than the tolerance."};
-    case collide::Coverage::covered:
-      return {render::status_amber, "Amber", "can miss",
-              "The paper's method, and every box fits into a cell: it can miss contacts across cell faces. Or an exact "
-              "method, but True surfaces found vertices inside other bodies."};
-    default:
-      return {render::status_red, "Red", "can miss",
-              "The paper's method, and a box is larger than a cell. It can miss contacts in the cells between its "
-              "corners."};
-  }
+  static constexpr std::array<StatusLight, 3> lights{
+      {{render::status_green, "Green", "exact",
+        "The method is exact: it finds every pair of vertices closer than the tolerance."},
+       {render::status_amber, "Amber", "can miss",
+        "The paper's method, and every box fits into a cell: it can miss contacts across cell faces. Or an exact "
+        "method, but True surfaces found vertices inside other bodies."},
+       {render::status_red, "Red", "can miss",
+        "The paper's method, and a box is larger than a cell. It can miss contacts in the cells between its "
+        "corners."}}};
+  return lights.at(static_cast<std::size_t>(coverage));
 }
 
 std::string shown_method_text(const Session& session) {
