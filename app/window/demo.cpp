@@ -397,9 +397,6 @@ class Demo {
 
 }  // namespace
 
-int run_demo(const DemoOptions& options) {
-  Demo(options).run();
-  return 0;
-}
+void run_demo(const DemoOptions& options) { Demo(options).run(); }
 
 }  // namespace app::window

@@ -23,9 +23,9 @@ struct DemoOptions {
   std::optional<glm::ivec2> size;  // of the window, screen coordinates; else it has its last one
 };
 
-/// Runs until the window is closed; returns the exit code. Throws engine::ContextError without a display,
-/// engine::ResourceError or engine::ShaderError if the program's files are missing or broken, softbody::SceneError if
-/// the scene cannot be simulated.
-int run_demo(const DemoOptions& options);
+/// Runs until the window is closed. Throws engine::ContextError without a display, engine::ResourceError or
+/// engine::ShaderError if the program's files are missing or broken, softbody::SceneError if the scene cannot be
+/// simulated.
+void run_demo(const DemoOptions& options);
 
 }  // namespace app::window
