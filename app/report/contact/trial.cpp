@@ -114,9 +114,8 @@ class Trial {
       else if (oracle_.entered_body(c))
         vertices.insert(c.feature[0]);
     }
-    for (const auto& [key, sum] : balance) {
+    for (const auto& [key, sum] : balance)
       if (sum != 0) vertices.insert(key.first);
-    }
     return vertices.size();
   }
 

@@ -167,11 +167,10 @@ constexpr std::array all_cases{
 std::span<const StabilityCase> stability_cases() { return all_cases; }
 
 StabilityScene scaled(softbody::Scene scene, double factor) {
-  for (softbody::Material& m : scene.materials) {
+  for (softbody::Material& m : scene.materials)
     for (const softbody::Key* key : {&StructuralSprings::stiffness, &BendSprings::stiffness, &ShearSprings::stiffness,
                                      &GasPressure::inside, &GasPressure::outside})
       m[*key] *= factor;
-  }
   return {.scene = std::move(scene)};
 }
 

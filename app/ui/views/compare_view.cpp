@@ -194,11 +194,10 @@ void draw_row(Widgets& w, Session& session, bool& show_misses, Grid& grid, const
     ImGui::GetWindowDrawList()->AddLine({grid.left(name), y}, {grid.right(misses), y},
                                         ImGui::GetColorU32(ImGuiCol_Border));
   }
-  if (row.drives) {
+  if (row.drives)
     ImGui::GetWindowDrawList()->AddRectFilled({grid.left(name) - w.px(4), grid.top()},
                                               {grid.right(misses) + w.px(4), grid.top() + grid.height()},
                                               ImGui::GetColorU32(ImGuiCol_Header, 0.55f), w.px(3));
-  }
   const bool drive = draw_name(w, grid, row);
   draw_time(w, session, grid, row, scale);
   if (row.scored())

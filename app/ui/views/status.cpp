@@ -146,9 +146,8 @@ void draw_surface_contacts_legend(Widgets& w, const Session& session) {
 
 void draw_table_legend(Widgets& w, const Session& session, const render::Overlays& shown, bool names_method) {
   const collide::DebugGeometry& debug = session.inspector.shown_geometry();
-  if (shown.boxes) {
+  if (shown.boxes)
     ImGui::TextUnformatted(debug.boxes.empty() ? "This method has no boxes" : "Boxes of one colour share a bucket");
-  }
   if (shown.cells) draw_legend_line(w, render::cell_colour, "occupied cell");
   if (names_method) ImGui::TextDisabled("%s", shown_method_text(session).c_str());
 }

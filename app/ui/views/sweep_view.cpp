@@ -210,9 +210,8 @@ void SweepView::draw_plot(Widgets& w, Session& session, float height) {
   const bool hovered = ImGui::IsItemHovered();
   w.register_item("Scatter", nullptr);
   SweepPlot::Emphasis emphasis{.method = hovered_method_, .row = {}};
-  for (const SweepPlot::Point& point : plot_.points()) {
+  for (const SweepPlot::Point& point : plot_.points())
     if (in_use(state_.report.rows[point.row], session.world())) emphasis.row = point.row;
-  }
   plot_.draw(w, min, {min.x + size.x, min.y + size.y}, emphasis);
   const SweepPlot::Point* under = hovered ? plot_.hit_test(w, ImGui::GetIO().MousePos) : nullptr;
   if (!under) return;
