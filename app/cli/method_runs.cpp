@@ -1,6 +1,5 @@
 #include "app/cli/method_runs.h"
 
-#include <algorithm>
 #include <exception>
 #include <memory>
 #include <optional>

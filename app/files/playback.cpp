@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <fmt/core.h>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "collide/surface/surface.h"

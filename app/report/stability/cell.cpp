@@ -6,7 +6,6 @@
 #include <limits>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "app/report/solid_passages.h"
 #include "softbody/forces/gas.h"
