@@ -90,13 +90,6 @@ Json plan_json(const softbody::World& world) {
   return json;
 }
 
-/// Returns the integrator asked for, the one that the last frame used and, if this was chosen automatically, why.
-Json integrator_json(const softbody::World& world) {
-  return {{"key", world.integrator_choice().key},
-          {"used", world.last_step().integrator->key},
-          {"why", world.last_step().why}};
-}
-
 std::string hex(std::uint64_t value) { return fmt::format("{:016x}", value); }
 
 /// Returns what is likely to be wrong with the detector's settings, or with the contact of vertices.
@@ -115,7 +108,10 @@ std::vector<std::string> world_warnings(const softbody::World& world) {
 Json document_json(const softbody::World& world, const std::vector<std::string>& warnings, std::optional<Json> frames) {
   Json document{{"scene", world.scene().key},
                 {"method", world.method().key},
-                {"integrator", integrator_json(world)},
+                {"integrator",  // the one asked for, the one that the last frame used, and why if it was chosen so
+                 {{"key", world.integrator_choice().key},
+                  {"used", world.last_step().integrator->key},
+                  {"why", world.last_step().why}}},
                 {"plan", plan_json(world)},
                 {"warnings", warnings}};
   if (frames) document["frames"] = std::move(*frames);
@@ -132,9 +128,6 @@ void print_line(const Json& object) {
 std::string ratio_text(const softbody::Measures& measures, double ratio) {
   return measures.has_volume ? fmt::format("{:.3f}", ratio) : "-";
 }
-
-/// Returns how many frames a table goes on by from line to line: it has about twenty lines for any number of frames.
-int table_stride(int frames) { return std::max(1, frames / 20); }
 
 void print_table(const softbody::World& world, const std::vector<std::string>& warnings,
                  const std::vector<FrameRow>& rows) {
@@ -315,7 +308,8 @@ void simulate(const Options& options) {
   const bool progress = !options.json_lines || !isatty(STDOUT_FILENO);
   compare::WorldOracle oracle(options.oracle ? options.threads : 1);
   if (options.oracle) oracle.crossings(world);  // keeps the start positions of the first frame
-  const int stride = options.json || options.json_lines ? 1 : table_stride(options.frames);
+  // A table has about twenty lines for any number of frames.
+  const int stride = options.json || options.json_lines ? 1 : std::max(1, options.frames / 20);
   std::vector<FrameRow> rows;
   compare::BlowUpMonitor monitor;
   std::optional<compare::BlowUp> blow_up = monitor.check(world, softbody::measure_bodies(world));

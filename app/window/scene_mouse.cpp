@@ -107,18 +107,16 @@ void SceneMouse::drag(const MouseInput& in, Session& session, engine::Camera& ca
     const engine::Ray ray = camera.pick_ray(in.at, size);
     const auto held = session.simulation.grabbed();
     if (drag_ == Drag::body && held) session.simulation.pull_to(on_facing_plane(ray, camera, held->target));
-    if (drag_ == Drag::solid) drag_solid(ray, session, camera);
+    // In another world the solids may be others.
+    if (drag_ == Drag::solid && session.simulation.world_number() == held_solid_->world_number) {
+      const glm::dvec3 way = on_facing_plane(ray, camera, held_solid_->point) - held_solid_->point;
+      session.settings.set_solid(held_solid_->index, session::moved(held_solid_->solid, way));
+    }
   }
   if (drag_ == Drag::orbit) camera.rotate(in.moved - orbited_, size);
   if (!in.over_scene) return;
   if (down_[1] || down_[2]) camera.pan(in.moved, size);
   if (in.wheel != 0) camera.zoom(in.wheel);
-}
-
-void SceneMouse::drag_solid(const engine::Ray& ray, Session& session, const engine::Camera& camera) {
-  if (session.simulation.world_number() != held_solid_->world_number) return;  // the solids may be others
-  const glm::dvec3 way = on_facing_plane(ray, camera, held_solid_->point) - held_solid_->point;
-  session.settings.set_solid(held_solid_->index, session::moved(held_solid_->solid, way));
 }
 
 void SceneMouse::release(Session& session) {

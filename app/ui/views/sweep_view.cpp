@@ -220,12 +220,6 @@ void SweepView::draw_plot(Widgets& w, Session& session, float height) {
   if (clicked) apply(row.configuration, session);
 }
 
-void SweepView::draw_footer(Widgets& w) const {
-  w.text_line(footer(state_));
-  const std::string& why = state_.report.reference_note;
-  w.register_item("Sweep footing", why.empty() ? "The frame of the sweep." : why.c_str());
-}
-
 void SweepView::update() {
   auto state = worker_.take();
   if (!state) return;
@@ -245,7 +239,9 @@ void SweepView::draw(Widgets& w, Session& session, const ScreenRect& area, bool&
   draw_legend(w, shown);
   const ImGuiStyle& style = ImGui::GetStyle();
   draw_plot(w, session, ImGui::GetContentRegionAvail().y - ImGui::GetTextLineHeight() - style.ItemSpacing.y);
-  draw_footer(w);
+  w.text_line(footer(state_));
+  const std::string& why = state_.report.reference_note;
+  w.register_item("Sweep footing", why.empty() ? "The frame of the sweep." : why.c_str());
   end_dock();
 }
 
