@@ -117,10 +117,6 @@ struct Groups {
 
 }  // namespace
 
-BodiesBy default_bodies_by(const FileMesh& mesh) {
-  return mesh.format == FileMesh::Format::obj ? BodiesBy::objects : BodiesBy::components;
-}
-
 BodyMeshes divide(const FileMesh& mesh, BodiesBy by, const std::filesystem::path& file,
                   std::vector<std::string>& notes) {
   const Partition partition = partition_of(mesh, by, notes);

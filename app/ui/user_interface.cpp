@@ -23,7 +23,12 @@ void UserInterface::draw(Session& session, UiState& ui, float scale, double seco
   had_hash_table_ = ui.hash_table;
   layout_ = compute_layout(session, ui, scale);
   if (layout_.panel) draw_panel(widgets, session, ui, *layout_.panel, layout_.panel_covers_scene);
-  if (layout_.lower) draw_lower(widgets, session, ui, *layout_.lower);
+  bool open = true;
+  if (layout_.lower && ui.lower == LowerView::comparison)
+    draw_compare(widgets, session, ui.overlays.missed, open, *layout_.lower);
+  else if (layout_.lower)
+    sweep_view_.draw(widgets, session, *layout_.lower, open);
+  if (!open) ui.lower = LowerView::none;
   if (layout_.time_line) draw_time_line(widgets, session, *layout_.time_line);
   if (layout_.sidebar) draw_sidebar(widgets, session, ui, hash_table_view_, *layout_.sidebar);
   show_field_problem(session.simulation.notice);
@@ -46,15 +51,6 @@ void UserInterface::show_field_problem(session::Notice& notice) {
   else if (notice.text() == field_problem_)
     notice.clear();
   field_problem_ = *problem;
-}
-
-void UserInterface::draw_lower(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area) {
-  bool open = true;
-  if (ui.lower == LowerView::comparison)
-    draw_compare(widgets, session, ui.overlays.missed, open, area);
-  else
-    sweep_view_.draw(widgets, session, area, open);
-  if (!open) ui.lower = LowerView::none;
 }
 
 void UserInterface::draw_over_scene(Widgets& widgets, Session& session, UiState& ui, double seconds) {
