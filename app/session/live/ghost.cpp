@@ -12,7 +12,7 @@ namespace app::session {
 namespace {
 
 /// Brings a world to the present state of `of`, from which this integrator moves it.
-void begin(softbody::World& ghost, const softbody::World& of, const softbody::IntegratorChoice& choice) {
+void bring_to(softbody::World& ghost, const softbody::World& of, const softbody::IntegratorChoice& choice) {
   ghost.restore(of.snapshot());
   if (choice != ghost.integrator_choice()) ghost.set_integrator(choice);
 }
@@ -25,7 +25,7 @@ std::string Ghost::choose(const softbody::World& of, const std::optional<softbod
   if (choice) {
     chosen = std::make_unique<softbody::World>(
         softbody::Scene(), softbody::World::Options{.threads = threads, .frame_time = of.frame_time()});
-    begin(*chosen, of, *choice);
+    bring_to(*chosen, of, *choice);
   }
   world_ = std::move(chosen);
   restarted();
@@ -36,7 +36,7 @@ std::string Ghost::choose(const softbody::World& of, const std::optional<softbod
 
 std::string Ghost::restart(const softbody::World* of) try {
   if (!of) world_.reset();
-  if (world_) begin(*world_, *of, softbody::IntegratorChoice(world_->integrator_choice()));
+  if (world_) bring_to(*world_, *of, softbody::IntegratorChoice(world_->integrator_choice()));
   restarted();
   return {};
 } catch (const std::exception& error) {
