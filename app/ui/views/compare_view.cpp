@@ -141,8 +141,7 @@ bool draw_name(Widgets& w, const Grid& grid, const Row& row) {
 void draw_time(const Widgets& w, const Session& session, const Grid& grid, const Row& row, const Scale& scale) {
   const TimeSeries& times = session.comparison.method_ms()[row.index];
   if (times.size() == 0) {
-    const bool reference = row.is_reference && row.scored();
-    if (reference)
+    if (row.is_reference && row.scored())
       grid.text(time, fmt::format("{:.2f} ms", session.comparison.report().reference_ms), true);
     else if (row.scored())
       grid.text(time, "not timed", true);
