@@ -80,18 +80,6 @@ void write_contacts(files::OutputFile& csv, const SequenceTask& task, std::size_
   }
 }
 
-MethodRun run_one(const collide::Method& method, const Options& options, const SequenceTask& task) {
-  std::optional<files::OutputFile> csv;
-  if (options.detect.contacts)  // the heading protects a mesh that stands where the user forgot the name
-    csv.emplace(*options.detect.contacts, "frame,vertex_a,vertex_b,body_a,body_b,distance\n");
-  // The contacts are written at once, because the lists of all frames may be too large to keep.
-  MethodRun run = run_method(method, task, [&](std::size_t frame, std::vector<collide::Contact>& contacts) {
-    if (csv) write_contacts(*csv, task, frame, contacts);
-  });
-  if (csv) csv->commit();
-  return run;
-}
-
 /// The sums over the frames that a method reached.
 struct Totals {
   std::size_t contacts = 0;
@@ -253,11 +241,18 @@ void detect(const Options& options) {
     Json list = Json::array();
     for (const MethodRun& run : all.runs) list.push_back(to_json(given, run, &all));
     std::cout << list.dump() << '\n';
-  } else {
-    const MethodRun run = run_one(*method, options, task);
-    if (!options.json) return print_table(given, run);
-    std::cout << to_json(given, run, nullptr).dump() << '\n';
+    return;
   }
+  std::optional<files::OutputFile> csv;
+  if (options.detect.contacts)  // the heading protects a mesh that stands where the user forgot the name
+    csv.emplace(*options.detect.contacts, "frame,vertex_a,vertex_b,body_a,body_b,distance\n");
+  // The contacts are written at once, because the lists of all frames may be too large to keep.
+  const MethodRun run = run_method(*method, task, [&](std::size_t frame, std::vector<collide::Contact>& contacts) {
+    if (csv) write_contacts(*csv, task, frame, contacts);
+  });
+  if (csv) csv->commit();
+  if (!options.json) return print_table(given, run);
+  std::cout << to_json(given, run, nullptr).dump() << '\n';
 }
 
 }  // namespace app::cli
