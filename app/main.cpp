@@ -16,34 +16,21 @@
 
 namespace {
 
-int run(const app::cli::Options& options) {
-  switch (options.command) {
-    case app::cli::Command::list:
-      app::cli::list(options.list_of);
-      return 0;
-    case app::cli::Command::simulate:
-      app::cli::simulate(options);
-      return 0;
-    case app::cli::Command::detect:
-      app::cli::detect(options);
-      return 0;
-    case app::cli::Command::report:
-      app::report::report(options.report);
-      return 0;
-    case app::cli::Command::demo:
-      break;
-  }
+void run(const app::cli::Options& options) {
+  using app::cli::Command;
+  if (options.command == Command::list) return app::cli::list(options.list_of);
+  if (options.command == Command::simulate) return app::cli::simulate(options);
+  if (options.command == Command::detect) return app::cli::detect(options);
+  if (options.command == Command::report) return app::report::report(options.report);
 #if SBCOLLIDE_GRAPHICS
-  return app::window::run_demo({.opened = app::cli::open(options),
-                                .scene_name = options.play.empty() ? options.scene : options.play.front(),
-                                .scene_given = options.scene_given || !options.play.empty(),
-                                .scene_folder = app::files::scene_folder(),
-                                .meshes = options.meshes,
-                                .integrator = options.integrator,
-                                .threads = options.threads,
-                                .width = options.width,
-                                .height = options.height,
-                                .size_given = options.size_given});
+  app::window::run_demo({.opened = app::cli::open(options),
+                         .scene_name = options.play.empty() ? options.scene : options.play.front(),
+                         .scene_given = options.scene_given || !options.play.empty(),
+                         .scene_folder = app::files::scene_folder(),
+                         .meshes = options.meshes,
+                         .integrator = options.integrator,
+                         .threads = options.threads,
+                         .size = options.size});
 #else
   throw app::UsageError(
       "this build has no window; use `sbcollide simulate`, or configure with -DSBCOLLIDE_GRAPHICS=ON");
@@ -59,9 +46,9 @@ int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     const auto options = app::cli::parse_options(argc, argv);
-    const int status = options ? run(*options) : 0;
+    if (options) run(*options);
     app::flush_standard_output();
-    return status;
+    return 0;
   } catch (const std::bad_alloc&) {
     app::clear_progress();
     std::fprintf(stderr, "sbcollide: not enough memory; give it less at a time\n");

@@ -80,46 +80,30 @@ void write_contacts(files::OutputFile& csv, const SequenceTask& task, std::size_
   }
 }
 
-MethodRun run_one(const collide::Method& method, const Options& options, const SequenceTask& task) {
-  std::optional<files::OutputFile> csv;
-  if (options.detect.contacts)  // the heading protects a mesh that stands where the user forgot the name
-    csv.emplace(*options.detect.contacts, "frame,vertex_a,vertex_b,body_a,body_b,distance\n");
-  // The contacts are written at once, because the lists of all frames may be too large to keep.
-  MethodRun run = run_method(method, task, [&](std::size_t frame, std::vector<collide::Contact>& contacts) {
-    if (csv) write_contacts(*csv, task, frame, contacts);
-  });
-  if (csv) csv->commit();
-  return run;
-}
-
 /// The sums over the frames that a method reached.
 struct Totals {
   std::size_t contacts = 0;
   std::uint64_t pair_tests = 0, hashes = 0;
-  double ms = 0;  // of the frames' medians
-  struct Score {
-    double recall, precision;
-  };
-  std::optional<Score> score;  // over the frames whose true contacts are known
+  double ms = 0;                            // of the frames' medians
+  std::optional<double> recall, precision;  // over the frames whose true contacts are known
 };
 
 Totals totals_of(std::span<const DetectRow> rows) {
   Totals sum;
   std::size_t judged = 0;  // contacts
-  std::optional<Found> found;
+  Found all;
   for (const DetectRow& r : rows) {
     sum.contacts += r.contacts;
-    if (r.found) {
-      judged += r.contacts;
-      if (!found) found.emplace();
-      found->true_contacts += r.found->true_contacts;
-      found->of_them += r.found->of_them;
-    }
     sum.pair_tests += r.counters.pair_tests;
     sum.hashes += r.counters.hashes;
     sum.ms += r.times.median();
+    if (!r.found) continue;
+    judged += r.contacts;
+    all.true_contacts += r.found->true_contacts;
+    all.of_them += r.found->of_them;
+    sum.recall = compare::share(all.of_them, all.true_contacts);
+    sum.precision = compare::share(all.of_them, judged);
   }
-  if (found) sum.score = {compare::share(found->of_them, found->true_contacts), compare::share(found->of_them, judged)};
   return sum;
 }
 
@@ -127,9 +111,9 @@ Totals totals_of(std::span<const DetectRow> rows) {
 
 /// Adds recall and precision over these frames; null where the true contacts are not known.
 void add_score(Json& object, std::span<const DetectRow> rows) {
-  const auto score = totals_of(rows).score;
-  object["recall"] = score ? Json(score->recall) : Json(nullptr);
-  object["precision"] = score ? Json(score->precision) : Json(nullptr);
+  const Totals sum = totals_of(rows);
+  object["recall"] = sum.recall ? Json(*sum.recall) : Json(nullptr);
+  object["precision"] = sum.precision ? Json(*sum.precision) : Json(nullptr);
 }
 
 Json frames_json(const MethodRun& run, bool scored) {
@@ -217,10 +201,9 @@ void print_table(const Given& given, const MethodRuns& all) {
       given.task.frames.size(), all.reference ? all.reference->name : "not known");
   std::cout << fmt::format("{:28} {:>10} {:>8} {:>9} {:>12} {:>15} {:>14}\n", "method", "contacts", "recall",
                            "precision", "ms a frame", "pair tests", "hashes");
-  const auto share = [](const Totals& sum, double Totals::Score::*part) -> std::string {
-    if (!sum.score) return "-";
-    const double value = (*sum.score).*part;
-    return value < 1 ? fmt::format("{:.5f}", std::floor(1e5 * value) / 1e5) : "1";  // 1 only where nothing is wrong
+  const auto share = [](std::optional<double> value) -> std::string {
+    if (!value) return "-";
+    return *value < 1 ? fmt::format("{:.5f}", std::floor(1e5 * *value) / 1e5) : "1";  // 1 only where nothing is wrong
   };
   for (const MethodRun& run : all.runs) {
     if (!run.not_run.empty()) {
@@ -229,8 +212,8 @@ void print_table(const Given& given, const MethodRuns& all) {
     }
     const Totals sum = totals_of(run.rows);
     std::cout << fmt::format("{:28} {:10} {:>8} {:>9} {:12.3f} {:15} {:14}\n", run.method->key, sum.contacts,
-                             share(sum, &Totals::Score::recall), share(sum, &Totals::Score::precision),
-                             sum.ms / static_cast<double>(run.rows.size()), sum.pair_tests, sum.hashes);
+                             share(sum.recall), share(sum.precision), sum.ms / static_cast<double>(run.rows.size()),
+                             sum.pair_tests, sum.hashes);
   }
 }
 
@@ -258,11 +241,18 @@ void detect(const Options& options) {
     Json list = Json::array();
     for (const MethodRun& run : all.runs) list.push_back(to_json(given, run, &all));
     std::cout << list.dump() << '\n';
-  } else {
-    const MethodRun run = run_one(*method, options, task);
-    if (!options.json) return print_table(given, run);
-    std::cout << to_json(given, run, nullptr).dump() << '\n';
+    return;
   }
+  std::optional<files::OutputFile> csv;
+  if (options.detect.contacts)  // the heading protects a mesh that stands where the user forgot the name
+    csv.emplace(*options.detect.contacts, "frame,vertex_a,vertex_b,body_a,body_b,distance\n");
+  // The contacts are written at once, because the lists of all frames may be too large to keep.
+  const MethodRun run = run_method(*method, task, [&](std::size_t frame, std::vector<collide::Contact>& contacts) {
+    if (csv) write_contacts(*csv, task, frame, contacts);
+  });
+  if (csv) csv->commit();
+  if (!options.json) return print_table(given, run);
+  std::cout << to_json(given, run, nullptr).dump() << '\n';
 }
 
 }  // namespace app::cli

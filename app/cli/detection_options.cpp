@@ -14,17 +14,14 @@ namespace {
 
 std::array<std::uint32_t, 3> read_primes(const std::string& text) {
   const auto parts = split(text, ',');
-  std::array<std::uint32_t, 3> primes{};
-  bool good = parts.size() == primes.size();
-  for (std::size_t axis = 0; good && axis < primes.size(); ++axis) {
-    const auto number = parse_integer(parts[axis]);
-    good = number && *number >= 1 && *number <= std::numeric_limits<std::uint32_t>::max();
-    if (good) primes[axis] = static_cast<std::uint32_t>(*number);
-  }
-  if (!good)
-    throw UsageError("--primes " + text +
-                     ": must be three whole numbers from 1 to 4294967295, e.g. 73856093,19349669,83492791");
-  return primes;
+  const auto prime = [&](std::size_t axis) {
+    const auto number = parts.size() == 3 ? parse_integer(parts[axis]) : std::nullopt;
+    if (!number || *number < 1 || *number > std::numeric_limits<std::uint32_t>::max())
+      throw UsageError("--primes " + text +
+                       ": must be three whole numbers from 1 to 4294967295, e.g. 73856093,19349669,83492791");
+    return static_cast<std::uint32_t>(*number);
+  };
+  return {prime(0), prime(1), prime(2)};
 }
 
 std::optional<glm::vec3> read_cell_size(const std::string& text) {

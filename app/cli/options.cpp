@@ -34,7 +34,7 @@ std::string reason(const CLI::ParseError& error) {
 }
 
 /// Reads width and height, e.g. "1280x720".
-void parse_size(const std::string& text, Options& options) {
+glm::ivec2 parse_size(const std::string& text) {
   const auto parts = split(text, 'x');
   const auto side = [&](std::size_t which) {
     const auto pixels = parts.size() == 2 ? parse_integer(parts[which]) : std::nullopt;
@@ -42,8 +42,7 @@ void parse_size(const std::string& text, Options& options) {
       throw UsageError("--size " + text + ": must be WIDTHxHEIGHT, each from 1 to 16384, e.g. 1280x720");
     return static_cast<int>(*pixels);
   };
-  options.width = side(0);
-  options.height = side(1);
+  return {side(0), side(1)};
 }
 
 void parse_captures(const std::string& text, Options& options) {
@@ -200,7 +199,7 @@ void check_animation(const Options& options) {
   const std::string animation = "--animation " + options.animation->string();
   if (options.animation->extension() != ".webp")
     throw UsageError(animation + ": the name must end in .webp; no other kind of animation is written");
-  if (std::max(options.width, options.height) > max_side)
+  if (const glm::ivec2 size = options.picture_size(); std::max(size.x, size.y) > max_side)
     throw UsageError(animation + ": must be at most " + std::to_string(max_side) +
                      " pixels wide and high; use a smaller --size");
   const int stride = frames_per_picture(options.frame_time);
@@ -325,8 +324,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   if (!options.meshes.empty() && options.command != Command::demo)
     throw UsageError("--mesh: only the window takes it; a scene file names meshes for `simulate`");
   check_play(cli, options);
-  if (!size.empty()) parse_size(size, options);
-  options.size_given = !size.empty();
+  if (!size.empty()) options.size = parse_size(size);
   options.scene_given = cli.count("--scene") > 0;
   options.out_given = simulate->count("--out") > 0;
   if (simulate->count("--capture")) parse_captures(captures, options);

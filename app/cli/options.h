@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "app/base/usage_error.h"
 #include "app/cli/detection_options.h"
 #include "app/files/body_file.h"
@@ -42,11 +44,10 @@ struct Options {
   report::ReportOptions report;
   softbody::IntegratorChoice integrator;
   int threads = 1;
-  double frame_time = 1.0 / 60.0;            // s
-  int width = 1280, height = 720;            // pixels
-  bool size_given = false;                   // the window opens in this size, not in that of the last run
-  std::vector<std::string> meshes;           // mesh files to open in the window
-  std::vector<std::string> play;             // mesh files that the window plays as frames, in place of a scene
+  double frame_time = 1.0 / 60.0;   // s
+  std::optional<glm::ivec2> size;   // pixels, of pictures and the window; otherwise the window has its last one
+  std::vector<std::string> meshes;  // mesh files to open in the window
+  std::vector<std::string> play;    // mesh files that the window plays as frames, in place of a scene
   std::optional<files::BodiesBy> bodies_by;  // what a body of them is; otherwise the format's default
   int frames = 800;
   std::vector<int> captures;                       // frames to take pictures of, ascending
@@ -58,6 +59,8 @@ struct Options {
   bool json_lines = false;  // `simulate`: a line of JSON for each frame, and one at the end
   bool oracle = false;      // `simulate` with JSON: add the surface oracle's figures of each frame
   std::string list_of;      // "scenes", "methods", "integrators", "contact-surfaces"; empty: all
+
+  glm::ivec2 picture_size() const { return size.value_or(glm::ivec2(1280, 720)); }
 };
 
 /// Returns how many frames of this length (s) each picture of an animation stands for: the fewest that last 1/30 s, so

@@ -37,19 +37,8 @@ struct FrameRow {
   softbody::StepReport step;
   std::uint64_t bodies, self, solid;  // contacts
   softbody::Measures measures;
-  std::optional<collide::oracle::SurfaceFigures> oracle;  // on request
+  std::optional<collide::oracle::SurfaceFigures> oracle{};  // on request
 };
-
-FrameRow measure_row(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
-  const auto& d = world.detection();
-  return {world.frame(),
-          world.last_step(),
-          d.contacts.size() - d.self_contacts,
-          d.self_contacts,
-          softbody::solid_contacts(world).size(),
-          softbody::measure(world, bodies),
-          {}};
-}
 
 Json to_json(const collide::oracle::SurfaceFigures& f) {
   return {{"penetrating_vertices", f.penetrating_vertices},
@@ -101,13 +90,6 @@ Json plan_json(const softbody::World& world) {
   return json;
 }
 
-/// Returns the integrator asked for, the one that the last frame used and, if this was chosen automatically, why.
-Json integrator_json(const softbody::World& world) {
-  return {{"key", world.integrator_choice().key},
-          {"used", world.last_step().integrator->key},
-          {"why", world.last_step().why}};
-}
-
 std::string hex(std::uint64_t value) { return fmt::format("{:016x}", value); }
 
 /// Returns what is likely to be wrong with the detector's settings, or with the contact of vertices.
@@ -126,7 +108,10 @@ std::vector<std::string> world_warnings(const softbody::World& world) {
 Json document_json(const softbody::World& world, const std::vector<std::string>& warnings, std::optional<Json> frames) {
   Json document{{"scene", world.scene().key},
                 {"method", world.method().key},
-                {"integrator", integrator_json(world)},
+                {"integrator",  // the one asked for, the one that the last frame used, and why if it was chosen so
+                 {{"key", world.integrator_choice().key},
+                  {"used", world.last_step().integrator->key},
+                  {"why", world.last_step().why}}},
                 {"plan", plan_json(world)},
                 {"warnings", warnings}};
   if (frames) document["frames"] = std::move(*frames);
@@ -140,19 +125,9 @@ void print_line(const Json& object) {
   flush_standard_output();
 }
 
-void print_json(const softbody::World& world, const std::vector<std::string>& warnings,
-                const std::vector<FrameRow>& rows) {
-  Json frames = Json::array();
-  for (const FrameRow& r : rows) frames.push_back(to_json(r));
-  print_line(document_json(world, warnings, std::move(frames)));
-}
-
 std::string ratio_text(const softbody::Measures& measures, double ratio) {
   return measures.has_volume ? fmt::format("{:.3f}", ratio) : "-";
 }
-
-/// Returns how many frames a table goes on by from line to line: it has about twenty lines for any number of frames.
-int table_stride(int frames) { return std::max(1, frames / 20); }
 
 void print_table(const softbody::World& world, const std::vector<std::string>& warnings,
                  const std::vector<FrameRow>& rows) {
@@ -197,8 +172,8 @@ class Pictures {
  public:
   explicit Pictures(const Options& options) : options_(options) {
     if (options.captures.empty() && !options.animation) return;
-    capture_ = std::make_unique<render::Capture>(options.width,
-                                                 options.height);  // first: without OpenGL no folder should be made
+    // First: without OpenGL no folder should be made.
+    capture_ = std::make_unique<render::Capture>(options.picture_size());
     if (!options.captures.empty()) files::prepare_folder(options.out);
     for (const int frame : options.captures) files::require_no_input(picture_file(frame));
     if (options.animation) animation_.emplace(*options.animation);
@@ -333,7 +308,8 @@ void simulate(const Options& options) {
   const bool progress = !options.json_lines || !isatty(STDOUT_FILENO);
   compare::WorldOracle oracle(options.oracle ? options.threads : 1);
   if (options.oracle) oracle.crossings(world);  // keeps the start positions of the first frame
-  const int stride = options.json || options.json_lines ? 1 : table_stride(options.frames);
+  // A table has about twenty lines for any number of frames.
+  const int stride = options.json || options.json_lines ? 1 : std::max(1, options.frames / 20);
   std::vector<FrameRow> rows;
   compare::BlowUpMonitor monitor;
   std::optional<compare::BlowUp> blow_up = monitor.check(world, softbody::measure_bodies(world));
@@ -345,7 +321,13 @@ void simulate(const Options& options) {
     if (!blow_up && (blow_up = monitor.check(world, bodies)))
       warn(warnings, fmt::format("frame {}: {}; see --integrator and --substeps", blow_up->frame, blow_up->what));
     if (world.frame() % stride == 0 || world.frame() == options.frames) {
-      FrameRow row = measure_row(world, bodies);
+      const collide::Result& found = world.detection();
+      FrameRow row{.frame = world.frame(),
+                   .step = world.last_step(),
+                   .bodies = found.contacts.size() - found.self_contacts,
+                   .self = found.self_contacts,
+                   .solid = softbody::solid_contacts(world).size(),
+                   .measures = softbody::measure(world, bodies)};
       if (options.oracle)
         row.oracle =
             collide::oracle::figures_of(world.simulated().positions, oracle.overlaps(world), oracle.crossings(world));
@@ -360,12 +342,11 @@ void simulate(const Options& options) {
   pictures.finish();
   if (progress) clear_progress();
   std::ranges::copy(world_warnings(world), std::back_inserter(warnings));
-  if (options.json_lines)
-    print_line(document_json(world, warnings, {}));
-  else if (options.json)
-    print_json(world, warnings, rows);
-  else
-    print_table(world, warnings, rows);
+  if (!options.json_lines && !options.json) return print_table(world, warnings, rows);
+  std::optional<Json> frames;
+  if (options.json) frames = Json::array();
+  for (const FrameRow& r : rows) frames->push_back(to_json(r));
+  print_line(document_json(world, warnings, std::move(frames)));
 }
 
 }  // namespace app::cli

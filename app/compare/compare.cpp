@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "app/base/timings.h"
-#include "app/compare/score.h"
 
 namespace app::compare {
 namespace {
@@ -15,10 +14,7 @@ CompareRow scored(const collide::Result& found, const std::vector<collide::Conta
   row.counters = found.counters;
   row.coverage = found.coverage;
   row.contacts = found.contacts.size();
-  Score against = score(found.contacts, truth);
-  row.missed = std::move(against.missed);
-  row.recall = against.recall;
-  row.precision = against.precision;
+  static_cast<Score&>(row) = score(found.contacts, truth);
   return row;
 }
 

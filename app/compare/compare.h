@@ -12,6 +12,7 @@
 #include "app/compare/cost_model.h"
 #include "app/compare/method_style.h"
 #include "app/compare/positions.h"
+#include "app/compare/score.h"
 
 namespace app::compare {
 
@@ -37,16 +38,14 @@ struct FrameSnapshot : FrameCopy {
 };
 
 /// The figures of one method on the frame.
-struct CompareRow {
+struct CompareRow : Score {
   std::optional<double> ms;  // on one core; only of chosen methods
   std::string not_run;       // why a chosen method did not run, else empty
 
-  bool scored = false;  // the members below are known: there is a reference, and the method ran or drives
+  bool scored = false;  // the score and the members below are known: there is a reference, and the method ran or drives
   collide::Counters counters;
   collide::Coverage coverage = collide::Coverage::exact;
   std::size_t contacts = 0;
-  double recall = 1, precision = 1;      // see Score
-  std::vector<collide::Contact> missed;  // false negatives
 };
 
 struct CompareReport {

@@ -98,14 +98,6 @@ double CostModel::reachable_buckets() const {
   return std::min(static_cast<double>(settings_.buckets / common), max_sum);
 }
 
-/// Returns the sides (m) of a subdivided box, on average.
-glm::dvec3 CostModel::subdivided_box() const {
-  glm::dvec3 box;
-  for (int axis = 0; axis < 3; ++axis)
-    box[axis] = std::ldexp(side_[axis], -collide::cuts_along(axis, settings_.levels));
-  return box;
-}
-
 /// Returns the number of pairs that meet in such a grid; see PairSample::share().
 double CostModel::pairs_near(const glm::dvec3& cell, const glm::dvec3& reach) const {
   return static_cast<double>(pairs_of(static_cast<std::uint64_t>(vertices_))) * sample_.share(cell, reach);
@@ -124,8 +116,11 @@ WorkEstimate CostModel::estimate_hashed(const collide::Method& method) const {
   const glm::dvec3 cell(*settings_.cell_size), padding(static_cast<double>(settings_.tolerance));
   const double boxes = std::min(std::ldexp(bodies_, settings_.levels), vertices_);
   const bool complete = method.uses_levels && method.exact;
+  glm::dvec3 box;  // m, the sides of a subdivided one, on average
+  for (int axis = 0; axis < 3; ++axis)
+    box[axis] = std::ldexp(side_[axis], -collide::cuts_along(axis, settings_.levels));
   // A box is in eight cells, or in all that it overlaps with its padding; a vertex looks into the cells around it.
-  const glm::dvec3 reach = method.uses_levels ? subdivided_box() + (complete ? padding : glm::dvec3(0)) : padding;
+  const glm::dvec3 reach = method.uses_levels ? box + (complete ? padding : glm::dvec3(0)) : padding;
   const glm::dvec3 along = 1.0 + (method.uses_levels ? 1.0 : 2.0) * reach / cell;
   const double cells = method.uses_levels && !complete ? 8 : along.x * along.y * along.z;
   const double room = collide::methods::room_for_cells / (method.uses_levels ? boxes : 1);  // on average

@@ -51,7 +51,6 @@ class CostModel {
   };
   WorkEstimate estimate(const collide::Method& method) const;
   WorkEstimate estimate_hashed(const collide::Method& method) const;
-  glm::dvec3 subdivided_box() const;
   double pairs_near(const glm::dvec3& cell, const glm::dvec3& reach) const;
   double reachable_buckets() const;
 

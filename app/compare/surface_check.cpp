@@ -1,6 +1,6 @@
 #include "app/compare/surface_check.h"
 
-#include <algorithm>
+#include <array>
 
 namespace app::compare {
 namespace {
@@ -23,34 +23,6 @@ std::vector<SurfaceMark> marks_of(const Positions& at, const collide::oracle::Ov
   return marks;
 }
 
-/// Returns the positions before the step; bodies that were added in the step get their current positions.
-Positions completed(Positions before, const Positions& at) {
-  const auto add_rest = [](std::vector<float>& some, const std::vector<float>& all) {
-    some.insert(some.end(), all.begin() + static_cast<std::ptrdiff_t>(std::min(some.size(), all.size())), all.end());
-  };
-  add_rest(before.x, at.x);
-  add_rest(before.y, at.y);
-  add_rest(before.z, at.z);
-  return before;
-}
-
-void check_surfaces(const StepSnapshot& step, const std::stop_token& stop, SurfaceReport& report) {
-  collide::Workers worker(1);
-  const collide::Frame now = step.view();
-  const collide::oracle::Overlaps overlaps = collide::oracle::find_overlaps(now, step.surfaces, worker);
-  if (stop.stop_requested()) return;
-  const Positions start = completed(step.before, step.at);
-  const collide::Frame before{start.x, start.y, start.z, &step.bodies};
-  const auto crossings = collide::oracle::find_crossings(before, now, step.surfaces, worker);
-  report.figures = collide::oracle::figures_of(now, overlaps, crossings);
-  const collide::oracle::Missed missed = collide::oracle::missed_by(step.contacts, now, step.surfaces, overlaps);
-  report.penetrations = overlaps.penetrations.size();
-  report.missed_penetrations = missed.penetrations.size();
-  report.missed_piercings = missed.piercings.size();
-  report.missed_pairs = missed.pairs.size();
-  report.marks = marks_of(step.at, overlaps, missed);
-}
-
 }  // namespace
 
 SurfaceReport check_surfaces(const StepSnapshot& step, const std::stop_token& stop) {
@@ -58,7 +30,22 @@ SurfaceReport check_surfaces(const StepSnapshot& step, const std::stop_token& st
   report.id = step.id;
   report.frame = step.frame;
   try {
-    check_surfaces(step, stop, report);
+    collide::Workers worker(1);
+    const collide::Frame now = step.view();
+    const collide::oracle::Overlaps overlaps = collide::oracle::find_overlaps(now, step.surfaces, worker);
+    if (stop.stop_requested()) return report;
+    Positions start = step.before;
+    for (std::size_t v = start.x.size(); v < step.at.x.size(); ++v)  // bodies that were added in the step
+      start.add(std::array{glm::dvec3(softbody::ConstPoints(step.at)[v])});
+    const collide::Frame before{start.x, start.y, start.z, &step.bodies};
+    const auto crossings = collide::oracle::find_crossings(before, now, step.surfaces, worker);
+    report.figures = collide::oracle::figures_of(now, overlaps, crossings);
+    const collide::oracle::Missed missed = collide::oracle::missed_by(step.contacts, now, step.surfaces, overlaps);
+    report.penetrations = overlaps.penetrations.size();
+    report.missed_penetrations = missed.penetrations.size();
+    report.missed_piercings = missed.piercings.size();
+    report.missed_pairs = missed.pairs.size();
+    report.marks = marks_of(step.at, overlaps, missed);
   } catch (const std::exception& error) {
     report.failure = error.what();
   }

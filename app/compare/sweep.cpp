@@ -51,16 +51,12 @@ Sweep::Sweep(const collide::Frame& frame, const std::vector<Configuration>& conf
     : frame_(frame), limits_(limits), workers_(workers), random_(limits.seed) {
   assert(collide::is_complete(frame));
   for (const collide::Method& method : collide::method_table()) detectors_.push_back(method.make());
-  for (const Configuration& c : configurations) report_.rows.emplace_back().configuration = c;
-  predict();
-}
-
-/// Marks the configurations that would exceed the budget.
-void Sweep::predict() {
   CostModel cost_model;
-  for (SweepRow& row : report_.rows) {
-    cost_model.begin(frame_, row.configuration.settings, 0);
-    const WorkEstimate work = cost_model.of(row.configuration.method);
+  for (const Configuration& c : configurations) {
+    SweepRow& row = report_.rows.emplace_back();
+    row.configuration = c;
+    cost_model.begin(frame_, c.settings, 0);
+    const WorkEstimate work = cost_model.of(c.method);
     predicted_.push_back(work.cost());
     if (work.cost() > limits_.budget) row.not_run = "over budget: " + work.in_words() + " predicted";
   }

@@ -82,7 +82,6 @@ class Sweep {
   const SweepReport& report() const { return report_; }
 
  private:
-  void predict();
   void find_reference();
   std::optional<Configuration> choose_reference();
   void next_round();

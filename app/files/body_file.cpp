@@ -96,31 +96,26 @@ Partition components_of(const FileMesh& mesh) {
 }
 
 Partition partition_of(const FileMesh& mesh, BodiesBy by, std::vector<std::string>& notes) {
-  switch (by) {
-    case BodiesBy::objects:
-      return objects_of(mesh, notes);
-    case BodiesBy::components:
-      return components_of(mesh);
-    case BodiesBy::one:
-      break;
-  }
+  if (by == BodiesBy::objects) return objects_of(mesh, notes);
+  if (by == BodiesBy::components) return components_of(mesh);
   return {std::vector<Index>(mesh.x.size(), 0), 1};
 }
 
-/// Returns the offsets of `count` groups of which element i is in group_of(i), for all i < `size`, and one offset more.
-template <class Offset>
-std::vector<Offset> offsets_of(std::size_t count, std::size_t size, const auto& group_of) {
-  std::vector<Offset> first(count + 1, 0);
-  for (std::size_t i = 0; i < size; ++i) ++first[group_of(i) + std::size_t{1}];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  return first;
-}
+/// Elements in groups: group g has members[first[g]] .. members[first[g + 1] - 1], ascending.
+template <class Number>
+struct Groups {
+  std::vector<Number> first, members;
+
+  /// Makes `count` groups. Element i is in group_of(i), for all i < `size`.
+  Groups(std::size_t count, std::size_t size, const auto& group_of) : first(count + 1, 0), members(size) {
+    for (std::size_t i = 0; i < size; ++i) ++first[group_of(i) + std::size_t{1}];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<Number> next(first.begin(), first.end() - 1);
+    for (std::size_t i = 0; i < size; ++i) members[next[group_of(i)]++] = static_cast<Number>(i);
+  }
+};
 
 }  // namespace
-
-BodiesBy default_bodies_by(const FileMesh& mesh) {
-  return mesh.format == FileMesh::Format::obj ? BodiesBy::objects : BodiesBy::components;
-}
 
 BodyMeshes divide(const FileMesh& mesh, BodiesBy by, const std::filesystem::path& file,
                   std::vector<std::string>& notes) {
@@ -130,28 +125,21 @@ BodyMeshes divide(const FileMesh& mesh, BodiesBy by, const std::filesystem::path
   if (mesh.weights > 0)
     notes.push_back(std::to_string(mesh.weights) +
                     " vertices have a weight other than 1, which is passed over: it is for curves only");
-  BodyMeshes bodies;
-  bodies.first = offsets_of<Index>(count, body_of.size(), [&](std::size_t v) { return body_of[v]; });
-  bodies.file_vertex.resize(body_of.size());
+  Groups<Index> vertices(count, body_of.size(), [&](std::size_t v) { return body_of[v]; });
   std::vector<Index> local(body_of.size());
-  std::vector<Index> next(bodies.first.begin(), bodies.first.end() - 1);
-  for (Index v = 0; v < body_of.size(); ++v) {
-    const Index here = next[body_of[v]]++;
-    bodies.file_vertex[here] = v;
-    local[v] = here - bodies.first[body_of[v]];
+  for (Index i = 0; i < local.size(); ++i) {
+    const Index v = vertices.members[i];
+    local[v] = i - vertices.first[body_of[v]];
   }
-
   const auto body_of_face = [&](std::size_t face) { return body_of[mesh.corners_of(face)[0]]; };
-  bodies.first_polygon = offsets_of<std::size_t>(count, mesh.faces.size(), body_of_face);
+  Groups<std::size_t> faces(count, mesh.faces.size(), body_of_face);
   if (by == BodiesBy::components && count > 2 && 2 * count > mesh.faces.size() && !mesh.faces.empty())
     notes.push_back(std::to_string(mesh.faces.size()) + " faces are " + std::to_string(count) +
                     " bodies, since most share no vertex with another one; if they are one mesh, give --bodies one");
-  std::vector<std::size_t> next_polygon(bodies.first_polygon.begin(), bodies.first_polygon.end() - 1);
-  std::vector<std::size_t> face_of(mesh.faces.size());
-  for (std::size_t face = 0; face < face_of.size(); ++face) face_of[next_polygon[body_of_face(face)]++] = face;
+  BodyMeshes bodies{std::move(vertices.first), std::move(vertices.members), {}, std::move(faces.first)};
   bodies.polygons.corners.reserve(mesh.corners.size());
   bodies.polygons.ends.reserve(mesh.faces.size());
-  for (const std::size_t face : face_of) {
+  for (const std::size_t face : faces.members) {
     for (const Index corner : mesh.corners_of(face)) {
       if (body_of[corner] != body_of_face(face))
         throw MeshFileError(file.string() + ":" + mesh.place(face) +

@@ -26,26 +26,24 @@ Frame read_frame(const std::filesystem::path& file) {
 
 /// Throws UsageError unless both frames have the same vertices, faces and lines.
 void require_match(const Frame& from, const Frame& to) {
-  const std::string advice = "; give two frames of one mesh";
-  const auto require_number = [&](const char* of, std::size_t in_from, std::size_t in_to) {
+  const auto refuse = [&](const std::string& in_to, const std::string& in_from) {
+    throw UsageError(to.file + in_to + from.file + in_from + "; give two frames of one mesh");
+  };
+  const auto require_number = [&](const std::string& of, std::size_t in_from, std::size_t in_to) {
     if (in_from != in_to)
-      throw UsageError(to.file + ": number of " + of + " " + std::to_string(in_to) + ", in " + from.file + " " +
-                       std::to_string(in_from) + advice);
+      refuse(": number of " + of + " " + std::to_string(in_to) + ", in ", " " + std::to_string(in_from));
   };
   const FileMesh &a = from.mesh, &b = to.mesh;
   require_number("vertices", a.x.size(), b.x.size());
   require_number("faces", a.faces.size(), b.faces.size());
   require_number("segments of lines", a.segments.size(), b.segments.size());
-  for (std::size_t face = 0; face < a.faces.size(); ++face) {
+  for (std::size_t face = 0; face < a.faces.size(); ++face)
     if (!std::ranges::equal(a.corners_of(face), b.corners_of(face)))
-      throw UsageError(to.file + ":" + b.place(face) + ": another face than " + from.file + ":" + a.place(face) +
-                       advice);
-  }
+      refuse(":" + b.place(face) + ": another face than ", ":" + a.place(face));
   for (std::size_t k = 0; k < a.segments.size(); ++k) {
     const FileMesh::Segment &s = a.segments[k], &t = b.segments[k];
     if (s.a != t.a || s.b != t.b)
-      throw UsageError(to.file + ":" + std::to_string(t.line) + ": another line than " + from.file + ":" +
-                       std::to_string(s.line) + advice);
+      refuse(":" + std::to_string(t.line) + ": another line than ", ":" + std::to_string(s.line));
   }
 }
 

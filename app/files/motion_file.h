@@ -2,8 +2,6 @@
 // Reads two frames of a mesh in double precision, for contact in motion.
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "collide/oracle/moving_mesh.h"
 #include "softbody/mesh/file_mesh.h"

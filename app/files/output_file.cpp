@@ -17,6 +17,8 @@
 #include <thread>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include "app/base/usage_error.h"
 #include "app/files/inputs.h"
 
@@ -74,9 +76,7 @@ void write_file(const fs::path& file, std::string_view bytes) {
 
 fs::path next_free_path(const fs::path& folder, const std::string& prefix, const std::string& ending) {
   for (int number = 1;; ++number) {
-    std::string digits = std::to_string(number);
-    digits.insert(0, digits.size() < 4 ? 4 - digits.size() : 0, '0');
-    fs::path file = folder / (prefix + "_" + digits + ending);
+    fs::path file = folder / fmt::format("{}_{:04}{}", prefix, number, ending);
     std::error_code ignored;
     if (!fs::exists(fs::symlink_status(file, ignored))) return file;
   }

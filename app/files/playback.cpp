@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <fmt/core.h>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "collide/surface/surface.h"
@@ -31,10 +30,6 @@ softbody::Mesh mesh_of(const BodyMeshes& meshes, std::size_t body, const softbod
   std::ranges::sort(mesh.edges);
   mesh.edges.erase(std::unique(mesh.edges.begin(), mesh.edges.end()), mesh.edges.end());
   return mesh;
-}
-
-bool same_topology(const collide::Shape& a, const collide::Shape& b) {
-  return a.shared_topology() == b.shared_topology() || a.topology() == b.topology();
 }
 
 std::size_t bytes_of(const RecordedFrame& frame) { return 3 * sizeof(float) * frame.x.size(); }
@@ -134,7 +129,8 @@ std::shared_ptr<const RecordedFrame> Playback::record(int number, SequenceFrame 
           !models_.empty() && suits(*models_.back(), *shape, triangles)
               ? models_.back()
               : softbody::recorded_body_model(mesh_of(of.meshes, body, frame.at, std::move(triangles)), shape));
-    } else if (!same_topology(*models_[count]->shape, *shape)) {
+    } else if (const collide::Shape& known = *models_[count]->shape;
+               known.shared_topology() != shape->shared_topology() && known.topology() != shape->topology()) {
       throw softbody::SceneError(sequence_.file(static_cast<std::size_t>(number)).string() + ": body " +
                                  std::to_string(body) +
                                  " is another one than in an earlier frame; give frames of the same bodies");

@@ -75,31 +75,25 @@ std::string ReferenceBody::unsupported_stage(const softbody::World& world) {
   return {};
 }
 
-void ReferenceBody::add_spring(const softbody::Spring& s, const BodyState& state, std::vector<dvec3>& a) const {
-  const dvec3 d = state.x[s.j] - state.x[s.i];
-  const double length = glm::length(d);
-  if (length == 0) return;  // no direction
-  const dvec3 n = d / length;
-  const double tension = s.stiffness * (length - s.rest) + s.damping * glm::dot(state.v[s.j] - state.v[s.i], n);
-  a[s.i] += tension / model_.particle_mass * n;
-  a[s.j] -= tension / model_.particle_mass * n;
-}
-
-void ReferenceBody::add_gas(const BodyState& state, std::vector<dvec3>& a) const {
-  const auto& faces = model_.mesh.triangles;
-  const double volume = volume_of(state.x, faces);
-  const softbody::Gas& gas = *softbody::gas_of(model_);
-  const double gauge = absolute_pressure(gas, volume) - ambient_pressure(gas, volume);
-  for (const auto& [i, j, k] : faces) {
+std::vector<dvec3> ReferenceBody::accelerations(const BodyState& state) const {
+  std::vector<dvec3> a(state.x.size(), scene_.gravity);
+  softbody::for_each_spring(model_, [&](const softbody::Spring& s) {
+    const dvec3 d = state.x[s.j] - state.x[s.i];
+    const double length = glm::length(d);
+    if (length == 0) return;  // no direction
+    const dvec3 n = d / length;
+    const double tension = s.stiffness * (length - s.rest) + s.damping * glm::dot(state.v[s.j] - state.v[s.i], n);
+    a[s.i] += tension / model_.particle_mass * n;
+    a[s.j] -= tension / model_.particle_mass * n;
+  });
+  const softbody::Gas* gas = softbody::gas_of(model_);
+  if (!gas) return a;
+  const double volume = volume_of(state.x, model_.mesh.triangles);
+  const double gauge = absolute_pressure(*gas, volume) - ambient_pressure(*gas, volume);
+  for (const auto& [i, j, k] : model_.mesh.triangles) {
     const dvec3 area = 0.5 * glm::cross(state.x[j] - state.x[i], state.x[k] - state.x[i]);
     for (const softbody::Index corner : {i, j, k}) a[corner] += gauge / 3 / model_.particle_mass * area;
   }
-}
-
-std::vector<dvec3> ReferenceBody::accelerations(const BodyState& state) const {
-  std::vector<dvec3> a(state.x.size(), scene_.gravity);
-  softbody::for_each_spring(model_, [&](const softbody::Spring& s) { add_spring(s, state, a); });
-  if (softbody::gas_of(model_)) add_gas(state, a);
   return a;
 }
 

@@ -41,8 +41,6 @@ class ReferenceBody {
   double energy(const BodyState& state) const;
 
  private:
-  void add_spring(const softbody::Spring& spring, const BodyState& state, std::vector<glm::dvec3>& a) const;
-  void add_gas(const BodyState& state, std::vector<glm::dvec3>& a) const;
   void collide_with_solids(const std::vector<glm::dvec3>& x, std::vector<glm::dvec3>& v, double h) const;
 
   const softbody::BodyModel& model_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <random>
 
 #include <glm/geometric.hpp>
 
@@ -40,12 +39,16 @@ double unsettled_speed(const ReferenceBody& body, const BodyState& s) {
   return free ? deformation_speed(s) : rms_distance(s.v, std::vector<glm::dvec3>(s.v.size(), glm::dvec3(0.0)));
 }
 
-BodyState perturbed(BodyState s, double size) {
-  std::mt19937 random(1);
+glm::dvec3 random_vector(std::mt19937& random) {
   // Not std::uniform_real_distribution, which differs between libraries.
   const auto signed_unit = [&] { return 2 * double(random()) / double(std::mt19937::max()) - 1; };
   // Braces, because the order in which a function's arguments are evaluated differs between compilers.
-  for (glm::dvec3& p : s.x) p += size * glm::dvec3{signed_unit(), signed_unit(), signed_unit()};
+  return glm::dvec3{signed_unit(), signed_unit(), signed_unit()};
+}
+
+BodyState perturbed(BodyState s, double size) {
+  std::mt19937 random(1);
+  for (glm::dvec3& p : s.x) p += size * random_vector(random);
   return s;
 }
 
@@ -67,9 +70,7 @@ Trajectory integrate(const ReferenceBody& body, BodyState s, double fraction, co
     if (limits.settled_speed <= 0 || trajectory.steps % check_every != 0) continue;
     calm_checks = unsettled_speed(body, s) < limits.settled_speed ? calm_checks + 1 : 0;
     if (calm_checks == 0) left_when_unsettled = left;
-    if (calm_checks < settled_checks || left_when_unsettled - left < settled_seconds) continue;
-    trajectory.settled = true;
-    break;
+    if (calm_checks >= settled_checks && left_when_unsettled - left >= settled_seconds) break;
   }
   trajectory.end = std::move(s);
   return trajectory;

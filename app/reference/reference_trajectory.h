@@ -1,6 +1,8 @@
 #pragma once
 // Integrates the reference body, with a step that is shown to be small enough.
 
+#include <random>
+
 #include "app/reference/body_shape.h"
 
 namespace app::reference {
@@ -9,7 +11,6 @@ struct Trajectory {
   BodyState end{};
   std::uint64_t steps = 0;
   bool complete = true;  // false: it would have taken more steps than allowed
-  bool settled = false;  // ended early, because nothing moves within the body any more
 };
 
 struct TrajectoryLimits {
@@ -26,6 +27,9 @@ double unsettled_speed(const ReferenceBody& body, const BodyState& state);
 /// Integrates with `fraction` (> 0) of the stable step, or of the step in which a particle moves a tenth of the radius
 /// if that is shorter. Both steps are computed anew every few steps.
 Trajectory integrate(const ReferenceBody& body, BodyState start, double fraction, const TrajectoryLimits& limits);
+
+/// Returns a vector whose coordinates are between -1 and 1, the same ones with every compiler and library.
+glm::dvec3 random_vector(std::mt19937& random);
 
 /// Moves each position by up to `size` (m) along each axis, by fixed random numbers.
 BodyState perturbed(BodyState state, double size);

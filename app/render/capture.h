@@ -11,7 +11,7 @@ namespace app::render {
 class Capture {
  public:
   /// Throws engine::ContextError, engine::ResourceError or engine::ShaderError with one line that says what is missing.
-  Capture(int width, int height) : target_({width, height}, 4), view_(engine::find_folder("shaders")) {}
+  explicit Capture(glm::ivec2 size) : target_(size, 4), view_(engine::find_folder("shaders")) {}
 
   /// Returns a picture of exactly that size, seen by the scene's own camera.
   engine::Image draw(const softbody::BodiesInMotion& world) {

@@ -27,9 +27,19 @@ constexpr float faint = 0.12f;         // for what fills the scene
 constexpr float half_hidden = 0.3f;    // for contacts, most of which lie behind a surface: where bodies press together
 constexpr float seen_through = 0.45f;  // for the few that must be found: chosen with the mouse, or missed
 
+/// Lines and points that look alike, added to the frame.
+struct LinesAndPoints {
+  LinesAndPoints(engine::FrameData& frame, float width, float diameter, float occluded_alpha)
+      : lines(frame.lines.emplace_back(engine::LineSet{{}, width, occluded_alpha}).lines),
+        points(frame.points.emplace_back(engine::PointSet{{}, diameter, occluded_alpha}).points) {}
+
+  std::vector<engine::Line>& lines;
+  std::vector<engine::Point>& points;
+};
+
 /// tinted: fill the faces, too; false where other boxes already tint the same place.
 void add_body_boxes(const softbody::BodiesInMotion& world, Points positions, bool tinted, engine::FrameData& frame) {
-  engine::BoxSet set{.boxes = {}, .width = 1.5f, .occluded_alpha = faint};
+  engine::BoxSet& set = frame.boxes.emplace_back(engine::BoxSet{{}, 1.5f, faint});
   if (!tinted) set.face_alpha = 0;
   const collide::Bodies& bodies = world.bodies();
   for (collide::Index b = 0; b < bodies.count(); ++b) {
@@ -40,23 +50,18 @@ void add_body_boxes(const softbody::BodiesInMotion& world, Points positions, boo
     }
     set.boxes.push_back({lo, hi, glm::vec4(body_colour(world.body(b).number) * 0.72f, 0.95f)});
   }
-  frame.boxes.push_back(std::move(set));
 }
 
-/// Returns the colour of the bucket of the box's minimum corner.
-glm::vec3 box_colour(const collide::DebugGeometry& debug, std::size_t box) {
-  return bucket_colour(debug.box_bucket[debug.box_first[box]]);
-}
-
+/// Adds the boxes in the colours of the buckets of their minimum corners.
 void add_boxes(const OverlayRequest& request, engine::FrameData& frame) {
   const collide::DebugGeometry& debug = *request.debug;
-  engine::BoxSet set{.boxes = {}, .occluded_alpha = faint, .face_alpha = request.bucket ? 0.0f : 0.05f};
+  engine::BoxSet& set = frame.boxes.emplace_back(
+      engine::BoxSet{.boxes = {}, .occluded_alpha = faint, .face_alpha = request.bucket ? 0.0f : 0.05f});
   const float alpha = request.bucket ? 0.15f : 0.85f;
   for (std::size_t i = 0; i < std::min(debug.boxes.size(), SceneView::max_boxes); ++i) {
     const auto& [lo, hi, body] = debug.boxes[i];
-    set.boxes.push_back({lo, hi, glm::vec4(box_colour(debug, i), alpha)});
+    set.boxes.push_back({lo, hi, glm::vec4(bucket_colour(debug.box_bucket[debug.box_first[i]]), alpha)});
   }
-  frame.boxes.push_back(std::move(set));
 }
 
 /// Adds the content of a bucket and its cells: one cell in one colour; what shares only the bucket in another.
@@ -64,7 +69,8 @@ void add_bucket(const OverlayRequest& request, const glm::vec3& cell_size, Point
   const compare::CellGroup* reference = request.bucket->group(request.bucket_cell);
   engine::BoxSet boxes{.boxes = {}, .width = 2.5f, .occluded_alpha = seen_through, .face_alpha = 0.22f};
   engine::BoxSet cells{.boxes = {}, .width = 1.5f, .occluded_alpha = half_hidden, .face_alpha = 0.08f};
-  engine::PointSet points{.points = {}, .diameter = 7.0f, .occluded_alpha = seen_through};
+  engine::PointSet& points =
+      frame.points.emplace_back(engine::PointSet{.points = {}, .diameter = 7.0f, .occluded_alpha = seen_through});
   for (const compare::CellGroup& group : request.bucket->groups) {
     const glm::vec3 colour = &group == reference ? same_cell_colour : aliased_colour;
     cells.boxes.push_back(cell_box(group.cell, cell_size, glm::vec4(colour * 0.6f, 0.9f)));
@@ -79,77 +85,61 @@ void add_bucket(const OverlayRequest& request, const glm::vec3& cell_size, Point
   }
   frame.boxes.push_back(std::move(cells));
   frame.boxes.push_back(std::move(boxes));
-  frame.points.push_back(std::move(points));
 }
 
 void add_areas(const std::vector<collide::DebugGeometry::Box>& areas, engine::FrameData& frame) {
-  engine::BoxSet set{.boxes = {}, .width = 1.5f, .occluded_alpha = half_hidden, .face_alpha = 0.12f};
-  for (const auto& [lo, hi, body] : areas) {
-    if (set.boxes.size() < SceneView::max_boxes) set.boxes.push_back({lo, hi, glm::vec4(area_colour, 0.9f)});
-  }
-  frame.boxes.push_back(std::move(set));
+  engine::BoxSet& set = frame.boxes.emplace_back(
+      engine::BoxSet{.boxes = {}, .width = 1.5f, .occluded_alpha = half_hidden, .face_alpha = 0.12f});
+  for (const auto& [lo, hi, body] : std::span(areas).first(std::min(areas.size(), SceneView::max_boxes)))
+    set.boxes.push_back({lo, hi, glm::vec4(area_colour, 0.9f)});
 }
 
 void add_cells(const OverlayRequest& request, const glm::vec3& size, engine::FrameData& frame) {
-  engine::BoxSet set{.boxes = {}, .width = 1.0f, .occluded_alpha = faint, .face_alpha = 0};
+  engine::BoxSet& set =
+      frame.boxes.emplace_back(engine::BoxSet{.boxes = {}, .width = 1.0f, .occluded_alpha = faint, .face_alpha = 0});
   for (const collide::DebugGeometry::Cell& cell : request.debug->cells) {
     if (set.boxes.size() == SceneView::max_boxes) break;
     set.boxes.push_back(cell_box(cell.index, size, glm::vec4(cell_colour, 0.6f)));
   }
-  frame.boxes.push_back(std::move(set));
 }
 
-void add_contact(Points positions, const collide::Contact& contact, const glm::vec3& colour, engine::LineSet& lines,
-                 engine::PointSet& points) {
+void add_contact(Points positions, const collide::Contact& contact, const glm::vec3& colour, LinesAndPoints& marks) {
   const glm::vec3 a = positions[contact.a], b = positions[contact.b];
-  lines.lines.push_back({a, b, glm::vec4(colour, 0.9f)});
-  points.points.push_back({a, glm::vec4(colour, 1.0f)});
-  points.points.push_back({b, glm::vec4(colour, 1.0f)});
+  marks.lines.push_back({a, b, glm::vec4(colour, 0.9f)});
+  for (const glm::vec3& end : {a, b}) marks.points.push_back({end, glm::vec4(colour, 1.0f)});
 }
 
 void add_contacts(const softbody::BodiesInMotion& world, std::span<const softbody::SolidContactPoint> with_solids,
                   const DrawnPoints& at, engine::FrameData& frame) {
-  engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = half_hidden};
-  engine::PointSet points{.points = {}, .diameter = 5.0f, .occluded_alpha = half_hidden};
+  LinesAndPoints marks(frame, 2.0f, 5.0f, half_hidden);
   for (const collide::Contact& contact : world.detection().contacts) {
     const bool inside = world.bodies().body_of(contact.a) == world.bodies().body_of(contact.b);
-    add_contact(at.shown, contact, inside ? contact_inside_colour : contact_between_colour, lines, points);
+    add_contact(at.shown, contact, inside ? contact_inside_colour : contact_between_colour, marks);
   }
-  for (const softbody::SolidContactPoint& contact : with_solids) {
-    points.points.push_back({at.simulated[contact.vertex], glm::vec4(contact_solid_colour, 1.0f)});
-  }
-  frame.lines.push_back(std::move(lines));
-  frame.points.push_back(std::move(points));
+  for (const softbody::SolidContactPoint& contact : with_solids)
+    marks.points.push_back({at.simulated[contact.vertex], glm::vec4(contact_solid_colour, 1.0f)});
 }
 
 void add_missed(const std::vector<collide::Contact>& missed, Points positions, engine::FrameData& frame) {
-  engine::LineSet lines{.lines = {}, .width = 3.0f, .occluded_alpha = seen_through};
-  engine::PointSet points{.points = {}, .diameter = 7.0f, .occluded_alpha = seen_through};
-  for (const collide::Contact& contact : missed) {
-    add_contact(positions, contact, contact_missed_colour, lines, points);
-  }
-  frame.lines.push_back(std::move(lines));
-  frame.points.push_back(std::move(points));
+  LinesAndPoints marks(frame, 3.0f, 7.0f, seen_through);
+  for (const collide::Contact& contact : missed) add_contact(positions, contact, contact_missed_colour, marks);
 }
 
 /// Adds both closest points, and the normal at the second one, half a mean edge long.
 void add_surface_contacts(const softbody::BodiesInMotion& world,
                           std::span<const softbody::SurfaceContactPoint> contacts, Points particles,
                           engine::FrameData& frame) {
-  engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = half_hidden};
-  engine::PointSet points{.points = {}, .diameter = 5.0f, .occluded_alpha = half_hidden};
+  LinesAndPoints marks(frame, 2.0f, 5.0f, half_hidden);
   for (const softbody::SurfaceContactPoint& contact : contacts) {
     glm::vec3 first(0.0f), second(0.0f);
     for (std::size_t k = 0; k < contact.vertex.size(); ++k)
       (contact.weight[k] > 0 ? first : second) += std::abs(contact.weight[k]) * particles[contact.vertex[k]];
     const glm::vec4 colour(contact.a == contact.b ? contact_inside_colour : contact_between_colour, 1.0f);
     const float length = 0.5f * static_cast<float>(world.model(contact.a).mean_edge);
-    lines.lines.push_back({second, second + length * contact.normal, colour});
-    points.points.push_back({first, colour});
-    points.points.push_back({second, colour});
+    marks.lines.push_back({second, second + length * contact.normal, colour});
+    marks.points.push_back({first, colour});
+    marks.points.push_back({second, colour});
   }
-  frame.lines.push_back(std::move(lines));
-  frame.points.push_back(std::move(points));
 }
 
 /// Widens the regions of marked vertices (value 1, others 0) by about an edge of the mesh, with a smooth border: it
@@ -206,16 +196,13 @@ void add_marks(const softbody::BodiesInMotion& world, std::span<const compare::S
   for (const softbody::BodyId body : marked)
     spread(world.model(body), std::span(marked_particles).subspan(bodies.first[body], bodies.size(body)),
            std::span(frame.marks).subspan(world.bodies().first[body], world.bodies().size(body)));
-  engine::LineSet lines{.lines = {}, .width = 1.5f, .occluded_alpha = half_hidden};
-  engine::PointSet points{.points = {}, .diameter = 4.5f, .occluded_alpha = half_hidden};
+  LinesAndPoints drawn(frame, 1.5f, 4.5f, half_hidden);
   const glm::vec4 colour(contact_missed_colour, 1.0f);
   for (const auto& [pair, mark] : deepest) {
     const glm::vec3 vertex = particles[mark->vertex];
-    lines.lines.push_back({vertex, vertex + mark->offset, colour});
-    points.points.push_back({vertex, colour});
+    drawn.lines.push_back({vertex, vertex + mark->offset, colour});
+    drawn.points.push_back({vertex, colour});
   }
-  frame.lines.push_back(std::move(lines));
-  frame.points.push_back(std::move(points));
 }
 
 bool is_open(const softbody::BodyModel& model) { return !(model.start_volume > 0); }

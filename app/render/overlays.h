@@ -18,9 +18,7 @@ struct Overlays {
   bool true_surfaces = false;
 
   bool operator==(const Overlays&) const = default;
-  bool any() const {
-    return body_boxes || boxes || cells || contacts || springs || missed || areas || surface_contacts || true_surfaces;
-  }
+  bool any() const { return *this != Overlays(); }
 };
 
 struct OverlayRow {

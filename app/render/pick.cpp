@@ -32,11 +32,19 @@ bool passes(const engine::Ray& ray, const BoundingSphere& sphere) {
   return glm::length(glm::cross(sphere.centre - ray.origin, ray.direction)) <= sphere.radius;
 }
 
-/// Returns the distance at which the ray enters the first solid, at most `max_distance`.
-float clear_of_solids(const engine::Ray& ray, const softbody::Scene& scene, float max_distance) {
-  double nearest = static_cast<double>(max_distance);
-  for (const softbody::Solid& solid : scene.solids) nearest = entry_distance(ray, solid, nearest);
-  return static_cast<float>(nearest);
+/// Returns the distance (m) at which the ray enters a solid, at most `max_distance`, by sphere tracing.
+double entry_distance(const engine::Ray& ray, const softbody::Solid& solid, double max_distance) {
+  constexpr double hit_distance = 1e-3;  // m
+  constexpr int max_steps = 300;
+  double along = 0;
+  for (int i = 0; i < max_steps && along < max_distance; ++i) {
+    const glm::dvec3 at = glm::dvec3(ray.origin) + along * glm::dvec3(ray.direction);
+    const double away = softbody::surface_at(solid, at).distance;
+    if (i == 0 && away <= 0) return max_distance;
+    if (away < hit_distance) return along;
+    along += away;
+  }
+  return max_distance;
 }
 
 /// Where a fine mesh is drawn, names the particles that hold its vertex nearest to the point.
@@ -52,18 +60,13 @@ void hold_by_particles(Pick& pick, const softbody::BodyModel& model) {
 
 }  // namespace
 
-double entry_distance(const engine::Ray& ray, const softbody::Solid& solid, double max_distance) {
-  constexpr double hit_distance = 1e-3;  // m
-  constexpr int max_steps = 300;
-  double along = 0;
-  for (int i = 0; i < max_steps && along < max_distance; ++i) {
-    const glm::dvec3 at = glm::dvec3(ray.origin) + along * glm::dvec3(ray.direction);
-    const double away = softbody::surface_at(solid, at).distance;
-    if (i == 0 && away <= 0) return max_distance;
-    if (away < hit_distance) return along;
-    along += away;
+std::optional<SolidPick> pick_solid(const engine::Ray& ray, const softbody::Scene& scene, double max_distance) {
+  SolidPick nearest{scene.solids.size(), max_distance};
+  for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+    const double distance = entry_distance(ray, scene.solids[i], nearest.distance);
+    if (distance < nearest.distance) nearest = {i, distance};
   }
-  return max_distance;
+  return nearest.distance < max_distance ? std::optional(nearest) : std::nullopt;
 }
 
 BoundingSphere bounding_sphere(const softbody::BodiesInMotion& world, softbody::BodyId body,
@@ -96,16 +99,16 @@ std::optional<Pick> pick(const engine::Ray& ray, const softbody::BodiesInMotion&
     }
   }
   if (nearest) hold_by_particles(*nearest, world.model(nearest->body));
-  if (nearest && clear_of_solids(ray, world.scene(), nearest->distance) < nearest->distance) return std::nullopt;
+  if (nearest && pick_solid(ray, world.scene(), double{nearest->distance})) return std::nullopt;
   return nearest;
 }
 
 std::optional<float> distance_to_scene(const engine::Ray& ray, const softbody::BodiesInMotion& world,
                                        const compare::DrawnPositions& positions) {
-  constexpr float horizon = 1e3f;  // m
+  constexpr double horizon = 1e3;  // m
   if (const auto body = pick(ray, world, positions)) return body->distance;
-  const float solid = clear_of_solids(ray, world.scene(), horizon);
-  return solid < horizon ? std::optional(solid) : std::nullopt;
+  const auto solid = pick_solid(ray, world.scene(), horizon);
+  return solid ? std::optional(static_cast<float>(solid->distance)) : std::nullopt;
 }
 
 }  // namespace app::render

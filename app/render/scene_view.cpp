@@ -167,7 +167,7 @@ void SceneView::draw(const softbody::BodiesInMotion& world, const OverlayRequest
   frame_.tessellated = !overlays.shown.springs;  // springs run along the straight edges
 
   add_solids(world.scene(), frame_);
-  const Bounds around = bounds(world);
+  const BoundingSphere around = bounds(world);
   frame_.bounds_centre = around.centre;
   frame_.bounds_radius = enclosing_radius(around.centre, around.radius, positions_);
 
@@ -190,7 +190,7 @@ double SceneView::radius(const softbody::MeshSource& source) {
 
 /// Returns a sphere around all frames if that is known, else around the scene as it is set up: the solids, and the
 /// places where bodies start.
-SceneView::Bounds SceneView::bounds(const softbody::BodiesInMotion& world) {
+BoundingSphere SceneView::bounds(const softbody::BodiesInMotion& world) {
   if (const auto known = world.bounds()) {
     const glm::dvec3 low((*known)[0]), high((*known)[1]);
     return {glm::vec3(0.5 * (low + high)), static_cast<float>(0.5 * glm::distance(low, high))};
@@ -215,7 +215,7 @@ SceneView::Bounds SceneView::bounds(const softbody::BodiesInMotion& world) {
 
 engine::Camera SceneView::camera(const softbody::BodiesInMotion& world, glm::ivec2 size) {
   const softbody::Scene& scene = world.scene();
-  const Bounds around = bounds(world);
+  const BoundingSphere around = bounds(world);
   engine::Camera camera;
   camera.fit(around.centre, around.radius, size);  // sets the limits of zoom and depth
   for (const softbody::Solid& solid : scene.solids)

@@ -5,11 +5,11 @@
 #include <map>
 #include <optional>
 
-#include "app/compare/drawn_positions.h"
 #include "app/compare/surface_check.h"
 #include "app/compare/table_contents.h"
 #include "app/render/highlight.h"
 #include "app/render/overlays.h"
+#include "app/render/pick.h"
 #include "collide/core/workers.h"
 #include "engine/render/renderer.h"
 #include "softbody/world/measures.h"
@@ -59,10 +59,6 @@ class SceneView {
   static void refit(engine::Camera& camera, glm::ivec2 from, glm::ivec2 to);
 
  private:
-  struct Bounds {
-    glm::vec3 centre;
-    float radius;
-  };
   struct UploadedMesh {
     engine::MeshHandle handle;
     std::vector<std::uint32_t> indices;
@@ -74,7 +70,7 @@ class SceneView {
   void gather_ghost(const softbody::BodiesInMotion& ghost, const compare::DrawnPositions& positions);
   void apply(const Highlight& highlight);
   const UploadedMesh& upload(const softbody::Mesh& mesh);
-  Bounds bounds(const softbody::BodiesInMotion& world);
+  BoundingSphere bounds(const softbody::BodiesInMotion& world);
   double radius(const softbody::MeshSource& source);
 
   engine::render::Renderer renderer_;

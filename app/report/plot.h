@@ -2,7 +2,6 @@
 // Plots as data, drawn by gnuplot: a separate program (package gnuplot-nox) that may be missing.
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "app/compare/method_style.h"

@@ -111,6 +111,4 @@ void BodyControls::remove_selected() {
   selected_.reset();
 }
 
-void BodyControls::replaced(bool new_scene) { select(new_scene ? std::nullopt : selected_); }
-
 }  // namespace app::session

@@ -27,9 +27,6 @@ class BodyControls {
   void select(std::optional<softbody::BodyId> body);
   void remove_selected();
 
-  /// To be called by the simulation's observer.
-  void replaced(bool new_scene);
-
  private:
   Simulation& simulation_;
   std::optional<softbody::BodyId> selected_;

@@ -80,8 +80,4 @@ const std::vector<softbody::SurfaceContactPoint>& DetectionInspector::surface_co
   return surface_contacts_.value;
 }
 
-void DetectionInspector::replaced(bool new_scene) {
-  if (new_scene) select_bucket({});
-}
-
 }  // namespace app::session

@@ -20,7 +20,8 @@ class DetectionInspector {
   const collide::DebugGeometry& paper_geometry() const;
   const compare::TableContents& table() const;
 
-  /// The bucket whose boxes the scene shows: always below the number of buckets.
+  /// The bucket whose boxes the scene shows: below the number of buckets, since the Session selects it again when this
+  /// number changes.
   const std::optional<std::uint32_t>& selected_bucket() const { return selected_bucket_; }
   void select_bucket(std::optional<std::uint32_t> bucket);
   /// The contents of the selected bucket; nullptr if none is selected, or its table is not known.
@@ -33,10 +34,6 @@ class DetectionInspector {
   std::vector<collide::DebugGeometry::Box> search_areas() const;
   /// Surface contacts of the last step; empty unless the contact surface is the surfaces.
   const std::vector<softbody::SurfaceContactPoint>& surface_contacts() const;
-
-  // To be called by the simulation's observer.
-  void detection_changed() { select_bucket(selected_bucket_); }
-  void replaced(bool new_scene);
 
  private:
   template <class Value>

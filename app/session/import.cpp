@@ -66,14 +66,11 @@ FileReader::World world_of(const std::filesystem::path& path, std::string what, 
   return {path, std::move(what), std::move(opened), std::move(shown)};
 }
 
-/// Returns the ending of a file's name in small letters.
-std::string ending_of(const std::filesystem::path& file) {
+bool is_mesh(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
+  return ending == ".obj" || ending == ".ply";
 }
-
-bool is_mesh(const std::filesystem::path& file) { return ending_of(file) == ".obj" || ending_of(file) == ".ply"; }
 
 /// Returns true for the file that an export of motion writes beside its frames.
 bool is_rest_shape(const std::filesystem::path& file) { return file.filename() == files::rest_shape_name; }
@@ -90,13 +87,13 @@ FileReader::Answer FileReader::answer(const Question& question, const std::stop_
       return read;
     }
     if (const auto* frames = std::get_if<FramesToRead>(&question.file)) {
-      files::Opened opened = files::open_recording(frames->files);
+      files::Opened opened = files::open_recording(*frames);
       for (const int number : {1, opened.recording->frame_count() - 1}) opened.recording->frame(number);
       std::string look_at = opened.scene.look_at;
-      return world_of(frames->files.front(), std::move(look_at), std::move(opened), frames->threads);
+      return world_of(frames->front(), std::move(look_at), std::move(opened), question.threads);
     }
-    const auto& [path, threads, presets] = std::get<SceneToRead>(question.file);
-    return world_of(path, "scene " + path.filename().string(), softbody::load_scene(path, presets), threads);
+    const auto& [path, presets] = std::get<SceneToRead>(question.file);
+    return world_of(path, "scene " + path.filename().string(), softbody::load_scene(path, presets), question.threads);
   } catch (const Cancelled&) {
     return Cancelled{};
   } catch (const std::exception& error) {
@@ -130,7 +127,7 @@ Material imported_material(double extent) {
 }
 
 std::string Import::progress() const {
-  if (!reading_) return {};
+  if (!progress_) return {};
   const auto seconds =
       std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - began_).count();
   std::string text = progress_->cancelled ? "giving up " : "reading ";
@@ -142,7 +139,7 @@ std::string Import::progress() const {
 void Import::cancel() {
   dropped_.clear();
   together_.clear();
-  if (reading_) progress_->cancelled = true;
+  if (progress_) progress_->cancelled = true;
 }
 
 void Import::add(FileReport file_report) {
@@ -159,7 +156,7 @@ void Import::refuse(const std::string& why) {
 }
 
 void Import::load(Session& session) {
-  if (path.empty() || reading_) return;
+  if (path.empty() || progress_) return;
   report_.clear();
   problem_.clear();
   is_dropped_ = false;
@@ -168,20 +165,18 @@ void Import::load(Session& session) {
 
 void Import::open(Session& session) {
   const std::filesystem::path file(path);
-  if (file.extension() == ".toml")
-    return read(FileReader::SceneToRead{file, session.simulation.threads(), session.scenes.presets_file()});
+  if (file.extension() == ".toml") return read(FileReader::SceneToRead{file, session.scenes.presets_file()}, session);
   if (!is_mesh(file)) return refuse(path + ": neither a mesh (.obj, .ply) nor a scene (.toml)");
   softbody::MeshFile mesh{.path = std::filesystem::absolute(file), .size = double{size}, .weld = weld};
   if (z_is_up) mesh.up = {0, 0, 1};
   mesh.resolution = resolution;
-  read(std::move(mesh));
+  read(std::move(mesh), session);
 }
 
-void Import::read(decltype(FileReader::Question::file) file) {
-  reading_ = true;
+void Import::read(decltype(FileReader::Question::file) file, const Session& session) {
   began_ = std::chrono::steady_clock::now();
   progress_ = std::make_shared<FileReader::Progress>();
-  reader_.offer({std::move(file), progress_});
+  reader_.offer({std::move(file), progress_, session.simulation.threads()});
 }
 
 void Import::drop(const std::vector<std::string>& files, Session& session) {
@@ -194,7 +189,7 @@ void Import::drop(const std::vector<std::string>& files, Session& session) {
     std::ranges::sort(frames, [](const auto& a, const auto& b) { return strverscmp(a.c_str(), b.c_str()) < 0; });
     path = frames.front();
     is_dropped_ = true;
-    read(FileReader::FramesToRead{{frames.begin(), frames.end()}, session.simulation.threads()});
+    read(FileReader::FramesToRead(frames.begin(), frames.end()), session);
   } else {
     dropped_.insert(dropped_.end(), files.begin(), files.end());
   }
@@ -216,21 +211,15 @@ void Import::play(Session& session) {
 
 void Import::import_each(Session& session) {
   assert(frames_);
-  drop_first(std::exchange(frames_, std::nullopt)->files);
+  const std::vector<std::string> files = std::exchange(frames_, std::nullopt)->files;
+  dropped_.insert(dropped_.begin(), files.begin(), files.end());
   update(session);
 }
 
-/// Queues files before those that wait already.
-void Import::drop_first(const std::vector<std::string>& files) {
-  dropped_.insert(dropped_.begin(), files.begin(), files.end());
-}
-
 void Import::update(Session& session) {
-  if (auto answer = reader_.take()) {
-    reading_ = false;
-    if (!progress_->cancelled) take(session, std::move(*answer));
-  }
-  if (reading_ || frames_ || dropped_.empty()) return;
+  if (auto answer = reader_.take(); answer && !std::exchange(progress_, nullptr)->cancelled)
+    take(session, std::move(*answer));
+  if (progress_ || frames_ || dropped_.empty()) return;
   path = dropped_.front();
   dropped_.erase(dropped_.begin());
   is_dropped_ = true;
@@ -244,7 +233,7 @@ void Import::take(Session& session, FileReader::Answer answer) {
       frames_.emplace(Frames{std::move(files), std::move(*world)});
       if (!session.simulated()) play(session);  // no body could join
     } else {                                    // they are no frames
-      drop_first(files);
+      dropped_.insert(dropped_.begin(), files.begin(), files.end());
     }
     return;
   }

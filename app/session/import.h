@@ -41,14 +41,9 @@ struct FileReader {
   };
   struct Cancelled {};
   struct SceneToRead {
-    std::filesystem::path path;
-    int threads;  // of its world
-    std::filesystem::path presets;
+    std::filesystem::path path, presets;
   };
-  struct FramesToRead {
-    std::vector<std::filesystem::path> files;
-    int threads;
-  };
+  using FramesToRead = std::vector<std::filesystem::path>;
   struct Mesh {
     softbody::MeshSource mesh;
     std::shared_ptr<const softbody::BodyModel> model;  // of imported_material(); kept alive so that a world finds it
@@ -62,6 +57,7 @@ struct FileReader {
   struct Question {
     std::variant<softbody::MeshFile, SceneToRead, FramesToRead> file;
     std::shared_ptr<Progress> progress;
+    int threads = 1;  // of the world
   };
   using Answer = std::variant<Mesh, World, std::string, Cancelled>;  // string: what failed
   Answer answer(const Question& question, const std::stop_token& stop) const;
@@ -116,7 +112,7 @@ class Import {
   std::optional<JoinedAt> take_joined() { return std::exchange(joined_, std::nullopt); }
 
   /// Returns true while something is read; not while question() waits for the user.
-  bool busy() const { return reading_ || (!frames_ && !dropped_.empty()); }
+  bool busy() const { return progress_ || (!frames_ && !dropped_.empty()); }
   /// Returns what is being read, what is done with it, and for how long; empty unless busy().
   std::string progress() const;
   /// Gives up what is being read, and all files that wait. busy() until the present stage is over.
@@ -139,10 +135,9 @@ class Import {
   };
 
   void open(Session& session);
-  void drop_first(const std::vector<std::string>& files);
   void add(FileReport file_report);
   void refuse(const std::string& why);
-  void read(decltype(FileReader::Question::file) file);
+  void read(decltype(FileReader::Question::file) file, const Session& session);
   void take(Session& session, FileReader::Answer answer);
   void enter(Session& session, FileReader::World answer);
   void join(Session& session, FileReader::Mesh read);
@@ -154,9 +149,8 @@ class Import {
   std::vector<std::string> together_;  // what is read now, if it may be frames
   std::optional<Frames> frames_;       // what question() is about
   std::optional<JoinedAt> joined_;
-  bool reading_ = false;
   std::chrono::steady_clock::time_point began_;
-  std::shared_ptr<FileReader::Progress> progress_;  // of what is read
+  std::shared_ptr<FileReader::Progress> progress_;  // of what is read; nullptr: nothing is
   BackgroundWorker<FileReader> reader_;
 };
 

@@ -33,10 +33,6 @@ void Player::show(int number) {
     detector_->forget();
   }
   while (bodies_.count() < shown_->body_count) bodies_.add(recording_->model(bodies_.count())->shape);
-  detect();
-}
-
-void Player::detect() {
   report_.detect_ms = time_ms([this] { detector_->detect(positions(), settings_, workers_, result_); });
 }
 

@@ -51,7 +51,6 @@ class Player : public softbody::BodiesInMotion {
  private:
   glm::vec3 automatic_cell_size(int levels, float tolerance) const;
   collide::Settings settings_of(const softbody::Scene& scene) const;
-  void detect();
 
   std::shared_ptr<files::Recording> recording_;
   softbody::Scene scene_;

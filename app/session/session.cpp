@@ -30,7 +30,7 @@ void Session::let_pass(double elapsed) {
 
 bool Session::stands_still() const {
   if (simulation.clock.paused) return simulation.clock.stands_still();
-  return simulation.has_come_to_rest() && (!ghost_.get() || ghost_.get()->at_rest());
+  return simulation.has_come_to_rest() && ghost_.at_rest();
 }
 
 bool Session::awaits_answer() const {
@@ -71,15 +71,15 @@ double Session::stepped() {
 void Session::intervened() { notify(ghost_.restart(simulated())); }
 
 void Session::detection_changed() {
-  inspector.detection_changed();
+  inspector.select_bucket(inspector.selected_bucket());  // the table may have fewer
   comparison.detection_changed(world(), simulation.revision());
 }
 
 void Session::replaced(bool new_scene) {
   has_left_world_ |= new_scene;
   run_ahead.stop();
-  bodies.replaced(new_scene);
-  inspector.replaced(new_scene);
+  bodies.select(new_scene ? std::nullopt : bodies.selected());
+  if (new_scene) inspector.select_bucket({});
   comparison.restart(world(), simulation.revision());
   surfaces.restart(simulation.revision());
   notify(ghost_.restart(simulated()));

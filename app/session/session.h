@@ -53,7 +53,7 @@ class Session : private SimulationObserver {
   /// A second world that goes on from the present state by another integrator. It begins anew whenever hands or
   /// settings change the one that is shown, which must be simulated. Nothing: there is none.
   void choose_ghost(const std::optional<softbody::IntegratorChoice>& choice);
-  const LiveGhost& ghost() const { return ghost_; }
+  const Ghost& ghost() const { return ghost_; }
 
  private:
   double stepped() override;
@@ -65,7 +65,7 @@ class Session : private SimulationObserver {
   void exchange();
   void notify(const std::string& problem);
 
-  LiveGhost ghost_;
+  Ghost ghost_;
   bool has_left_world_ = false;  // whose memory is not yet given back
 };
 

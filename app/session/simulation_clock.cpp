@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace app::session {
 
 bool SimulationClock::take_single_step(const Stepper& step) {
-  if (!single_step_) return false;
-  single_step_ = false;
+  if (!std::exchange(single_step_, false)) return false;
   step();
   return true;
 }
@@ -29,7 +29,12 @@ void SimulationClock::advance(double elapsed, double frame_time, const Stepper& 
   }
   // What is still owed is dropped: paying it back would make the next call longer, and the one after that (a spiral).
   if (owed_ >= frame_time) owed_ = std::fmod(owed_, frame_time);
-  if (!ahead) measure_pace(requested, done, frame_time);
+  if (ahead) return;
+  requested_ += requested;
+  done_ += done;
+  if (requested_ < std::max(0.5 * factor(), 4 * frame_time)) return;
+  pace_ = std::min(1.0, done_ / requested_);
+  requested_ = done_ = 0;
 }
 
 void SimulationClock::advance_one(const Stepper& step) {
@@ -46,14 +51,6 @@ void SimulationClock::single_step() {
 void SimulationClock::restart() {
   owed_ = 0;
   single_step_ = false;
-}
-
-void SimulationClock::measure_pace(double requested, double done, double frame_time) {
-  requested_ += requested;
-  done_ += done;
-  if (requested_ < std::max(0.5 * factor(), 4 * frame_time)) return;
-  pace_ = std::min(1.0, done_ / requested_);
-  requested_ = done_ = 0;
 }
 
 double SimulationClock::fraction(double frame_time) const {

@@ -48,11 +48,10 @@ class SimulationClock {
  private:
   bool take_single_step(const Stepper& step);
   double factor() const { return running_ahead ? ahead_factor : slow_motion ? slow_factor * speed : speed; }
-  void measure_pace(double requested, double done, double frame_time);
 
   double owed_ = 0;  // s of simulated time, less than one frame after advance()
   bool single_step_ = false;
-  double pace_ = 1, requested_ = 0, done_ = 0;  // s, within the window of measure_pace()
+  double pace_ = 1, requested_ = 0, done_ = 0;  // s, since pace_ was measured
 };
 
 }  // namespace app::session

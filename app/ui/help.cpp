@@ -13,10 +13,7 @@ namespace {
 
 constexpr float key_width = 86, between_columns = 24;  // design pixels
 
-struct Entry {
-  std::string_view key, text;
-};
-using Entries = std::vector<Entry>;  // an entry without key and text is an empty line
+using Entries = std::vector<HelpLine>;  // an entry without input and text is an empty line
 
 Entries keyboard() {
   Entries entries;
@@ -30,13 +27,13 @@ Entries overlays_and_mouse() {
   for (const render::OverlayRow& row : render::overlay_table)
     entries.push_back({std::string_view(&row.shortcut, 1), row.label});
   entries.push_back({"", ""});
-  for (const MouseAction& use : mouse_actions()) entries.push_back({use.mouse_text, use.text});
+  entries.insert(entries.end(), mouse_actions().begin(), mouse_actions().end());
   return entries;
 }
 
 float width_of(const Widgets& w, const Entries& entries) {
   float widest = 0;
-  for (const Entry& e : entries)
+  for (const HelpLine& e : entries)
     widest = std::max(widest, ImGui::CalcTextSize(e.text.data(), e.text.data() + e.text.size()).x);
   return w.px(key_width) + widest;
 }
@@ -44,9 +41,9 @@ float width_of(const Widgets& w, const Entries& entries) {
 /// Draws the entries from `left` (x) on.
 void draw_entries(Widgets& w, const Entries& entries, float left) {
   ImGui::BeginGroup();
-  for (const Entry& e : entries) {
+  for (const HelpLine& e : entries) {
     ImGui::SetCursorPosX(left);
-    ImGui::TextUnformatted(e.key.data(), e.key.data() + e.key.size());
+    ImGui::TextUnformatted(e.input.data(), e.input.data() + e.input.size());
     ImGui::SameLine();
     ImGui::SetCursorPosX(left + w.px(key_width));
     ImGui::TextDisabled("%.*s", static_cast<int>(e.text.size()), e.text.data());

@@ -95,15 +95,15 @@ constexpr std::array shortcut_table{
 };
 
 constexpr std::array mouse_table{
-    MouseAction{"On a body", "Drag: pull it"},
-    MouseAction{"", "Click: select it"},
-    MouseAction{"", "Double-click: look at it"},
-    MouseAction{"On a solid", "Drag: move it"},
-    MouseAction{"Background", "Drag: orbit"},
-    MouseAction{"Right drag", "Pan"},
-    MouseAction{"Wheel", "Zoom"},
-    MouseAction{"Drop files", "Mesh: adds a body. TOML: opens a scene"},
-    MouseAction{"", "Meshes with the same vertices: plays them"},
+    HelpLine{"On a body", "Drag: pull it"},
+    HelpLine{"", "Click: select it"},
+    HelpLine{"", "Double-click: look at it"},
+    HelpLine{"On a solid", "Drag: move it"},
+    HelpLine{"Background", "Drag: orbit"},
+    HelpLine{"Right drag", "Pan"},
+    HelpLine{"Wheel", "Zoom"},
+    HelpLine{"Drop files", "Mesh: adds a body. TOML: opens a scene"},
+    HelpLine{"", "Meshes with the same vertices: plays them"},
 };
 
 /// If there is no solver, but something needs one, says so and returns true.
@@ -116,7 +116,7 @@ bool refuse_without_solver(Session& session, bool needs_solver, std::string_view
 }  // namespace
 
 std::span<const Shortcut> shortcuts() { return shortcut_table; }
-std::span<const MouseAction> mouse_actions() { return mouse_table; }
+std::span<const HelpLine> mouse_actions() { return mouse_table; }
 
 bool handle_key(int key, bool repeat, Session& session, UiState& ui, int mods) {
   // Shift is ignored where no shortcut asks for it. With one of these a key means something else in every program.

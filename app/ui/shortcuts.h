@@ -24,10 +24,11 @@ std::span<const Shortcut> shortcuts();
 /// Runs the shortcut of a key. Returns false if the key has none.
 bool handle_key(int key, bool repeat, Session& session, UiState& ui, int mods = 0);
 
-/// A use of the mouse over the scene, for the help.
-struct MouseAction {
-  std::string_view mouse_text, text;
+/// A line of the help.
+struct HelpLine {
+  std::string_view input, text;  // keys or a use of the mouse, and what they do
 };
-std::span<const MouseAction> mouse_actions();
+/// Returns the uses of the mouse over the scene.
+std::span<const HelpLine> mouse_actions();
 
 }  // namespace app::ui

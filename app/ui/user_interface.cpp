@@ -23,7 +23,12 @@ void UserInterface::draw(Session& session, UiState& ui, float scale, double seco
   had_hash_table_ = ui.hash_table;
   layout_ = compute_layout(session, ui, scale);
   if (layout_.panel) draw_panel(widgets, session, ui, *layout_.panel, layout_.panel_covers_scene);
-  if (layout_.lower) draw_lower(widgets, session, ui, *layout_.lower);
+  bool open = true;
+  if (layout_.lower && ui.lower == LowerView::comparison)
+    draw_compare(widgets, session, ui.overlays.missed, open, *layout_.lower);
+  else if (layout_.lower)
+    sweep_view_.draw(widgets, session, *layout_.lower, open);
+  if (!open) ui.lower = LowerView::none;
   if (layout_.time_line) draw_time_line(widgets, session, *layout_.time_line);
   if (layout_.sidebar) draw_sidebar(widgets, session, ui, hash_table_view_, *layout_.sidebar);
   show_field_problem(session.simulation.notice);
@@ -48,15 +53,6 @@ void UserInterface::show_field_problem(session::Notice& notice) {
   field_problem_ = *problem;
 }
 
-void UserInterface::draw_lower(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area) {
-  bool open = true;
-  if (ui.lower == LowerView::comparison)
-    draw_compare(widgets, session, ui.overlays.missed, open, area);
-  else
-    sweep_view_.draw(widgets, session, area, open);
-  if (!open) ui.lower = LowerView::none;
-}
-
 void UserInterface::draw_over_scene(Widgets& widgets, Session& session, UiState& ui, double seconds) {
   ScreenRect free = layout_.scene;
   free.max.y = draw_caption(widgets, session, free, seconds);
@@ -64,20 +60,15 @@ void UserInterface::draw_over_scene(Widgets& widgets, Session& session, UiState&
   if (ui.lights) free.min.y = draw_status(widgets, session, lights_, free, ui.coverage_explained, ui.lights);
   if (ui.shows_story()) {
     const bool both_fit = free.max.x - free.min.x >= widgets.px(2 * min_box_width + 3 * box_margin);
-    const float end = draw_story(widgets, session, ui, both_fit ? beside : free);
+    StoryCard::Action action{};
+    const float end = story_.draw(widgets, session, both_fit ? beside : free, action);
     if (!both_fit) free.min.y = end;
+    if (action == StoryCard::Action::close) ui.set_story(false);
+    if (action == StoryCard::Action::explain) ui.tour.start(session, ui.overlays, miss_step);
   }
   free.min.y = draw_notices(widgets, session, layout_.no_room_message, free);
   if (!layout_.sidebar) draw_floating_legend(widgets, session, ui.drawn_overlays(session), free);
   draw_import_report(widgets, session, ui.import, free);
-}
-
-float UserInterface::draw_story(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area) {
-  StoryCard::Action action{};
-  const float end = story_.draw(widgets, session, area, action);
-  if (action == StoryCard::Action::close) ui.set_story(false);
-  if (action == StoryCard::Action::explain) ui.tour.start(session, ui.overlays, miss_step);
-  return end;
 }
 
 }  // namespace app::ui

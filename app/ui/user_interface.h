@@ -23,9 +23,6 @@ class UserInterface {
   const SweepView& sweep_view() const { return sweep_view_; }
 
  private:
-  void draw_lower(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area);
-  /// Draws the card at the upper edge of `area`. Returns the lower end (y) of a card that stands in its place.
-  float draw_story(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area);
   /// Says what is wrong with what was typed into a field of numbers, until the field is right.
   void show_field_problem(session::Notice& notice);
   void draw_over_scene(Widgets& widgets, Session& session, UiState& ui, double seconds);

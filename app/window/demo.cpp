@@ -9,6 +9,8 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "app/base/timings.h"
@@ -56,35 +58,30 @@ std::unique_ptr<Session> open_session(const DemoOptions& options, Graphics& grap
   return opening.get();
 }
 
-/// Everything that the picture of the scene depends on.
-struct PictureKey {
-  std::uint64_t revision = 0, ghost = 0, comparison = 0, surface_report = 0, tour = 0;
-  std::size_t misses_of = 0;
-  render::Overlays overlays;
-  std::optional<std::uint32_t> bucket;
-  std::optional<compare::Cell> cell;
-  std::optional<softbody::BodyId> selected;
-  std::optional<softbody::Grab> grab;
-  glm::mat4 view{0.0f};
-  float scale = 0, between = 1;
-  bool operator==(const PictureKey&) const = default;
-};
+/// Returns everything that the picture of the scene depends on. view: of the camera; scale: of lines and points.
+auto picture_key(const Session& session, const ui::UiState& ui, const glm::mat4& view, float scale) {
+  const render::Overlays& shown = ui.overlays;
+  return std::tuple(session.simulation.revision(), session.ghost().revision(),
+                    shown_misses(session, ui) ? session.comparison.reports() : 0,
+                    shown.true_surfaces ? session.surfaces.reports() : 0, ui.tour.highlight_revision(),
+                    session.comparison.choice.misses_of, shown, session.inspector.selected_bucket(),
+                    session.inspector.selected_cell(), session.bodies.selected(), session.simulation.grabbed(), view,
+                    scale, shows_present_state(session, shown) ? 1.0f : session.simulation.between());
+}
+using PictureKey = std::invoke_result_t<decltype(picture_key), const Session&, const ui::UiState&, glm::mat4, float>;
 
-/// What the interface shows that may change without input, apart from the contents of Activity.
-struct InterfaceKey {
-  std::uint64_t revision = 0, comparison = 0, surface_report = 0;
-  std::string notice, exporter_message;
-  bool finishing = false;
-  bool operator==(const InterfaceKey&) const = default;
-};
+/// Returns what the interface shows that may change without input, apart from the contents of Activity.
+auto interface_key(const Session& session, const ui::UiState& ui) {
+  return std::tuple(session.simulation.revision(), session.comparison.reports(), session.surfaces.reports(),
+                    session.simulation.notice.text(), ui.exporter.message(), ui.exporter.finishing());
+}
+using InterfaceKey = std::invoke_result_t<decltype(interface_key), const Session&, const ui::UiState&>;
 
 class Demo {
  public:
   explicit Demo(const DemoOptions& options)
       : preferences_(preferences_path()),
-        graphics_(std::make_unique<Graphics>(
-            options.size_given ? glm::ivec2(options.width, options.height) : preferences_.stored().size,
-            options.threads)),
+        graphics_(std::make_unique<Graphics>(options.size.value_or(preferences_.stored().size), options.threads)),
         session_owner_(open_session(options, *graphics_)),
         session_(*session_owner_) {
     session_.settings.set_integrator(options.integrator);
@@ -118,7 +115,8 @@ class Demo {
     const double moving = interrupted ? std::min(elapsed, 1.0 / 60) : elapsed;
     seconds_ += elapsed - moving;
     if (interrupted) session_.let_pass(elapsed - moving);
-    if (schedule_.due(now()) || interface_key() != shown_ || graphics_->window.context_lost()) return frame(moving);
+    if (schedule_.due(now()) || interface_key(session_, ui_) != shown_ || graphics_->window.context_lost())
+      return frame(moving);
     seconds_ += moving;
     session_.let_pass(moving);
     store_preferences();
@@ -145,7 +143,7 @@ class Demo {
     graphics_->window.wait_for_context_reset();
     graphics_.reset();  // one window at a time
     graphics_ = std::make_unique<Graphics>(size, session_.simulation.threads());
-    drawn_ = {};
+    drawn_.reset();
     recreated_at_ = now();
     session_.simulation.notice.set("the graphics driver was reset: the window was made anew, nothing else was lost");
   }
@@ -183,7 +181,7 @@ class Demo {
                     graphics_->gui.scale());
     ui_.view = render::SceneView::view(camera_, viewport.size);
     graphics_->gui.end_frame();
-    const InterfaceKey before = std::exchange(shown_, interface_key());
+    const InterfaceKey before = std::exchange(shown_, interface_key(session_, ui_));
     settling_ = before != shown_;
     ui_.exporter.frame(session_, [this](bool with_panel, const std::optional<glm::uvec2>& size) {
       return size ? picture_of(glm::ivec2(*size)) : picture(with_panel);
@@ -207,15 +205,6 @@ class Demo {
             .next_change = settling_ ? 0 : ui::seconds_to_hint_change(seconds_)};
   }
 
-  InterfaceKey interface_key() const {
-    return {.revision = session_.simulation.revision(),
-            .comparison = session_.comparison.reports(),
-            .surface_report = session_.surfaces.reports(),
-            .notice = session_.simulation.notice.text(),
-            .exporter_message = ui_.exporter.message(),
-            .finishing = ui_.exporter.finishing()};
-  }
-
   /// Runs long steps in a thread of their own. Meanwhile the camera can move; clicks and keys wait for the next frame.
   void advance(double elapsed) {
     const auto advance = [&] {
@@ -236,12 +225,11 @@ class Demo {
   void move_camera_only(double elapsed) {
     if (graphics_->window.poll()) schedule_.input(now());
     const engine::Viewport viewport = scene_viewport();
-    if (drawn_ == PictureKey{} || graphics_->window.minimised() || viewport.size.x <= 0 || viewport.size.y <= 0) return;
+    if (!drawn_ || graphics_->window.minimised() || viewport.size.x <= 0 || viewport.size.y <= 0) return;
     if (graphics_->window.left_button_down())
       mouse_.orbit_between_frames(graphics_->window.cursor() - top_left(viewport), camera_, viewport.size);
     camera_.advance(elapsed);
-    if (camera_.view() == drawn_.view) return;
-    drawn_.view = camera_.view();
+    if (camera_.view() == std::exchange(std::get<glm::mat4>(*drawn_), camera_.view())) return;
     graphics_->canvas.update(viewport.size, true, false, [&](const engine::Viewport& whole) {
       graphics_->view.redraw(camera_, whole, pixel_scale(whole, viewport));
     });
@@ -362,7 +350,7 @@ class Demo {
   void draw_scene(const engine::Viewport& viewport) {
     still_ = true;
     if (viewport.size.x <= 0 || viewport.size.y <= 0) return;
-    const PictureKey key = picture_key();
+    const PictureKey key = picture_key(session_, ui_, camera_.view(), pixel_scale());
     still_ = (session_.simulation.clock.paused || session_.world().all_at_rest()) && key == drawn_;
     const bool fine = still_ || ui_.exporter.wants_shown_picture();
     graphics_->canvas.update(viewport.size, key != drawn_, fine, [&](const engine::Viewport& whole) {
@@ -376,24 +364,6 @@ class Demo {
   /// Returns the scale in a picture `whole` that is stretched to the viewport.
   float pixel_scale(const engine::Viewport& whole, const engine::Viewport& viewport) const {
     return pixel_scale() * static_cast<float>(whole.size.y) / static_cast<float>(viewport.size.y);
-  }
-
-  PictureKey picture_key() const {
-    const render::Overlays& shown = ui_.overlays;
-    return {.revision = session_.simulation.revision(),
-            .ghost = session_.ghost().revision(),
-            .comparison = shown_misses(session_, ui_) ? session_.comparison.reports() : 0,
-            .surface_report = shown.true_surfaces ? session_.surfaces.reports() : 0,
-            .tour = ui_.tour.highlight_revision(),
-            .misses_of = session_.comparison.choice.misses_of,
-            .overlays = shown,
-            .bucket = session_.inspector.selected_bucket(),
-            .cell = session_.inspector.selected_cell(),
-            .selected = session_.bodies.selected(),
-            .grab = session_.simulation.grabbed(),
-            .view = camera_.view(),
-            .scale = pixel_scale(),
-            .between = shows_present_state(session_, ui_.overlays) ? 1.0f : session_.simulation.between()};
   }
 
   static constexpr float joined_margin = 1.25f;      // of the radius of an imported body
@@ -411,12 +381,12 @@ class Demo {
   engine::Camera camera_;
   SceneMouse mouse_;
   std::optional<engine::Orbit> orbit_before_tour_;
-  glm::ivec2 fitted_{0};     // the viewport's size that camera_ is fitted to
-  std::string shown_scene_;  // that camera_ was set up for
-  PictureKey drawn_;         // what the canvas shows
-  InterfaceKey shown_;       // by the last frame
-  bool settling_ = false;    // shown_ is new: windows take another frame to fit their contents
-  bool still_ = false;       // the picture of the last frame is that of the frame before
+  glm::ivec2 fitted_{0};             // the viewport's size that camera_ is fitted to
+  std::string shown_scene_;          // that camera_ was set up for
+  std::optional<PictureKey> drawn_;  // what the canvas shows
+  InterfaceKey shown_{};             // by the last frame
+  bool settling_ = false;            // shown_ is new: windows take another frame to fit their contents
+  bool still_ = false;               // the picture of the last frame is that of the frame before
   bool hidden_ = false;
   bool waited_ = false;  // for events, on purpose, before the present frame
   FrameTimer timer_;
@@ -427,9 +397,6 @@ class Demo {
 
 }  // namespace
 
-int run_demo(const DemoOptions& options) {
-  Demo(options).run();
-  return 0;
-}
+void run_demo(const DemoOptions& options) { Demo(options).run(); }
 
 }  // namespace app::window

@@ -2,6 +2,9 @@
 // The demo window: a world in motion with the panel beside it.
 
 #include <filesystem>
+#include <optional>
+
+#include <glm/vec2.hpp>
 
 #include "app/files/recording.h"
 #include "softbody/integrate/integrators.h"
@@ -17,13 +20,12 @@ struct DemoOptions {
   std::vector<std::string> meshes;     // mesh files that are imported as if dropped on the window
   softbody::IntegratorChoice integrator;
   int threads = 1;
-  int width = 1280, height = 720;  // of the window, screen coordinates
-  bool size_given = false;         // else the window has its last size
+  std::optional<glm::ivec2> size;  // of the window, screen coordinates; else it has its last one
 };
 
-/// Runs until the window is closed; returns the exit code. Throws engine::ContextError without a display,
-/// engine::ResourceError or engine::ShaderError if the program's files are missing or broken, softbody::SceneError if
-/// the scene cannot be simulated.
-int run_demo(const DemoOptions& options);
+/// Runs until the window is closed. Throws engine::ContextError without a display, engine::ResourceError or
+/// engine::ShaderError if the program's files are missing or broken, softbody::SceneError if the scene cannot be
+/// simulated.
+void run_demo(const DemoOptions& options);
 
 }  // namespace app::window

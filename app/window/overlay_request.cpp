@@ -33,11 +33,11 @@ render::OverlayRequest overlay_request(const Session& session, const ui::UiState
   request.grab = session.simulation.grabbed();
   request.marks = session.surfaces.report().marks;
   request.highlight = ui.tour.highlight();
-  const session::Ghost* ghost = ui.tour.open() ? nullptr : session.ghost().get();
-  if (ghost && !ghost->blown_up()) {
-    request.ghost = &ghost->world();
+  const session::Ghost& ghost = session.ghost();
+  if (!ui.tour.open() && ghost.world() && !ghost.blown_up()) {
+    request.ghost = ghost.world();
     request.ghost_positions =
-        ghost->drawn_positions(shows_present_state(session, ui.overlays) ? 1.0f : session.simulation.between());
+        ghost.drawn_positions(shows_present_state(session, ui.overlays) ? 1.0f : session.simulation.between());
   }
   return request;
 }

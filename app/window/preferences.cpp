@@ -15,13 +15,11 @@ constexpr int min_side = 240, max_side = 16384;  // of the window
 
 struct Flag {
   const char* key;
-  bool Preferences::*value;
+  bool ui::Remembered::*value;
 };
-constexpr std::array flags{Flag{"panel", &Preferences::panel},            //
-                           Flag{"lights", &Preferences::lights},          //
-                           Flag{"hash_table", &Preferences::hash_table},  //
-                           Flag{"story", &Preferences::story},            //
-                           Flag{"picture_with_panel", &Preferences::picture_with_panel}};
+constexpr std::array flags{Flag{"panel", &ui::Remembered::panel}, Flag{"lights", &ui::Remembered::lights},
+                           Flag{"hash_table", &ui::Remembered::hash_table},
+                           Flag{"story", &ui::Remembered::story_at_start}};
 constexpr std::array<std::string_view, 3> lower_views{"none", "comparison", "error_time"};  // by ui::LowerView
 
 /// Ignores the keys of other versions of the program.
@@ -31,32 +29,34 @@ Preferences read(softbody::Table root) {
   p.size.y = root.integer("height", p.size.y, min_side, max_side);
   p.slow_factor = root.number("slow_motion", p.slow_factor, session::SimulationClock::min_slow_factor,
                               session::SimulationClock::max_slow_factor);
-  for (const auto& [key, value] : flags) p.*value = root.boolean(key, p.*value);
+  for (const auto& [key, value] : flags) p.shown.*value = root.boolean(key, p.shown.*value);
+  p.picture_with_panel = root.boolean("picture_with_panel", p.picture_with_panel);
   const auto lower = std::ranges::find(lower_views, root.text("below", ""));
-  if (lower != lower_views.end()) p.lower = static_cast<ui::LowerView>(lower - lower_views.begin());
+  if (lower != lower_views.end()) p.shown.lower = static_cast<ui::LowerView>(lower - lower_views.begin());
   softbody::Table shown = root.child("show");
   for (const render::OverlayRow& row : render::overlay_table) {
-    bool& on = p.overlays.*row.shown;
+    bool& on = p.shown.overlays.*row.shown;
     on = shown.boolean(std::string(row.key), on);
   }
   softbody::Table methods = root.child("methods");
   for (std::size_t m = 0; m < p.methods.size(); ++m)
     p.methods[m] = methods.boolean(collide::method_table()[m].key, p.methods[m]);
   for (softbody::Table& section : root.children("section"))
-    p.sections[section.text("name", "")] = section.boolean("open", true);
+    p.shown.sections[section.text("name", "")] = section.boolean("open", true);
   return p;
 }
 
 std::string text_of(const Preferences& p) {
   softbody::TomlLines out;
   out.add("width", p.size.x).add("height", p.size.y).add("slow_motion", p.slow_factor);
-  for (const auto& [key, value] : flags) out.add(key, p.*value);
-  out.add("below", lower_views[static_cast<std::size_t>(p.lower)]);
+  for (const auto& [key, value] : flags) out.add(key, p.shown.*value);
+  out.add("picture_with_panel", p.picture_with_panel);
+  out.add("below", lower_views[static_cast<std::size_t>(p.shown.lower)]);
   out.heading("[show]");
-  for (const render::OverlayRow& row : render::overlay_table) out.add(row.key, p.overlays.*row.shown);
+  for (const render::OverlayRow& row : render::overlay_table) out.add(row.key, p.shown.overlays.*row.shown);
   out.heading("[methods]");
   for (std::size_t m = 0; m < p.methods.size(); ++m) out.add(collide::method_table()[m].key, bool{p.methods[m]});
-  for (const auto& [name, open] : p.sections) out.heading("[[section]]").add("name", name).add("open", open);
+  for (const auto& [name, open] : p.shown.sections) out.heading("[[section]]").add("name", name).add("open", open);
   return out.text();
 }
 
@@ -73,36 +73,23 @@ Preferences first_preferences(glm::ivec2 size) {
   constexpr int for_panel = 900, for_lights = 1200, for_hash_table = 1600;  // widths in screen coordinates
   Preferences p;
   p.size = size;
-  p.panel = size.x >= for_panel;
-  p.lights = size.x >= for_lights;
-  p.hash_table = size.x >= for_hash_table;
+  p.shown.panel = size.x >= for_panel;
+  p.shown.lights = size.x >= for_lights;
+  p.shown.hash_table = size.x >= for_hash_table;
   return p;
 }
 
 Preferences preferences_of(const Session& session, const ui::UiState& ui, glm::ivec2 size) {
-  return {.size = size,
-          .overlays = ui.tour.saved_overlays().value_or(ui.overlays),
-          .panel = ui.panel,
-          .lights = ui.lights,
-          .hash_table = ui.hash_table,
-          .story = ui.story_at_start,
-          .lower = ui.lower,
-          .picture_with_panel = ui.exporter.with_panel,
-          .slow_factor = session.simulation.clock.slow_factor,
-          .sections = ui.sections,
-          .methods = session.comparison.choice.methods};
+  Preferences p{size, ui, ui.exporter.with_panel, session.simulation.clock.slow_factor,
+                session.comparison.choice.methods};
+  p.shown.overlays = ui.tour.saved_overlays().value_or(ui.overlays);
+  return p;
 }
 
 void apply(const Preferences& p, Session& session, ui::UiState& ui) {
-  ui.overlays = p.overlays;
+  static_cast<ui::Remembered&>(ui) = p.shown;
   session.simulation.clock.slow_factor = p.slow_factor;
-  ui.panel = p.panel;
-  ui.lights = p.lights;
-  ui.hash_table = p.hash_table;
-  ui.story_at_start = p.story;
-  ui.lower = p.lower;
   ui.exporter.with_panel = p.picture_with_panel;
-  ui.sections = p.sections;
   session.comparison.choice.methods = p.methods;
 }
 
@@ -138,10 +125,6 @@ void PreferencesFile::store(const Preferences& now, double seconds, bool last) {
   }
   if (pending_ == stored_ || (!last && seconds - pending_since_ < settling)) return;
   stored_ = pending_;  // also if writing fails: the problem is reported once per change, not once per frame
-  write();
-}
-
-void PreferencesFile::write() {
   try {
     fs::create_directories(file_.parent_path());
     files::write_file(file_, text_of(stored_));

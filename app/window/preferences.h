@@ -2,7 +2,6 @@
 // What the demo remembers from one start to the next, in the platform's folder for preferences.
 
 #include <filesystem>
-#include <map>
 #include <string>
 
 #include <glm/vec2.hpp>
@@ -14,12 +13,9 @@ namespace app::window {
 
 struct Preferences {
   glm::ivec2 size{1280, 720};  // of the window, as WindowOptions::size
-  render::Overlays overlays;
-  bool panel = true, lights = true, hash_table = true, story = true;
-  ui::LowerView lower = ui::LowerView::none;
+  ui::Remembered shown;
   bool picture_with_panel = false;
   double slow_factor = 0.1;
-  std::map<std::string, bool> sections;                   // of the panel: whether they are open
   compare::MethodSet methods = compare::usual_methods();  // that are shown side by side
 
   bool operator==(const Preferences&) const = default;
@@ -50,8 +46,6 @@ class PreferencesFile {
   std::string take_problem() { return std::exchange(problem_, {}); }
 
  private:
-  void write();
-
   static constexpr double settling = 2;  // s
 
   std::filesystem::path file_;

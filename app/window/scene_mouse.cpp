@@ -9,21 +9,11 @@ namespace {
 
 constexpr float max_click_length = 5;  // pixels: a longer way of the mouse is a drag
 
-struct SolidUnder {
-  std::size_t index;  // in the scene
-  double distance;    // m
-};
-
 /// Returns the first solid that the ray meets, if it can be dragged.
-std::optional<SolidUnder> pick_solid(const engine::Ray& ray, const std::vector<softbody::Solid>& solids) {
+std::optional<render::SolidPick> pick_movable(const engine::Ray& ray, const softbody::Scene& scene) {
   constexpr double max_distance = 1000;  // m
-  SolidUnder nearest{solids.size(), max_distance};
-  for (std::size_t i = 0; i < solids.size(); ++i) {
-    const double distance = render::entry_distance(ray, solids[i], nearest.distance);
-    if (distance < nearest.distance) nearest = {i, distance};
-  }
-  if (nearest.index == solids.size() || solids[nearest.index].traits().half_space) return std::nullopt;
-  return nearest;
+  const auto first = render::pick_solid(ray, scene, max_distance);
+  return first && scene.solids[first->index].traits().half_space ? std::nullopt : first;
 }
 
 /// Returns the point where the ray meets the plane through `point` that faces the camera.
@@ -68,7 +58,7 @@ void SceneMouse::update(const MouseInput& in, Session& session, engine::Camera& 
   const auto something_under = [&] {
     const engine::Ray under = camera.pick_ray(in.at, size);
     return render::pick(under, session.world(), session.simulation.drawn().shown) ||
-           pick_solid(under, session.world().scene().solids);
+           pick_movable(under, session.world().scene());
   };
   can_drag_ =
       drag_ == Drag::body || drag_ == Drag::solid || (drag_ == Drag::none && in.over_scene && something_under());
@@ -88,7 +78,7 @@ void SceneMouse::press(const MouseInput& in, Session& session, engine::Camera& c
   const auto under = render::pick(ray, session.world(), session.simulation.drawn().shown);
   pressed_on_body_ = under.has_value();
   if (!under) {
-    if (const auto solid = pick_solid(ray, session.world().scene().solids)) {
+    if (const auto solid = pick_movable(ray, session.world().scene())) {
       drag_ = Drag::solid;
       pressed_solid_ = solid->index;
       held_solid_ = {solid->index, session.world().scene().solids[solid->index],
@@ -117,18 +107,16 @@ void SceneMouse::drag(const MouseInput& in, Session& session, engine::Camera& ca
     const engine::Ray ray = camera.pick_ray(in.at, size);
     const auto held = session.simulation.grabbed();
     if (drag_ == Drag::body && held) session.simulation.pull_to(on_facing_plane(ray, camera, held->target));
-    if (drag_ == Drag::solid) drag_solid(ray, session, camera);
+    // In another world the solids may be others.
+    if (drag_ == Drag::solid && session.simulation.world_number() == held_solid_->world_number) {
+      const glm::dvec3 way = on_facing_plane(ray, camera, held_solid_->point) - held_solid_->point;
+      session.settings.set_solid(held_solid_->index, session::moved(held_solid_->solid, way));
+    }
   }
   if (drag_ == Drag::orbit) camera.rotate(in.moved - orbited_, size);
   if (!in.over_scene) return;
   if (down_[1] || down_[2]) camera.pan(in.moved, size);
   if (in.wheel != 0) camera.zoom(in.wheel);
-}
-
-void SceneMouse::drag_solid(const engine::Ray& ray, Session& session, const engine::Camera& camera) {
-  if (session.simulation.world_number() != held_solid_->world_number) return;  // the solids may be others
-  const glm::dvec3 way = on_facing_plane(ray, camera, held_solid_->point) - held_solid_->point;
-  session.settings.set_solid(held_solid_->index, session::moved(held_solid_->solid, way));
 }
 
 void SceneMouse::release(Session& session) {

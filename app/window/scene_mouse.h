@@ -53,7 +53,6 @@ class SceneMouse {
 
   void press(const MouseInput& input, Session& session, engine::Camera& camera, glm::ivec2 size);
   void drag(const MouseInput& input, Session& session, engine::Camera& camera, glm::ivec2 size);
-  void drag_solid(const engine::Ray& ray, Session& session, const engine::Camera& camera);
   void release(Session& session);
 
   Drag drag_ = Drag::none;

@@ -23,9 +23,9 @@ TEST(Ghost, OfTheSameIntegratorIsTheSameToTheBit) {
   go_on(session, 20);
   session.choose_ghost(softbody::IntegratorChoice{"semi-implicit-euler", std::nullopt});
   go_on(session, 40);
-  EXPECT_EQ(session.ghost().get()->distance(*session.simulated()), 0);
-  EXPECT_EQ(session.ghost().get()->world().state_hash(), session.simulated()->state_hash());
-  EXPECT_EQ(session.ghost().get()->world().frame(), session.world().frame());
+  EXPECT_EQ(session.ghost().distance(*session.simulated()), 0);
+  EXPECT_EQ(session.ghost().world()->state_hash(), session.simulated()->state_hash());
+  EXPECT_EQ(session.ghost().world()->frame(), session.world().frame());
 }
 
 TEST(Ghost, OfAnotherDivergesAndTheMainWorldDoesNotNotice) {
@@ -33,7 +33,7 @@ TEST(Ghost, OfAnotherDivergesAndTheMainWorldDoesNotNotice) {
   session.choose_ghost(rk4);
   go_on(alone, 60);
   go_on(session, 60);
-  EXPECT_GT(session.ghost().get()->distance(*session.simulated()), 0);
+  EXPECT_GT(session.ghost().distance(*session.simulated()), 0);
   EXPECT_EQ(session.ghost().distances().size(), 60u);
   EXPECT_EQ(alone.simulated()->state_hash(), session.simulated()->state_hash());
 }
@@ -47,29 +47,29 @@ TEST(Ghost, ItsDistanceIsThatOfTheIntegrators) {
   session.choose_ghost(softbody::IntegratorChoice{"velocity-verlet", 10});
   go_on(session, 30);
   const double h = 1.0 / 600, t = 0.5, radius = session.world().model(0).radius;
-  EXPECT_NEAR(session.ghost().get()->distance(*session.simulated()), 0.5 * 10 * h * t / radius, 1e-4);
+  EXPECT_NEAR(session.ghost().distance(*session.simulated()), 0.5 * 10 * h * t / radius, 1e-4);
 }
 
 TEST(Ghost, BeginsAnewWhenTheWorldIsChangedByHand) {
   Session session(touching_pair(), {}, 1);
   session.choose_ghost(rk4);
   go_on(session, 30);
-  ASSERT_GT(session.ghost().get()->distance(*session.simulated()), 0);
-  const auto apart = [&] { return session.ghost().get()->distance(*session.simulated()); };
+  ASSERT_GT(session.ghost().distance(*session.simulated()), 0);
+  const auto apart = [&] { return session.ghost().distance(*session.simulated()); };
   session.bodies.drop();
-  EXPECT_EQ(session.ghost().get()->world().bodies().count(), 3u);
+  EXPECT_EQ(session.ghost().world()->bodies().count(), 3u);
   EXPECT_EQ(apart(), 0);
   go_on(session, 5);
   session.bodies.select(0);
   session.bodies.remove_selected();
-  EXPECT_EQ(session.ghost().get()->world().bodies().count(), 2u);
+  EXPECT_EQ(session.ghost().world()->bodies().count(), 2u);
   EXPECT_EQ(apart(), 0);
   go_on(session, 5);
   session.simulation.rewind_to(10);
-  EXPECT_EQ(session.ghost().get()->world().frame(), session.world().frame());
+  EXPECT_EQ(session.ghost().world()->frame(), session.world().frame());
   session.simulation.reset();
-  EXPECT_EQ(session.ghost().get()->world().frame(), 0);
-  EXPECT_EQ(session.ghost().get()->choice(), rk4);
+  EXPECT_EQ(session.ghost().world()->frame(), 0);
+  EXPECT_EQ(session.ghost().world()->integrator_choice(), rk4);
 }
 
 TEST(Ghost, ThatBlowsUpStops) {
@@ -78,10 +78,10 @@ TEST(Ghost, ThatBlowsUpStops) {
   Session session(scene, {}, 1);
   session.choose_ghost(softbody::IntegratorChoice{"explicit-euler", 1});
   go_on(session, 120);
-  ASSERT_TRUE(session.ghost().get()->blown_up());
-  const int frame = session.ghost().get()->world().frame();
+  ASSERT_TRUE(session.ghost().blown_up());
+  const int frame = session.ghost().world()->frame();
   go_on(session, 3);
-  EXPECT_EQ(session.ghost().get()->world().frame(), frame);
+  EXPECT_EQ(session.ghost().world()->frame(), frame);
   EXPECT_TRUE(session.simulation.notice.text().empty()) << session.simulation.notice.text();
 }
 
@@ -90,7 +90,7 @@ TEST(Ghost, WhatItsIntegratorCannotMoveIsRefused) {
   scene.bodies[0].mesh.subdivisions = 4;
   Session session(scene, {}, 1);
   session.choose_ghost(softbody::IntegratorChoice{"implicit", std::nullopt});
-  EXPECT_EQ(session.ghost().get(), nullptr);
+  EXPECT_EQ(session.ghost().world(), nullptr);
   EXPECT_NE(session.simulation.notice.text().find("too large a matrix"), std::string::npos)
       << session.simulation.notice.text();
 }
@@ -102,17 +102,17 @@ TEST(Ghost, IsChosenOnThePanel) {
   rig.click("Stability");
   EXPECT_FALSE(rig.recorder.find("Ghost distance"));
   rig.click("Ghost world");
-  ASSERT_TRUE(rig.session.ghost().get());
+  ASSERT_TRUE(rig.session.ghost().world());
   EXPECT_TRUE(rig.recorder.find("Ghost distance"));
   rig.click("Ghost Integrator");
   rig.click("Runge-Kutta 4");
-  EXPECT_EQ(rig.session.ghost().get()->choice().key, "rk4");
+  EXPECT_EQ(rig.session.ghost().world()->integrator_choice().key, "rk4");
   rig.click("Ghost Fixed substeps");
-  EXPECT_TRUE(rig.session.ghost().get()->choice().substeps);
+  EXPECT_TRUE(rig.session.ghost().world()->integrator_choice().substeps);
   rig.drag("Ghost Substeps", -400);
-  EXPECT_EQ(rig.session.ghost().get()->choice().substeps, 1);
+  EXPECT_EQ(rig.session.ghost().world()->integrator_choice().substeps, 1);
   rig.click("Ghost world");
-  EXPECT_FALSE(rig.session.ghost().get());
+  EXPECT_FALSE(rig.session.ghost().world());
 }
 
 }  // namespace

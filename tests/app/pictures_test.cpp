@@ -42,7 +42,7 @@ Difference difference(const engine::Image& a, const engine::Image& b) {
 TEST(Pictures, OfTheDropSceneShowThePapersFourMoments) {
   const std::filesystem::path golden = SBCOLLIDE_GOLDEN_DIR;
   softbody::World world(softbody::find_scene("drop", engine::find_folder("assets") / "scenes"), {});
-  render::Capture capture(320, 180);
+  render::Capture capture({320, 180});
   engine::Image before;
   for (const int frame : {100, 400, 600, 800}) {
     while (world.frame() < frame) world.step();

@@ -13,7 +13,8 @@ using tests::TemporaryFolder;
 /// Returns preferences that all differ from the defaults. The structured binding does not compile if one is missing.
 window::Preferences changed() {
   window::Preferences p;
-  auto& [size, overlays, panel, lights, hash_table, story, lower, with_panel, slow_factor, sections, methods] = p;
+  auto& [size, shown, with_panel, slow_factor, methods] = p;
+  auto& [overlays, panel, lights, hash_table, story, lower, sections] = shown;
   size = {900, 700};
   for (const render::OverlayRow& row : render::overlay_table) overlays.*row.shown = true;
   panel = lights = hash_table = story = false;
@@ -63,12 +64,12 @@ TEST(PreferencesFile, IgnoresABrokenFileAndSaysSo) {
 }
 
 TEST(Preferences, OpenLessAtTheFirstStartWhereSpaceIsShort) {
-  const window::Preferences small = window::first_preferences({640, 480}),
-                            large = window::first_preferences({1600, 1000});
+  const ui::Remembered small = window::first_preferences({640, 480}).shown,
+                       large = window::first_preferences({1600, 1000}).shown;
   EXPECT_FALSE(small.panel || small.lights || small.hash_table);
   EXPECT_TRUE(large.panel && large.lights && large.hash_table);
-  const window::Preferences usual = window::first_preferences(window::Preferences().size);
-  EXPECT_TRUE(usual.panel && usual.lights && usual.story);
+  const ui::Remembered usual = window::first_preferences(window::Preferences().size).shown;
+  EXPECT_TRUE(usual.panel && usual.lights && usual.story_at_start);
   EXPECT_FALSE(usual.hash_table);
 }
 

@@ -216,9 +216,9 @@ TEST_F(RecordedSession, TakesBackASettingAndStaysAtItsFrame) {
 TEST_F(RecordedSession, EndsTheGhostOfTheSceneBefore) {
   Session other(touching_pair(), {}, 1);
   other.choose_ghost(softbody::IntegratorChoice{});
-  ASSERT_TRUE(other.ghost().get());
+  ASSERT_TRUE(other.ghost().world());
   other.scenes.enter(session::show_in_window(opened(balls), 1), opened(balls).scene, "balls");
-  EXPECT_FALSE(other.ghost().get());
+  EXPECT_FALSE(other.ghost().world());
   other.advance(tick);
   EXPECT_EQ(other.world().frame(), 1);
 }

@@ -212,7 +212,7 @@ TEST_F(AddOverlaysTest, MarkOnlyTheDeepestVertexOfAPairByALine) {
 }
 
 TEST(Capture, DrawsAPictureOfTheRequestedSize) {
-  render::Capture capture(321, 123);
+  render::Capture capture({321, 123});
   const engine::Image image = capture.draw(softbody::World(touching_pair(), {}));
   EXPECT_EQ(image.width, 321);
   EXPECT_EQ(image.height, 123);

@@ -122,7 +122,7 @@ TEST(Tour, RestoresPauseOverlaysAndBucket) {
     EXPECT_TRUE(rig.session.simulation.clock.paused);
     EXPECT_FALSE(rig.ui.overlays.any());
     EXPECT_FALSE(rig.session.inspector.selected_bucket());
-    EXPECT_TRUE(window::preferences_of(rig.session, rig.ui, {}).overlays.contacts);
+    EXPECT_TRUE(window::preferences_of(rig.session, rig.ui, {}).shown.overlays.contacts);
     rig.frames(3);
     rig.ui.tour.close(rig.session, rig.ui.overlays);
     EXPECT_EQ(rig.session.simulation.clock.paused, paused);

@@ -157,7 +157,7 @@ TEST(ReferenceBody, NamesAStageThatItDoesNotModel) {
 
 TEST(Integrate, EndsWhenSettledOrAtTheStepLimit) {
   const Pair pair(100, 5);
-  EXPECT_TRUE(reference::integrate(pair.body, pair.stretched, 0.5, {.seconds = 1e9, .settled_speed = 1e-6}).settled);
+  EXPECT_TRUE(reference::integrate(pair.body, pair.stretched, 0.5, {.seconds = 1e9, .settled_speed = 1e-6}).complete);
   const reference::Trajectory cut =
       reference::integrate(pair.body, pair.stretched, 0.5, {.seconds = 1e9, .steps = 100});
   EXPECT_FALSE(cut.complete);

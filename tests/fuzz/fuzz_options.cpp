@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(options->threads >= 1 && options->frames >= 1, "no threads or no frames");
     require(options->frame_time > 0, "a frame that takes no time");
     require(options->integrator.substeps.value_or(1) >= 1, "no substeps");
-    require(options->width > 0 && options->height > 0, "a picture without pixels");
+    require(options->picture_size().x > 0 && options->picture_size().y > 0, "a picture without pixels");
     for (const int frame : options->captures)
       require(frame >= 1 && frame <= options->frames, "a capture beyond the end");
     collide::Settings settings;

@@ -21,18 +21,16 @@ namespace {
 
 // ---- the table of figures ----
 
-std::string_view key_of(softbody::ContactSurface surface) {
-  return std::ranges::find(softbody::contact_surfaces, surface, &softbody::ContactSurfaceInfo::value)->key;
-}
-
 TableRow row_of(const ContactCase& c, const ContactTrial& t) {
   const bool run = t.was_run();
+  const auto* surface =
+      std::ranges::find(softbody::contact_surfaces, t.choice.surface, &softbody::ContactSurfaceInfo::value);
   const bool vertices = t.choice.surface == softbody::ContactSurface::vertices;  // else it has no method and tolerance
   return {
       {"part", c.speed ? "impact" : "scene"},
       {"scene", c.scene.key},
       {"speed", c.speed},
-      {"contact_surface", key_of(t.choice.surface)},
+      {"contact_surface", surface->key},
       {"method", when(vertices, t.choice.method)},
       {"tolerance_ratio", when(vertices, t.choice.tolerance)},
       {"tolerance", when(vertices && run, t.tolerance)},

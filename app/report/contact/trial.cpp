@@ -70,7 +70,8 @@ class Trial {
     result_.detect_ms += world_.last_step().detect_ms;
     result_.solve_ms += world_.last_step().solve_ms;
     look_for_passages(rest_way);
-    look_into_solids();
+    if (!passages_.observe(world_)) result_.finite = false;
+    result_.through_solids = passages_.count();
     if (world_.frame() > limits_.frames - last_second) look_at_speeds();
     if (world_.frame() % limits_.stride == 0) look_for_overlaps();
   }
@@ -113,9 +114,8 @@ class Trial {
       else if (oracle_.entered_body(c))
         vertices.insert(c.feature[0]);
     }
-    for (const auto& [key, sum] : balance) {
+    for (const auto& [key, sum] : balance)
       if (sum != 0) vertices.insert(key.first);
-    }
     return vertices.size();
   }
 
@@ -158,11 +158,6 @@ class Trial {
       }
       awake_particles_ += size;
     }
-  }
-
-  void look_into_solids() {
-    if (!passages_.observe(world_)) result_.finite = false;
-    result_.through_solids = passages_.count();
   }
 
   static constexpr int last_second = 60;  // frames

@@ -113,11 +113,8 @@ MeasuredState middle_bodies(const MeasuredState& state, collide::Index count) {
   MeasuredState part{{}, state.frame};
   for (const auto& [distance, b] : nearest) {
     part.bodies.add(all.shape[b]);
-    for (collide::Index v = all.first[b]; v < all.first[b + 1]; ++v) {
-      part.at.x.push_back(state.at.x[v]);
-      part.at.y.push_back(state.at.y[v]);
-      part.at.z.push_back(state.at.z[v]);
-    }
+    for (collide::Index v = all.first[b]; v < all.first[b + 1]; ++v)
+      part.at.add(std::array{glm::dvec3(softbody::ConstPoints(state.at)[v])});
   }
   return part;
 }

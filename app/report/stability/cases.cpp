@@ -1,7 +1,6 @@
 #include "app/report/stability/results.h"
 
 #include <array>
-#include <random>
 
 #include <glm/geometric.hpp>
 
@@ -38,11 +37,7 @@ StabilityScene stretched_by(double k, const dvec3& factors) {
 }
 StabilityScene random_vertices(double k) {
   std::mt19937 random(1);
-  const auto coordinate = [&] { return radius * (2 * double(random()) / double(std::mt19937::max()) - 1); };
-  return placed(k, [&](const dvec3&) {
-    const double x = coordinate(), y = coordinate(), z = coordinate();
-    return dvec3(x, y, z);
-  });
+  return placed(k, [&](const dvec3&) { return radius * reference::random_vector(random); });
 }
 
 /// Returns a ball whose middle is `height` over the ground.
@@ -172,11 +167,10 @@ constexpr std::array all_cases{
 std::span<const StabilityCase> stability_cases() { return all_cases; }
 
 StabilityScene scaled(softbody::Scene scene, double factor) {
-  for (softbody::Material& m : scene.materials) {
+  for (softbody::Material& m : scene.materials)
     for (const softbody::Key* key : {&StructuralSprings::stiffness, &BendSprings::stiffness, &ShearSprings::stiffness,
                                      &GasPressure::inside, &GasPressure::outside})
       m[*key] *= factor;
-  }
   return {.scene = std::move(scene)};
 }
 

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "app/report/solid_passages.h"
 #include "softbody/forces/gas.h"
@@ -18,11 +17,6 @@ namespace {
 using glm::dvec3;
 using softbody::BodyId;
 using softbody::World;
-
-double gas_energy(const softbody::BodyModel& p, const std::vector<dvec3>& x) {
-  const softbody::Gas* gas = softbody::gas_of(p);
-  return gas ? gas->stored(reference::volume_of(x, p.mesh.triangles)) : 0;
-}
 
 /// Returns the longest side (m) of the box around some points.
 double extent_of(const std::vector<dvec3>& points) {
@@ -93,7 +87,8 @@ class Run {
     for (BodyId b = 0; b < world.bodies().count(); ++b) {
       const std::vector<dvec3> x = reference::state_of(world, b).x;
       available -= height_energy(world, x, b);
-      gas += gas_energy(world.model(b), x);
+      if (const softbody::Gas* own = softbody::gas_of(world.model(b)))
+        gas += own->stored(reference::volume_of(x, world.model(b).mesh.triangles));
       extents.push_back(extent_of(x));
     }
     const double min_energy = 1e-9 * s.scale;  // what has flown away has lost all to gravity

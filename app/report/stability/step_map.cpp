@@ -1,5 +1,4 @@
 #include <cmath>
-#include <random>
 
 #include "app/reference/reference_body.h"
 #include "app/report/stability/results.h"
@@ -15,10 +14,8 @@ class DisturbedBall {
   explicit DisturbedBall(double stiffness)
       : scene_(lone_scene(ball_material(stiffness, 0.1))), balance_(softbody::measure(world_of(scene_)).energy) {
     std::mt19937 random(1);
-    const auto noise = [&] { return 0.002 * (2 * double(random()) / double(std::mt19937::max()) - 1); };  // m
     start_ = changed_start(scene_, [&](softbody::Particle& p) {
-      const double x = noise(), y = noise(), z = noise();
-      p.position = p.position * glm::dvec3(1, 0.97, 1) + glm::dvec3(x, y, z);
+      p.position = p.position * glm::dvec3(1, 0.97, 1) + 0.002 * reference::random_vector(random);  // m
     });
     scene_.materials[0][softbody::Material::start_in_equilibrium] = false;
   }

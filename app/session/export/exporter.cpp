@@ -94,16 +94,6 @@ void Exporter::write_curves(Session& session) {
   show_message(session.simulation.notice);
 }
 
-void Exporter::write_picture(const Picture& picture) {
-  attempt([&] {
-    files::prepare_folder(absolute_folder(folder), "");
-    const fs::path file = files::next_free_path(absolute_folder(folder), "picture", ".png");
-    const engine::Image image = picture(with_panel, picture_size());
-    files::write_file(file, engine::encode_png(image));
-    return fmt::format("Picture saved: {} ({} x {})", file.string(), image.width, image.height);
-  });
-}
-
 void Exporter::toggle_recording() {
   if (recording()) return recording_->stop();
   if (recording_) return;  // the last recording is still being written
@@ -118,7 +108,13 @@ void Exporter::toggle_recording() {
 
 void Exporter::frame(Session& session, const Picture& picture) {
   if (std::exchange(picture_requested, false)) {
-    write_picture(picture);
+    attempt([&] {
+      files::prepare_folder(absolute_folder(folder), "");
+      const fs::path file = files::next_free_path(absolute_folder(folder), "picture", ".png");
+      const engine::Image image = picture(with_panel, picture_size());
+      files::write_file(file, engine::encode_png(image));
+      return fmt::format("Picture saved: {} ({} x {})", file.string(), image.width, image.height);
+    });
     show_message(session.simulation.notice);
   }
   if (recording()) record(session, picture);

@@ -69,7 +69,6 @@ class Exporter {
  private:
   void attempt(const std::function<std::string()>& action);
   void show_message(Notice& notice) const { failed_ ? notice.set(message_) : notice.tell(message_); }
-  void write_picture(const Picture& picture);
   void record(const Session& session, const Picture& picture);
   void follow_recording(Notice& notice);
 

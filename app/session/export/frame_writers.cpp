@@ -35,18 +35,16 @@ class MotionWriter : public FrameWriter {
   void write(const RecordedFrame& frame) override {
     if (!files::ObjWriter::can_write(frame.positions))
       throw UsageError(fmt::format("frame {}: a body is no longer finite, so that no file can hold it", frame.number));
-    if (frame.bodies != bodies_) begin(frame);
+    if (frame.bodies != bodies_) {
+      if (bodies_) folder_ = new_folder(parent_, "motion");
+      bodies_ = frame.bodies;
+      files::write_file(folder_ / files::rest_shape_name, bodies_->at_rest());
+    }
     files::write_file(folder_ / fmt::format("frame_{:05}.obj", frame.number), frame.bodies->frame(frame.positions));
   }
   std::string name() const override { return folder_.string(); }
 
  private:
-  void begin(const RecordedFrame& frame) {
-    if (bodies_) folder_ = new_folder(parent_, "motion");
-    bodies_ = frame.bodies;
-    files::write_file(folder_ / files::rest_shape_name, bodies_->at_rest());
-  }
-
   fs::path parent_, folder_;
   std::shared_ptr<const files::ObjWriter> bodies_;
 };

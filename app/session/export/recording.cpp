@@ -34,9 +34,7 @@ void FrameRecording::stop(std::string error) {
 
 FrameRecording::Progress FrameRecording::progress() const {
   const std::scoped_lock lock(mutex_);
-  Progress progress = progress_;
-  progress.waiting = waiting_.size();
-  return progress;
+  return progress_;
 }
 
 /// Waits for a frame; returns false after the last one.

@@ -49,7 +49,6 @@ class FrameRecording {
 
   struct Progress {
     int written = 0;
-    std::size_t waiting = 0;
     bool stopping = false, ended = false;
     std::string name, error;  // error: empty if all went well
   };

@@ -3,40 +3,81 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "softbody/model/body_model.h"
 #include "softbody/world/snapshot.h"
 
 namespace app::session {
+namespace {
 
-Ghost::Ghost(const softbody::World& of, const softbody::IntegratorChoice& choice, int threads)
-    : choice_(choice), world_(softbody::Scene(), {.threads = threads, .frame_time = of.frame_time()}) {
-  restart(of);
+/// Brings a world to the present state of `of`, from which this integrator moves it.
+void bring_to(softbody::World& ghost, const softbody::World& of, const softbody::IntegratorChoice& choice) {
+  ghost.restore(of.snapshot());
+  if (choice != ghost.integrator_choice()) ghost.set_integrator(choice);
 }
 
-void Ghost::restart(const softbody::World& of) {
-  world_.restore(of.snapshot());
-  if (choice_ != world_.integrator_choice()) world_.set_integrator(choice_);
-  before_.copy(world_.positions());
-  blown_up_ = false;
+}  // namespace
+
+std::string Ghost::choose(const softbody::World& of, const std::optional<softbody::IntegratorChoice>& choice,
+                          int threads) try {
+  std::unique_ptr<softbody::World> chosen;
+  if (choice) {
+    chosen = std::make_unique<softbody::World>(
+        softbody::Scene(), softbody::World::Options{.threads = threads, .frame_time = of.frame_time()});
+    bring_to(*chosen, of, *choice);
+  }
+  world_ = std::move(chosen);
+  restarted();
+  return {};
+} catch (const std::exception& error) {
+  return error.what();
 }
 
-void Ghost::step() {
-  assert(!blown_up_);
-  before_.copy(world_.positions());
-  world_.step();
-  blown_up_ = has_blown_up();
+std::string Ghost::restart(const softbody::World* of) try {
+  if (!of) world_.reset();
+  if (world_) bring_to(*world_, *of, softbody::IntegratorChoice(world_->integrator_choice()));
+  restarted();
+  return {};
+} catch (const std::exception& error) {
+  return end(error);
 }
 
-bool Ghost::has_blown_up() const {
+std::string Ghost::step(const softbody::World& of) try {
+  // While a hand holds a body the ghost begins anew with each step.
+  if (!world_ || blown_up_ || of.grabbed()) return {};
+  before_.copy(world_->positions());
+  world_->step();
+  if (!world_->all_at_rest()) ++revision_;
   constexpr float far = 1e4f;  // m
-  const collide::Frame f = world_.positions();
+  const collide::Frame f = world_->positions();
   const auto lost = [](float at) { return !(std::abs(at) < far); };
-  return std::ranges::any_of(f.x, lost) || std::ranges::any_of(f.y, lost) || std::ranges::any_of(f.z, lost);
+  blown_up_ = std::ranges::any_of(f.x, lost) || std::ranges::any_of(f.y, lost) || std::ranges::any_of(f.z, lost);
+  if (blown_up_) return {};
+  if (world_->last_step().seconds != of.last_step().seconds) return restart(&of);  // one was cut short
+  distances_.push(of.frame(), static_cast<float>(distance(of)));
+  return {};
+} catch (const std::exception& error) {
+  return end(error);
+}
+
+/// What was found out about the ghost before is of no use.
+void Ghost::restarted() {
+  ++revision_;
+  distances_.clear();
+  blown_up_ = false;
+  if (world_) before_.copy(world_->positions());
+}
+
+std::string Ghost::end(const std::exception& error) {
+  world_.reset();
+  restarted();
+  return error.what();
 }
 
 double Ghost::distance(const softbody::World& of) const {
-  const collide::Frame here = world_.positions(), there = of.positions();
+  assert(world_);
+  const collide::Frame here = world_->positions(), there = of.positions();
   const collide::Bodies& bodies = of.bodies();
   double sum = 0;
   for (softbody::BodyId b = 0; b < bodies.count(); ++b) {
@@ -49,41 +90,6 @@ double Ghost::distance(const softbody::World& of) const {
     sum += body / (radius * radius);
   }
   return bodies.vertex_count() == 0 ? 0 : std::sqrt(sum / bodies.vertex_count());
-}
-
-std::string LiveGhost::choose(const softbody::World& world, const std::optional<softbody::IntegratorChoice>& choice,
-                              int threads) try {
-  ghost_ = choice ? std::make_unique<Ghost>(world, *choice, threads) : nullptr;
-  distances_.clear();
-  ++revision_;
-  return {};
-} catch (const std::exception& error) {
-  return error.what();
-}
-
-std::string LiveGhost::restart(const softbody::World* world) try {
-  ++revision_;
-  distances_.clear();
-  if (!world) ghost_.reset();
-  if (ghost_) ghost_->restart(*world);
-  return {};
-} catch (const std::exception& error) {
-  ghost_.reset();
-  return error.what();
-}
-
-std::string LiveGhost::step(const softbody::World& world) try {
-  // While a hand holds a body the ghost begins anew with each step.
-  if (!ghost_ || ghost_->blown_up() || world.grabbed()) return {};
-  ghost_->step();
-  if (!ghost_->world().all_at_rest()) ++revision_;
-  if (ghost_->blown_up()) return {};
-  if (ghost_->world().last_step().seconds != world.last_step().seconds) return restart(&world);  // one was cut short
-  distances_.push(world.frame(), static_cast<float>(ghost_->distance(world)));
-  return {};
-} catch (const std::exception& error) {
-  ghost_.reset();
-  return error.what();
 }
 
 }  // namespace app::session

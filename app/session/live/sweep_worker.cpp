@@ -20,15 +20,15 @@ void rest(Clock::duration duration, const std::stop_token& stop) {
 
 void SweepWorker::start(const softbody::BodiesInMotion& world, const compare::MethodSet& methods) {
   if (running_) return;
-  SweepState state;
+  SweepState state{
+      .scene = world.scene().name, .frame = world.frame(), .running = true, .stop_reason = {}, .report = {}};
   try {
-    state.scene = world.scene().name;
-    state.frame = world.frame();
-    state.running = true;
-    Job job{{{}, world.bodies()}, compare::sweep_configurations(world, methods), state};
-    job.frame.at.copy(world.positions());
-    publish(SweepState(state));
-    thread_ = std::jthread([this, job = std::move(job)](const std::stop_token& stop) mutable { run(stop, job); });
+    compare::FrameCopy frame;
+    frame.copy(world.positions());
+    publish(state);
+    thread_ = std::jthread(
+        [this, state, frame = std::move(frame), configurations = compare::sweep_configurations(world, methods)](
+            const std::stop_token& stop) { run(stop, frame, configurations, state); });
     running_ = true;
   } catch (const std::exception& error) {  // too little memory for the copy, or no thread available
     state.running = false;
@@ -43,11 +43,11 @@ std::optional<SweepState> SweepWorker::take() {
   return std::exchange(news_, std::nullopt);
 }
 
-void SweepWorker::run(const std::stop_token& stop, Job& job) {
-  SweepState& state = job.state;
+void SweepWorker::run(const std::stop_token& stop, const compare::FrameCopy& frame,
+                      const std::vector<compare::Configuration>& configurations, SweepState state) {
   try {
     collide::Workers alone(1);
-    compare::Sweep sweep(job.frame.view(), job.configurations, limits_, alone);
+    compare::Sweep sweep(frame.view(), configurations, limits_, alone);
     for (auto start = Clock::now(); !stop.stop_requested() && sweep.step(); start = Clock::now()) {
       publish_progress(state, sweep);
       rest(Clock::now() - start, stop);
@@ -62,7 +62,7 @@ void SweepWorker::run(const std::stop_token& stop, Job& job) {
   publish(std::move(state));
 }
 
-void SweepWorker::publish(SweepState&& state) {
+void SweepWorker::publish(SweepState state) {
   const std::scoped_lock lock(mutex_);
   news_ = std::move(state);
 }

@@ -39,14 +39,9 @@ class SweepWorker {
   std::optional<SweepState> take();
 
  private:
-  struct Job {
-    compare::FrameCopy frame;
-    std::vector<compare::Configuration> configurations;
-    SweepState state;
-  };
-
-  void run(const std::stop_token& stop, Job& job);
-  void publish(SweepState&& state);
+  void run(const std::stop_token& stop, const compare::FrameCopy& frame,
+           const std::vector<compare::Configuration>& configurations, SweepState state);
+  void publish(SweepState state);
   void publish_progress(SweepState& state, const compare::Sweep& sweep);
 
   const compare::SweepLimits limits_;

@@ -38,8 +38,7 @@ std::size_t Rewind::most_redundant() const {
 
 std::size_t Rewind::at(int frame) const {
   assert(!snapshots_.empty());
-  const auto after = std::upper_bound(snapshots_.begin(), snapshots_.end(), frame,
-                                      [](int f, const softbody::Snapshot& s) { return f < s.frame; });
+  const auto after = std::ranges::upper_bound(snapshots_, frame, {}, &softbody::Snapshot::frame);
   return static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - snapshots_.begin(), 1) - 1);
 }
 

@@ -50,11 +50,7 @@ void StabilityMonitor::after_step(const softbody::World& world, bool monitored) 
   if (!is_looked_at(world)) return;
   const auto bodies = softbody::measure_bodies(world);
   record(world, bodies);
-  if (!monitored) blow_up_monitor_.restart();
-  if (monitored) update_blow_up(world, bodies);
-}
-
-void StabilityMonitor::update_blow_up(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
+  if (!monitored) return blow_up_monitor_.restart();
   auto found = blow_up_monitor_.check(world, bodies);
   if (found) {
     if (recovery_checks_ == 0) blow_up_ = std::move(found);  // a blow-up that continues is one blow-up

@@ -59,7 +59,6 @@ class StabilityMonitor {
 
  private:
   void record(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies);
-  void update_blow_up(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies);
 
   Rewind rewind_;
   compare::BlowUpMonitor blow_up_monitor_;

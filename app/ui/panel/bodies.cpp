@@ -50,8 +50,7 @@ std::string volume_text(const softbody::BodiesInMotion& world, softbody::BodyId 
 void draw_selected(Widgets& w, const Session& session, softbody::BodyId id) {
   const softbody::BodiesInMotion& world = session.world();
   const softbody::World* simulated = session.simulated();
-  w.swatch(render::body_colour(world.body(id).number), ImGui::GetTextLineHeight());
-  ImGui::SameLine();
+  w.swatch(render::body_colour(world.body(id).number));
   ImGui::Text("Body %u: %s vertices", id, grouped(world.bodies().size(id)).c_str());
   ImGui::SameLine();
   w.right_text(simulated ? state_text(*simulated, id) : "recorded");

@@ -49,16 +49,16 @@ bool draw_integrator_choice(Widgets& w, const char* name, softbody::IntegratorCh
 
 /// Draws the ghost's switch, its integrator, and its distance from the world that is shown.
 void draw_ghost(Widgets& w, Session& session) {
-  bool on = session.ghost().get() != nullptr;
+  bool on = session.ghost().world() != nullptr;
   if (w.checkbox("Ghost world", on,
                  "Simulates the same bodies with another integrator, and draws them translucent. A change of the world "
                  "restarts the ghost."))
     session.choose_ghost(on ? std::optional(softbody::IntegratorChoice{"velocity-verlet", {}}) : std::nullopt);
-  if (!session.ghost().get()) return;
-  softbody::IntegratorChoice choice = session.ghost().get()->choice();
-  const int used = session.ghost().get()->world().last_step().substeps;
+  if (!session.ghost().world()) return;
+  softbody::IntegratorChoice choice = session.ghost().world()->integrator_choice();
+  const int used = session.ghost().world()->last_step().substeps;
   if (draw_integrator_choice(w, "Ghost ", choice, used)) session.choose_ghost(choice);
-  if (!session.ghost().get()) return;
+  if (!session.ghost().world()) return;
   w.curve("Ghost distance", ghost_distance_text(session), session.ghost().distances(),
           {0, axis_end(session.ghost().distances().max(), 0.01f)}, render::ghost_colour,
           {"Root mean square distance between the vertices of the two worlds, over the radius of the body.", "radii"});

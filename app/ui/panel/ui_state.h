@@ -17,15 +17,20 @@ inline constexpr const char* no_solver_text = "the motion is recorded";
 /// What stands below the scene.
 enum class LowerView { none, comparison, sweep };
 
-struct UiState {
+/// What the window shows at the next start, too.
+struct Remembered {
   render::Overlays overlays;
-  bool panel = true;
-  bool lights = true;
-  bool hash_table = true;
+  bool panel = true, lights = true, hash_table = true;
+  bool story_at_start = true;  // whether the default scene opens with the card of `story`
   LowerView lower = LowerView::none;
-  bool story = false;          // the card on what the paper's method misses
-  bool story_at_start = true;  // whether the default scene opens with it
-  bool clean = false;          // nothing but the scene
+  std::map<std::string, bool> sections;  // of the panel: whether they are open, by label
+
+  bool operator==(const Remembered&) const = default;
+};
+
+struct UiState : Remembered {
+  bool story = false;  // the card on what the paper's method misses
+  bool clean = false;  // nothing but the scene
   bool help = false;
   bool coverage_explained = false;  // below the coverage light
   bool popup_open = false;          // a list to choose from, in the last frame
@@ -37,8 +42,7 @@ struct UiState {
 
   float render_scale = 1;       // of the scene's picture, see Canvas
   double picture_interval = 0;  // s from picture to picture, on purpose; infinity: drawn when something changes
-  std::map<std::string, bool> sections;  // of the panel: whether they are open, by label
-  softbody::View view;                   // the camera, as a scene file describes it
+  softbody::View view;          // the camera, as a scene file describes it
   session::Exporter exporter;
   Tour tour;
 

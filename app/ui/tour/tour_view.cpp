@@ -8,10 +8,7 @@ namespace app::ui {
 namespace {
 
 void draw_figure(Widgets& w, const TourFigure& figure) {
-  if (figure.colour) {
-    w.swatch(*figure.colour, ImGui::GetTextLineHeight());
-    ImGui::SameLine();
-  }
+  if (figure.colour) w.swatch(*figure.colour);
   w.figure(figure.label.c_str(), figure.value, figure.tooltip.c_str());
 }
 

@@ -20,8 +20,7 @@ std::string count_text(std::size_t n, const compare::BucketContents& bucket) {
 void draw_group(Widgets& w, Session& session, const compare::BucketContents& bucket, const compare::CellGroup& group,
                 bool chosen) {
   const std::string cell = cell_text(group.cell);
-  w.swatch(chosen ? render::same_cell_colour : render::aliased_colour, ImGui::GetTextLineHeight());
-  ImGui::SameLine();
+  w.swatch(chosen ? render::same_cell_colour : render::aliased_colour);
   const std::string bodies = bodies_text(group, bucket, session.inspector.shown_geometry(), session.world().bodies());
   const std::string text =
       fmt::format("{}  {}, {}###Cell {}", cell, count_text(group.items.size(), bucket), bodies, cell);

@@ -141,8 +141,7 @@ bool draw_name(Widgets& w, const Grid& grid, const Row& row) {
 void draw_time(const Widgets& w, const Session& session, const Grid& grid, const Row& row, const Scale& scale) {
   const TimeSeries& times = session.comparison.method_ms()[row.index];
   if (times.size() == 0) {
-    const bool reference = row.is_reference && row.scored();
-    if (reference)
+    if (row.is_reference && row.scored())
       grid.text(time, fmt::format("{:.2f} ms", session.comparison.report().reference_ms), true);
     else if (row.scored())
       grid.text(time, "not timed", true);
@@ -194,11 +193,10 @@ void draw_row(Widgets& w, Session& session, bool& show_misses, Grid& grid, const
     ImGui::GetWindowDrawList()->AddLine({grid.left(name), y}, {grid.right(misses), y},
                                         ImGui::GetColorU32(ImGuiCol_Border));
   }
-  if (row.drives) {
+  if (row.drives)
     ImGui::GetWindowDrawList()->AddRectFilled({grid.left(name) - w.px(4), grid.top()},
                                               {grid.right(misses) + w.px(4), grid.top() + grid.height()},
                                               ImGui::GetColorU32(ImGuiCol_Header, 0.55f), w.px(3));
-  }
   const bool drive = draw_name(w, grid, row);
   draw_time(w, session, grid, row, scale);
   if (row.scored())

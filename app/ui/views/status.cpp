@@ -1,6 +1,7 @@
 #include "app/ui/views/status.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -41,19 +42,16 @@ StatusLight status_light(const collide::Method& method) {
 }
 
 StatusLight status_light(collide::Coverage coverage) {
-  switch (coverage) {
-    case collide::Coverage::exact:
-      return {render::status_green, "Green", "exact",
-              "The method is exact: it finds every pair of vertices closer than the tolerance."};
-    case collide::Coverage::covered:
-      return {render::status_amber, "Amber", "can miss",
-              "The paper's method, and every box fits into a cell: it can miss contacts across cell faces. Or an exact "
-              "method, but True surfaces found vertices inside other bodies."};
-    default:
-      return {render::status_red, "Red", "can miss",
-              "The paper's method, and a box is larger than a cell. It can miss contacts in the cells between its "
-              "corners."};
-  }
+  static constexpr std::array<StatusLight, 3> lights{
+      {{render::status_green, "Green", "exact",
+        "The method is exact: it finds every pair of vertices closer than the tolerance."},
+       {render::status_amber, "Amber", "can miss",
+        "The paper's method, and every box fits into a cell: it can miss contacts across cell faces. Or an exact "
+        "method, but True surfaces found vertices inside other bodies."},
+       {render::status_red, "Red", "can miss",
+        "The paper's method, and a box is larger than a cell. It can miss contacts in the cells between its "
+        "corners."}}};
+  return lights.at(static_cast<std::size_t>(coverage));
 }
 
 std::string shown_method_text(const Session& session) {
@@ -88,8 +86,7 @@ float draw_status(Widgets& w, Session& session, FloatingBox& box, const ScreenRe
           .c_str());
   if (session.simulated()) draw_step_light(w, session);
   ImGui::PopTextWrapPos();
-  const ScreenRect covered = box.end();
-  return box.in_its_place() ? covered.max.y : area.min.y;
+  return box.end(area);
 }
 
 float draw_notices(Widgets& w, const Session& session, const std::string& no_room_message, const ScreenRect& area) {
@@ -107,27 +104,23 @@ float draw_notices(Widgets& w, const Session& session, const std::string& no_roo
 }
 
 std::string ghost_distance_text(const Session& session) {
-  if (session.ghost().get()->blown_up()) return "has blown up";
+  if (session.ghost().blown_up()) return "has blown up";
   return fmt::format("{:.3g} R", session.ghost().distances().latest());
 }
 
 namespace {
 
+void draw_legend_line(Widgets& w, const glm::vec3& colour, const std::string& text) {
+  w.swatch(colour);
+  ImGui::TextUnformatted(text.c_str());
+  w.register_item("Legend", nullptr);
+}
+
 void draw_ghost_legend(Widgets& w, const Session& session) {
   ImGui::Text("Opaque: %s", integrator_text(*session.simulated()).c_str());
   w.register_item("Legend", nullptr);
-  w.swatch(render::ghost_colour, ImGui::GetTextLineHeight());
-  ImGui::SameLine();
-  ImGui::Text("Ghost: %s", integrator_text(session.ghost().get()->world()).c_str());
-  w.register_item("Legend", nullptr);
+  draw_legend_line(w, render::ghost_colour, "Ghost: " + integrator_text(*session.ghost().world()));
   ImGui::Text("RMS distance: %s", ghost_distance_text(session).c_str());
-}
-
-void draw_legend_line(Widgets& w, const glm::vec3& colour, const std::string& text) {
-  w.swatch(colour, ImGui::GetTextLineHeight());
-  ImGui::SameLine();
-  ImGui::TextUnformatted(text.c_str());
-  w.register_item("Legend", nullptr);
 }
 
 void draw_strain_scale(const Widgets& w) {
@@ -153,9 +146,8 @@ void draw_surface_contacts_legend(Widgets& w, const Session& session) {
 
 void draw_table_legend(Widgets& w, const Session& session, const render::Overlays& shown, bool names_method) {
   const collide::DebugGeometry& debug = session.inspector.shown_geometry();
-  if (shown.boxes) {
+  if (shown.boxes)
     ImGui::TextUnformatted(debug.boxes.empty() ? "This method has no boxes" : "Boxes of one colour share a bucket");
-  }
   if (shown.cells) draw_legend_line(w, render::cell_colour, "occupied cell");
   if (names_method) ImGui::TextDisabled("%s", shown_method_text(session).c_str());
 }
@@ -169,12 +161,12 @@ void draw_bucket_legend(Widgets& w, const Session& session) {
 }  // namespace
 
 bool has_legend(const Session& session, const render::Overlays& shown) {
-  return shown.boxes || shown.cells || session.inspector.bucket() || session.ghost().get() || shown.contacts ||
+  return shown.boxes || shown.cells || session.inspector.bucket() || session.ghost().world() || shown.contacts ||
          shown.springs || shown.missed || shown.areas || shown.surface_contacts;
 }
 
 void draw_legend(Widgets& w, const Session& session, const render::Overlays& shown, bool names_method) {
-  if (session.ghost().get()) draw_ghost_legend(w, session);
+  if (session.ghost().world()) draw_ghost_legend(w, session);
   if (shown.boxes || shown.cells || session.inspector.bucket()) draw_table_legend(w, session, shown, names_method);
   if (session.inspector.bucket()) draw_bucket_legend(w, session);
   if (shown.contacts) {

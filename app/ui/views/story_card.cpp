@@ -102,8 +102,7 @@ float StoryCard::draw(Widgets& w, const Session& session, const ScreenRect& area
   if (w.button("Show me a miss###Explain story", "Opens the guided tour at its page on a missed contact."))
     action = Action::explain;
   ImGui::EndDisabled();
-  const float end = box_.end().max.y;
-  return box_.in_its_place() ? end : area.min.y;
+  return box_.end(area);
 }
 
 }  // namespace app::ui

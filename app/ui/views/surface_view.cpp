@@ -67,8 +67,7 @@ void draw_crossings(Widgets& w, const collide::oracle::SurfaceFigures& figures, 
 
 void draw_missed(Widgets& w, const Session& session) {
   const compare::SurfaceReport& report = session.surfaces.report();
-  w.swatch(render::contact_missed_colour, ImGui::GetTextLineHeight());
-  ImGui::SameLine();
+  w.swatch(render::contact_missed_colour);
   w.text_line("Missed surface contacts");
   w.register_item("Missed surface contacts",
                   "Overlaps of surfaces without a contact between vertices (§2.3). The scene hatches the surface round "

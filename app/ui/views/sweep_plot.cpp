@@ -36,13 +36,10 @@ std::optional<std::size_t> level_index(const compare::Configuration& c) {
 
 }  // namespace
 
-float SweepPlot::Axis::at(double value) const {
-  const double share = (std::log10(value) - first) / (last - first);
-  return start + (end - start) * static_cast<float>(share);
-}
+float SweepPlot::Axis::at(double value) const { return decade(std::log10(value)); }
 
-float SweepPlot::Axis::decade(int exponent) const {
-  return start + (end - start) * static_cast<float>(exponent - first) / static_cast<float>(last - first);
+float SweepPlot::Axis::decade(double exponent) const {
+  return start + (end - start) * static_cast<float>((exponent - first) / (last - first));
 }
 
 void SweepPlot::set(const compare::SweepReport& report, const compare::MethodSet& methods) {

@@ -40,7 +40,7 @@ class SweepPlot {
     int first, last;   // exponents of 10 at the ends
     float start, end;  // pixels at the ends
     float at(double value) const;
-    float decade(int exponent) const;
+    float decade(double exponent) const;
   };
 
   void place_points(const Widgets& widgets, ImVec2 min, ImVec2 max);

@@ -25,19 +25,16 @@ std::string configuration_text(const compare::Configuration& c) {
 }
 
 std::string point_tooltip(const compare::SweepRow& row) {
-  std::string text = configuration_text(row.configuration);
   const glm::vec3& cell = *row.configuration.settings.cell_size;
-  if (collide::method_table()[row.configuration.method].uses_hash) {
-    text += fmt::format("\nCells of {:.3g} x {:.3g} x {:.3g} m", cell.x, cell.y, cell.z);
-  }
-  text += fmt::format("\n{:.4g} ms: median of {}, smallest {:.4g}", row.times.median(), row.times.ms.size(),
-                      row.times.min());
-  text += fmt::format("\nRecall {:.4f}, precision {:.4f}; ", rounded_down(row.recall), rounded_down(row.precision));
-  text += fmt::format("{}{}", grouped(row.missed), row.missed == 1 ? " contact missed" : " contacts missed");
-  text += fmt::format("\n{} pair tests, {} hashes", grouped(row.counters.pair_tests), grouped(row.counters.hashes));
-  text += fmt::format("\nAbout {} KiB of memory", grouped(row.memory / 1024));
-  text.append("\n").append(status_light(row.coverage).sentence);
-  return text + "\nClick to use these settings.";
+  const bool hashes = collide::method_table()[row.configuration.method].uses_hash;
+  return fmt::format(
+      "{}{}\n{:.4g} ms: median of {}, smallest {:.4g}\nRecall {:.4f}, precision {:.4f}; {} contact{} missed\n"
+      "{} pair tests, {} hashes\nAbout {} KiB of memory\n{}\nClick to use these settings.",
+      configuration_text(row.configuration),
+      hashes ? fmt::format("\nCells of {:.3g} x {:.3g} x {:.3g} m", cell.x, cell.y, cell.z) : "", row.times.median(),
+      row.times.ms.size(), row.times.min(), rounded_down(row.recall), rounded_down(row.precision), grouped(row.missed),
+      row.missed == 1 ? "" : "s", grouped(row.counters.pair_tests), grouped(row.counters.hashes),
+      grouped(row.memory / 1024), status_light(row.coverage).sentence);
 }
 
 /// Lists what was not run and why, at most max_reasons of them.
@@ -213,21 +210,14 @@ void SweepView::draw_plot(Widgets& w, Session& session, float height) {
   const bool hovered = ImGui::IsItemHovered();
   w.register_item("Scatter", nullptr);
   SweepPlot::Emphasis emphasis{.method = hovered_method_, .row = {}};
-  for (const SweepPlot::Point& point : plot_.points()) {
+  for (const SweepPlot::Point& point : plot_.points())
     if (in_use(state_.report.rows[point.row], session.world())) emphasis.row = point.row;
-  }
   plot_.draw(w, min, {min.x + size.x, min.y + size.y}, emphasis);
   const SweepPlot::Point* under = hovered ? plot_.hit_test(w, ImGui::GetIO().MousePos) : nullptr;
   if (!under) return;
   const compare::SweepRow& row = state_.report.rows[under->row];
   w.show_tooltip(point_tooltip(row).c_str());
   if (clicked) apply(row.configuration, session);
-}
-
-void SweepView::draw_footer(Widgets& w) const {
-  w.text_line(footer(state_));
-  const std::string& why = state_.report.reference_note;
-  w.register_item("Sweep footing", why.empty() ? "The frame of the sweep." : why.c_str());
 }
 
 void SweepView::update() {
@@ -249,7 +239,9 @@ void SweepView::draw(Widgets& w, Session& session, const ScreenRect& area, bool&
   draw_legend(w, shown);
   const ImGuiStyle& style = ImGui::GetStyle();
   draw_plot(w, session, ImGui::GetContentRegionAvail().y - ImGui::GetTextLineHeight() - style.ItemSpacing.y);
-  draw_footer(w);
+  w.text_line(footer(state_));
+  const std::string& why = state_.report.reference_note;
+  w.register_item("Sweep footing", why.empty() ? "The frame of the sweep." : why.c_str());
   end_dock();
 }
 

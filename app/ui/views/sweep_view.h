@@ -30,7 +30,6 @@ class SweepView {
   void draw_controls(Widgets& widgets, Session& session);
   void draw_legend(Widgets& widgets, const compare::MethodSet& shown);
   void draw_plot(Widgets& widgets, Session& session, float height);
-  void draw_footer(Widgets& widgets) const;
 
   session::SweepState state_;
   SweepPlot plot_;

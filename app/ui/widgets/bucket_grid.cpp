@@ -23,9 +23,8 @@ BucketGrid BucketGrid::fit(std::uint32_t buckets, float width, float height, flo
   // squares.
   grid.side = std::max(min_side, std::floor(std::sqrt(width * height / static_cast<float>(squares))));
   grid.side = std::min({grid.side, width, height});
-  while (grid.side > min_side && whole(width / grid.side) * whole(height / grid.side) < squares) {
+  while (grid.side > min_side && whole(width / grid.side) * whole(height / grid.side) < squares)
     grid.side = std::max(min_side, grid.side - 1);
-  }
   grid.columns = std::min(whole(width / grid.side), squares);
   grid.rows = (squares - 1) / grid.columns + 1;
   return grid;

@@ -35,11 +35,11 @@ void FloatingBox::begin(Widgets& w, const char* name, const ScreenRect& area, fl
   ImGui::SetWindowPos(at);
 }
 
-ScreenRect FloatingBox::end() {
+float FloatingBox::end(const ScreenRect& area) {
   const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
   last_ = {at, {at.x + size.x, at.y + size.y}};
   ImGui::End();
-  return last_;
+  return moved_to_ ? area.min.y : last_.max.y;
 }
 
 }  // namespace app::ui

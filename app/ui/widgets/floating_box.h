@@ -18,10 +18,8 @@ class FloatingBox {
   /// Begins a window of this width. `at_right`: until the user moves it, it stands in the upper right corner of the
   /// area, else in the upper left.
   void begin(Widgets& widgets, const char* name, const ScreenRect& area, float width, bool at_right);
-  /// Must follow begin(). Returns the rectangle that the box covers.
-  ScreenRect end();
-  /// False once the user has moved the box.
-  bool in_its_place() const { return !moved_to_; }
+  /// Must follow begin(). Returns the lower end (y) of a box that stands in its place, else the upper end of the area.
+  float end(const ScreenRect& area);
 
  private:
   ScreenRect last_{};               // in the last frame

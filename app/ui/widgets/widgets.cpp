@@ -230,12 +230,13 @@ void Widgets::figure(const char* label, const std::string& value_text, const cha
   register_item(label, tooltip);
 }
 
-void Widgets::swatch(const glm::vec3& colour, float line_height) {
-  const float side = ImGui::GetFontSize() * 0.7f;
+void Widgets::swatch(const glm::vec3& colour) {
+  const float side = ImGui::GetFontSize() * 0.7f, line_height = ImGui::GetTextLineHeight();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float y = at.y + 0.5f * (line_height - side);
   ImGui::GetWindowDrawList()->AddRectFilled({at.x, y}, {at.x + side, y + side}, to_imgui(colour), px(2));
   ImGui::Dummy({side, line_height});
+  ImGui::SameLine();
 }
 
 void Widgets::dot(const glm::vec3& colour) {

@@ -125,9 +125,8 @@ class Widgets {
   void wrapped_text(const char* label, const std::string& text, bool problem = false);
   /// Draws a line with a grey label and its value at the right.
   void figure(const char* label, const std::string& value, const char* tooltip);
-  /// Draws a colour swatch in the middle of a line.
-  void swatch(const glm::vec3& colour, float line_height);
-  /// Draws a coloured dot at the start of a line.
+  /// Draw a coloured square, or a dot, at the start of a line.
+  void swatch(const glm::vec3& colour);
   void dot(const glm::vec3& colour);
   /// What the values of a curve are: `meaning`, a sentence for the tooltip, and their unit.
   struct Quantity {
