@@ -22,11 +22,9 @@ inline constexpr std::size_t contact_limit = std::size_t{1} << 27;
 }
 
 struct Counters {
-  std::uint64_t hashes = 0;          // evaluations of the hash function
-  std::uint64_t boxes = 0;           // non-empty subdivided boxes (or body boxes, for methods without levels)
-  std::uint64_t pair_tests = 0;      // distances evaluated
-  std::uint64_t buckets_used = 0;    // buckets with at least one entry
-  std::uint64_t longest_bucket = 0;  // entries of the fullest bucket
+  std::uint64_t hashes = 0;      // evaluations of the hash function
+  std::uint64_t boxes = 0;       // non-empty subdivided boxes (or body boxes, for methods without levels)
+  std::uint64_t pair_tests = 0;  // distances evaluated
 };
 
 /// Kinds of work that a frame did not need. Each is left out because of a proof, so the contacts are the same.

@@ -187,7 +187,6 @@ class MultiLevelSb final : public Detector {
       end_of_body_[body] = static_cast<Index>(next);
     }
     table_.build(settings_.buckets);
-    table_.buckets().count(result.counters);
     result.counters.boxes = table_.size();
     result.coverage = hashing.coverage();
   }
