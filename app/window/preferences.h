@@ -13,7 +13,7 @@
 namespace app::window {
 
 struct Preferences {
-  glm::ivec2 size{1280, 720};  // of the window, as WindowOptions::size
+  glm::ivec2 size{1280, 720};  // of the window, screen coordinates
   render::Overlays overlays;
   bool panel = true, lights = true, hash_table = true, story = true;
   ui::LowerView lower = ui::LowerView::none;
