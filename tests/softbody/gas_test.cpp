@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "collide/surface/surface.h"
 #include "softbody/forces/kernels/kernels.h"
 #include "softbody/forces/visit.h"
 #include "tests/every_target.h"
@@ -55,7 +56,8 @@ BodyModel model_of(const Solid& solid, const Gas& gas) {
   BodyModel model;
   model.mesh.vertices = solid.corners;
   model.mesh.triangles = solid.faces;
-  list_faces(model);
+  model.surface = std::make_shared<collide::surface::Surface>(Index(solid.corners.size()), solid.faces);
+  list_opposite_edges(model);
   return with_force<GasPressure>(std::move(model), gas);
 }
 
