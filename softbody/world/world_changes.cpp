@@ -147,10 +147,10 @@ BodyId World::add(const BodySource& source) {
 /// Wakes the bodies near this one: they may rest on it, even if the detector reports no contact.
 void World::Parts::wake_near(BodyId body) {
   const auto box = [&](BodyId b) { return collide::measure_bounds(collide::vertices_of(particles.frame(), b)).box; };
+  const collide::Aabb own = box(body);
   const float wake_distance = std::max(settings.tolerance, 0.25f * float(solver.state().model(body).mean_edge));
   for (BodyId b = 0; b < particles.bodies.count(); ++b)
-    if (solver.state().body(b).asleep && collide::near(box(body), box(b), wake_distance))
-      solver.state().set_asleep(b, false);
+    if (solver.state().body(b).asleep && collide::near(own, box(b), wake_distance)) solver.state().set_asleep(b, false);
 }
 
 void World::remove(BodyId body) {
