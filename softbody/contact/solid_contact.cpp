@@ -178,8 +178,6 @@ void SolidContact::note_velocities(const Batch& b) {
                               field(before_, b.base));
 }
 
-Field<float> SolidContact::impulse(const Batch& b) { return field(of_batch_[b.index].impulse); }
-
 /// Particles first, then what lies between them, which may push particles back.
 void SolidContact::apply(const Batch& b, float h) {
   if (apply_to_particles(b, h, false)) apply_to_features(b, h);

@@ -68,7 +68,7 @@ class SolidContact {
   /// Books the impulses of these rows as those of the solids. Threads may call it at once for different bodies.
   void book(BodyId body, std::span<const ContactRow> rows);
   /// Returns where the solids' impulses along their normals (N s) are summed for each lane of a batch.
-  Field<float> impulse(const Batch& batch);
+  Field<float> impulse(const Batch& batch) { return field(of_batch_[batch.index].impulse); }
   /// Returns where the energy (J) is summed that restitution gives back to each lane.
   float* returned(const Batch& batch) { return of_batch_[batch.index].returned.data(); }
   /// Returns where the energy (J) is summed that they give to each lane by pushing out.
