@@ -82,7 +82,7 @@ void SolidContact::ease_out(const Batch& b, int lane, const glm::dvec3& way, con
   const glm::vec3 change(law::max_separation_speed * way - 0.5 * seconds * gravity - mean);
   for (std::size_t i = 0; i < b.particles(); ++i) softbody::add(v, slot(i), change);
   const glm::dvec3 given = double(b.particles()) * b.model->particle_mass * glm::dvec3(change);  // N s
-  BodyField{impulse(b), std::size_t(lane), 1}.add(0, given);
+  BodyField{sums(b).impulse, std::size_t(lane), 1}.add(0, given);
   state_.ledger.book(WorkBy::easing, glm::dot(given, mean + 0.5 * glm::dvec3(change)));
   of_batch_[b.index].pushed |= 1u << lane;
   state_.memory(b.body[std::size_t(lane)]).calm_frames = 0;
@@ -147,9 +147,7 @@ const SolidArguments& SolidContact::add(const Batch& b, const Solid& solid, unsi
   }
   s.near = lanes_near;
   s.moves = b.moves.data();
-  s.impulse = impulse(b);
-  s.returned = returned(b);
-  s.energy = energy(b);
+  s.sums = sums(b);
   return s;
 }
 

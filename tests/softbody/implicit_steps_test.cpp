@@ -54,9 +54,7 @@ struct BatchRig {
     own = {.model = model, .width = lanes, .base = base, .used = implicit_lanes, .moves = moves};
     return {own, x.field(), v.field(), gravity, solids, features, penalty, ends, [](BodyId id) { return id < 2; }};
   }
-  ImplicitResult result() {
-    return {mean.field(), rest.field(), {impulse.x, impulse.y, impulse.z}, returned.data(), given.data()};
-  }
+  ImplicitResult result() { return {mean.field(), rest.field(), {field(impulse), returned.data(), given.data()}}; }
   /// m/s, of a lane's ball as a whole.
   glm::dvec3 velocity(const LaneField& f, int lane) const {
     glm::dvec3 sum(0.0);

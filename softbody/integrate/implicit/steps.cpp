@@ -39,7 +39,7 @@ void write_end(const ImplicitWork& work, LaneMask moving, double h, const Implic
 
 void add_impulses(const ImplicitStep& step, const ImplicitWork& work, const ImplicitBatch& b,
                   const ImplicitResult& result) {
-  const BodyField sum{result.impulse, b.first_lane, 1};
+  const BodyField sum{result.solids.impulse, b.first_lane, 1};
   for (const PlaneContact& c : work.planes) {
     const std::size_t own = c.point.lane(), lane = b.first_lane + own;
     const double push = glm::dot(c.force, c.normal);
@@ -50,8 +50,8 @@ void add_impulses(const ImplicitStep& step, const ImplicitWork& work, const Impl
     const glm::dvec3 whole = step.frames.start(own).velocity;
     const double before = glm::dot(whole + step.frames.leave(own, of_point(work.v) - whole), c.normal);
     const double after = glm::dot(of_point(work.end_v), c.normal);
-    result.returned[lane] += float(law::bounce_energy(step.h * push, before, after, c.restitution));
-    result.energy[lane] += float(push * c.out());
+    result.solids.returned[lane] += float(law::bounce_energy(step.h * push, before, after, c.restitution));
+    result.solids.energy[lane] += float(push * c.out());
   }
   if (!b.penalty.bounces()) return;
   for (const LinearPenaltyPair& s : work.penalty_pairs) {

@@ -36,9 +36,7 @@ struct ImplicitBatch {
 /// Where the end of a step goes. Lanes that do not move are left alone.
 struct ImplicitResult {
   Field<float> mean, rest;  // m/s, of all batches: velocities that lead to the end, and what they change by there
-  Field<float> impulse;     // N s, a value a lane: the normal impulses of solids are added here ...
-  float* returned;          // ... the energy (J) that restitution gives back is added here ...
-  float* energy;            // ... and here that which pushing out gives
+  SolidSums solids;
 };
 
 /// Takes the steps, and owns the matrices and the workspaces that they need.

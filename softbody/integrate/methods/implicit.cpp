@@ -17,12 +17,7 @@ void Motion::solve_implicit(const Worker& worker, const Batch& b, Quantity mean,
                            .penalty = penalty,
                            .ends = penalty.ends_of(b),
                            .is_moving = [&state](BodyId body) { return state.body(body).moves(); }},
-                          {.mean = field(array(mean)),
-                           .rest = field(array(rest)),
-                           .impulse = parts_.solids.impulse(b),
-                           .returned = parts_.solids.returned(b),
-                           .energy = parts_.solids.energy(b)},
-                          double(h));
+                          {field(array(mean)), field(array(rest)), parts_.solids.sums(b)}, double(h));
 }
 
 void implicit_step(Motion& motion, const Worker& worker, const Substep& substep) {
