@@ -40,22 +40,18 @@ BodyMesh body_mesh(Mesh mesh) {
 
 std::span<const Index> BodyModel::faces_of(Index vertex) const { return surface->triangles_at(vertex); }
 
-void list_opposite_edges(BodyModel& p) {
-  for (Index vertex = 0; vertex < p.mesh.vertices.size(); ++vertex) {
-    for (const Index f : p.faces_of(vertex)) {
-      const auto& [a, b, c] = p.mesh.triangles[f];
-      p.opposite.push_back(vertex == a ? Edge{b, c} : vertex == b ? Edge{c, a} : Edge{a, b});
-    }
-    p.first_opposite.push_back(static_cast<Index>(p.opposite.size()));
-  }
-}
-
 std::shared_ptr<BodyModel> make_body_mesh(Mesh mesh) {
   auto p = std::make_shared<BodyModel>();
   static_cast<BodyMesh&>(*p) = body_mesh(std::move(mesh));
-  list_opposite_edges(*p);
-  for (Index i = 0; i < p->mesh.vertices.size(); ++i)
-    p->largest_degree = std::max(p->largest_degree, double(p->faces_of(i).size()));
+  for (Index vertex = 0; vertex < p->mesh.vertices.size(); ++vertex) {
+    const std::span<const Index> faces = p->faces_of(vertex);
+    for (const Index f : faces) {
+      const auto& [a, b, c] = p->mesh.triangles[f];
+      p->opposite.push_back(vertex == a ? Edge{b, c} : vertex == b ? Edge{c, a} : Edge{a, b});
+    }
+    p->first_opposite.push_back(static_cast<Index>(p->opposite.size()));
+    p->largest_degree = std::max(p->largest_degree, double(faces.size()));
+  }
   p->rolls = nearly_closed(p->mesh);
   p->start = p->mesh.vertices;
   if (p->mesh.closed) p->start_volume = volume(p->start, p->mesh.triangles);

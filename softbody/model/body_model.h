@@ -69,9 +69,6 @@ struct BodyModel : BodyMesh {
   }
 };
 
-/// Lists the edges opposite each vertex of the mesh, whose surface is there.
-void list_opposite_edges(BodyModel& model);
-
 /// Returns a body model that has its mesh, in the shape in which it starts, and no material yet.
 std::shared_ptr<BodyModel> make_body_mesh(Mesh mesh);
 /// Does the same for what a scene names, with the fine mesh if there is one.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "collide/surface/surface.h"
 #include "softbody/forces/kernels/kernels.h"
 #include "softbody/forces/visit.h"
 #include "tests/every_target.h"
@@ -53,12 +52,10 @@ Solid ball(int subdivisions) {
 
 /// A model of a solid that holds this gas.
 BodyModel model_of(const Solid& solid, const Gas& gas) {
-  BodyModel model;
-  model.mesh.vertices = solid.corners;
-  model.mesh.triangles = solid.faces;
-  model.surface = std::make_shared<collide::surface::Surface>(Index(solid.corners.size()), solid.faces);
-  list_opposite_edges(model);
-  return with_force<GasPressure>(std::move(model), gas);
+  Mesh mesh;
+  mesh.vertices = solid.corners;
+  mesh.triangles = solid.faces;
+  return with_force<GasPressure>(*make_body_mesh(std::move(mesh)), gas);
 }
 
 /// Each lane larger than the one before.
