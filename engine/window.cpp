@@ -91,7 +91,6 @@ Window::Window(const std::string& title, glm::ivec2 wanted) {
 Window::~Window() { glfwTerminate(); }
 
 bool Window::is_open() const { return !glfwWindowShouldClose(window_); }
-void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 
 bool Window::poll(double seconds) {
   if (minimised()) seconds = 0.25;

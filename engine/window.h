@@ -21,8 +21,7 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  bool is_open() const;  // until the user or close() closes it
-  void close();
+  bool is_open() const;  // until the user closes it
 
   /// Handles the events since the last call and waits up to `seconds` for one. While the window is minimised, it waits
   /// up to 0.25 s instead, so that a loop does not spin. Returns true if there were any: the window may need another

@@ -67,7 +67,7 @@ TEST(Window, ShowsASceneAndAPanel) {
   window.poll();  // another poll() does not lose the files
   EXPECT_EQ(window.take_dropped_files(), (std::vector<std::string>{"/a/star.obj", "/a/b c.toml"}));
   EXPECT_TRUE(window.take_dropped_files().empty());
-  window.close();
+  glfwSetWindowShouldClose(window.handle(), GLFW_TRUE);  // as when the user closes it
   EXPECT_FALSE(window.is_open());
 }
 
