@@ -1,6 +1,5 @@
 #include "softbody/integrate/implicit/steps.h"
 
-#include <algorithm>
 #include <cassert>
 
 #include <glm/geometric.hpp>
