@@ -1,8 +1,7 @@
 #pragma once
 // Translates keys into shortcuts, in any keyboard layout:
-// - A key labelled with a Latin letter or a digit means this letter or digit. A key that types nothing means itself,
-// and
-//   so does Space.
+// - A key labelled with a Latin letter or a digit means this letter or digit. A key that types nothing means
+//   itself, and so does Space.
 // - Every other key means the character that it types, also with Shift or AltGr, because signs are on different keys in
 //   different countries.
 // - If that character is no shortcut, a digit key means its digit (French keyboards type digits only with Shift). In a

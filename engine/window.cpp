@@ -39,7 +39,7 @@ glm::ivec2 fitting_size(glm::ivec2 wanted) {
   return {std::clamp(wanted.x, 1, area.x), std::clamp(wanted.y, 1, area.y)};
 }
 
-void set_hints(const WindowOptions& options) {
+void set_hints() {
   glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
@@ -49,15 +49,14 @@ void set_hints(const WindowOptions& options) {
 #endif
   glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);  // reports driver resets, if supported
   glfwWindowHint(GLFW_DEPTH_BITS, 24);
-  glfwWindowHint(GLFW_SAMPLES, options.samples);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "sbcollide");
 }
 
 }  // namespace
 
-Window::Window(const WindowOptions& options) {
-  assert(options.size.x > 0 && options.size.y > 0 && options.samples >= 0);
+Window::Window(const std::string& title, glm::ivec2 wanted) {
+  assert(wanted.x > 0 && wanted.y > 0);
 #ifdef GLFW_PLATFORM
   // Where no Wayland socket can exist, Wayland's library would print an error before GLFW tried X11.
   if (!is_absolute_path("XDG_RUNTIME_DIR") && !is_absolute_path("WAYLAND_DISPLAY"))
@@ -67,9 +66,9 @@ Window::Window(const WindowOptions& options) {
     throw ContextError("cannot open a window: " + last_glfw_error() +
                        "; start it in a desktop session (DISPLAY or WAYLAND_DISPLAY set), or use 'simulate'");
   }
-  set_hints(options);
-  const glm::ivec2 size = fitting_size(options.size);
-  window_ = glfwCreateWindow(size.x, size.y, options.title.c_str(), nullptr, nullptr);
+  set_hints();
+  const glm::ivec2 size = fitting_size(wanted);
+  window_ = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
   if (window_ == nullptr) {
     const std::string reason = last_glfw_error();
     glfwTerminate();
@@ -85,14 +84,13 @@ Window::Window(const WindowOptions& options) {
   }
   set_callbacks();
   glfwSetWindowSizeLimits(window_, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
-  glfwSwapInterval(options.vsync ? 1 : 0);
+  glfwSwapInterval(1);
   update_size();
 }
 
 Window::~Window() { glfwTerminate(); }
 
 bool Window::is_open() const { return !glfwWindowShouldClose(window_); }
-void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 
 bool Window::poll(double seconds) {
   if (minimised()) seconds = 0.25;

@@ -11,24 +11,17 @@ struct GLFWwindow;
 
 namespace engine {
 
-struct WindowOptions {
-  std::string title = "sbcollide";
-  glm::ivec2 size{1280, 800};  // screen coordinates; reduced to the monitor's work area
-  int samples = 4;             // multisampling of the window's framebuffer; 0: none
-  bool vsync = true;
-};
-
 /// Only one window can exist at a time.
 class Window {
  public:
-  /// Makes its context current. Throws ContextError if there is no display or no OpenGL 3.3.
-  explicit Window(const WindowOptions& options = {});
+  /// Makes its context current. size: > 0, screen coordinates; it is reduced to the monitor's work area. Throws
+  /// ContextError if there is no display or no OpenGL 3.3.
+  Window(const std::string& title, glm::ivec2 size);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  bool is_open() const;  // until the user or close() closes it
-  void close();
+  bool is_open() const;  // until the user closes it
 
   /// Handles the events since the last call and waits up to `seconds` for one. While the window is minimised, it waits
   /// up to 0.25 s instead, so that a loop does not spin. Returns true if there were any: the window may need another
@@ -38,7 +31,7 @@ class Window {
   std::vector<InputEvent> take_input() { return input_.take(); }  // of the next frame; see InputQueue::take()
   bool has_pending_input() const { return !input_.empty(); }      // for a further frame
   std::vector<std::string> take_dropped_files();                  // paths
-  /// Shows the frame; with vsync, waits for the monitor.
+  /// Shows the frame; waits for the monitor.
   void present();
   /// True after a driver reset: nothing that was made in this window's context is left. Not every driver reports a
   /// reset.

@@ -24,7 +24,7 @@ softbody/scene: collide softbody/mesh softbody/state softbody/model softbody/con
 softbody/integrate/implicit: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces
 softbody/integrate: collide/core collide/surface softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate/implicit
 softbody/integrate/methods: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
-softbody/world: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
+softbody/world: collide collide/core softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
 softbody/api/sbcollide:
 softbody/api: collide/api collide/api/sbcollide collide/core softbody/api/sbcollide softbody/mesh softbody/model softbody/forces softbody/scene softbody/world
 engine:
@@ -52,7 +52,7 @@ app: app/base app/files app/cli app/report app/window collide softbody engine
 # They include only each other of softbody, so that no change of the solver reaches app.
 public="
 mesh/coarse_mesh mesh/embedding mesh/file_mesh mesh/limits mesh/mesh mesh/mesh_import mesh/mesh_source
-mesh/points mesh/polygon
+mesh/points mesh/polygon mesh/surface
 state/best_rotation state/body state/energy_ledger state/lane_math state/lanes state/simd
 model/key model/material model/body_model model/scene_error
 contact/contacts contact/keys contact/law contact/solid contact/solid_surface

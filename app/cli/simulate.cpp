@@ -272,7 +272,7 @@ void print_remarks(const softbody::Scene& scene) {
   for (const softbody::BodySource& body : scene.bodies) {
     const softbody::ImportedMesh* mesh = body.mesh.imported.get();
     if (!mesh || !printed.insert(mesh).second) continue;
-    if (const std::string text = remarks(mesh->findings); !text.empty())
+    if (const std::string text = remarks(*mesh); !text.empty())
       std::fprintf(stderr, "note: %s: %s\n", body.mesh.file.path.lexically_normal().string().c_str(), text.c_str());
   }
 }

@@ -48,8 +48,9 @@ std::vector<std::string> lines_about(const FileReader::Mesh& read, const softbod
       fmt::format("{}: {} vertices, {} triangles", mesh.file.path.filename().string(),
                   grouped(mesh.imported->mesh.vertices.size()), grouped(mesh.imported->mesh.triangles.size())),
       fmt::format("scaled from {:.4g} to {:.4g} m", f.file_extent, f.extent)};
-  const std::string changed = softbody::remarks(f);
-  if (f.particles > many_particles) lines.push_back("so many particles that the world may run slower than real time");
+  const std::string changed = softbody::remarks(*mesh.imported);
+  if (mesh.particle_count() > many_particles)
+    lines.push_back("so many particles that the world may run slower than real time");
   if (world.scene().contact_surface == softbody::ContactSurface::vertices) {
     const double tolerance = static_cast<double>(world.collision().tolerance);
     if (read.model->mean_edge < finest_edge * tolerance)

@@ -15,8 +15,7 @@ namespace app::window {
 struct Graphics {
   /// threads: prepare a picture.
   Graphics(glm::ivec2 size, int threads)
-      : window({.title = "Multi-Level SB Collide", .size = size, .samples = 0}),
-        view(engine::find_folder("shaders"), threads) {}
+      : window("Multi-Level SB Collide", size), view(engine::find_folder("shaders"), threads) {}
 
   /// Clears the whole window to dock_colour().
   void clear() const {

@@ -12,7 +12,7 @@
 namespace app::window {
 
 struct Preferences {
-  glm::ivec2 size{1280, 720};  // of the window, as WindowOptions::size
+  glm::ivec2 size{1280, 720};  // of the window, screen coordinates
   ui::Remembered shown;
   bool picture_with_panel = false;
   double slow_factor = 0.1;

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "collide/api/sbcollide/contact.h"
 #include "collide/core/frame.h"
@@ -22,11 +23,9 @@ inline constexpr std::size_t contact_limit = std::size_t{1} << 27;
 }
 
 struct Counters {
-  std::uint64_t hashes = 0;          // evaluations of the hash function
-  std::uint64_t boxes = 0;           // non-empty subdivided boxes (or body boxes, for methods without levels)
-  std::uint64_t pair_tests = 0;      // distances evaluated
-  std::uint64_t buckets_used = 0;    // buckets with at least one entry
-  std::uint64_t longest_bucket = 0;  // entries of the fullest bucket
+  std::uint64_t hashes = 0;      // evaluations of the hash function
+  std::uint64_t boxes = 0;       // non-empty subdivided boxes (or body boxes, for methods without levels)
+  std::uint64_t pair_tests = 0;  // distances evaluated
 };
 
 /// Kinds of work that a frame did not need. Each is left out because of a proof, so the contacts are the same.
@@ -58,20 +57,14 @@ enum class Coverage {
 struct Result {
   std::vector<Contact> contacts;    // ascending, no duplicates
   std::uint64_t self_contacts = 0;  // how many of them lie inside one body
-  Counters counters;
+  Counters counters{};
   Skipped skipped{};  // all 0 for a method that leaves out nothing
   std::uint64_t& skip(Skip kind) { return skipped[static_cast<std::size_t>(kind)]; }
   Coverage coverage = Coverage::exact;
-  std::vector<Index> non_finite_bodies;  // bodies with a NaN or infinite coordinate: left out; ascending
+  std::vector<Index> non_finite_bodies{};  // bodies with a NaN or infinite coordinate: left out; ascending
 
   /// Clears everything except the contacts, which a method overwrites.
-  void start() {
-    self_contacts = 0;
-    counters = {};
-    skipped = {};
-    coverage = Coverage::exact;
-    non_finite_bodies.clear();
-  }
+  void start() { *this = {.contacts = std::move(contacts)}; }
 };
 
 }  // namespace collide

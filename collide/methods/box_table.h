@@ -27,7 +27,6 @@ class BoxTable {
   void for_each_run(int thread, Index box, Index least, const Meet& meet);
 
   std::size_t size() const { return first_.size() - 1; }
-  const BucketTable& buckets() const { return table_; }
   /// Copies the buckets of each box and the loads, for drawing.
   void describe(DebugGeometry& geometry) const;
 

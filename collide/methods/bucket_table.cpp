@@ -37,24 +37,12 @@ void BucketTable::build(std::span<const std::uint32_t> bucket_of_entry, std::uin
     ++used_buckets_[run - 1].begin;  // its load, at first
   }
 
-  meetings_ = longest_ = 0;
-  used_ = used_buckets_.size();
   Index end = 0;
-  for (UsedBucket& run : used_buckets_) {  // becomes the end of each run
-    const std::uint64_t n = run.begin;
-    longest_ = std::max(longest_, n);
-    meetings_ += n * (n - 1) / 2;
-    run.begin = end += run.begin;
-  }
+  for (UsedBucket& run : used_buckets_) run.begin = end += run.begin;  // the end of each run
   used_buckets_.push_back({buckets, end});
 
   for (std::size_t e = bucket_of_entry.size(); e-- > 0;)
     slot_[e] = --used_buckets_[place_of_[bucket_of_entry[e]] - 1].begin;
-}
-
-void BucketTable::count(Counters& counters) const {
-  counters.buckets_used = used_;
-  counters.longest_bucket = longest_;
 }
 
 std::vector<BucketLoad> BucketTable::loads() const {

@@ -21,9 +21,6 @@ class BucketTable {
     return run == 0 ? Range{0, 0} : Range{used_buckets_[run - 1].begin, used_buckets_[run].begin};
   }
 
-  /// Returns the number of pairs of entries that share a bucket: what a test of every pair would cost.
-  std::uint64_t meetings() const { return meetings_; }
-  void count(Counters& counters) const;
   std::size_t bytes() const {
     return sizeof(Index) * (place_of_.capacity() + slot_.capacity()) + sizeof(UsedBucket) * used_buckets_.capacity();
   }
@@ -41,7 +38,6 @@ class BucketTable {
   std::vector<Index> place_of_;           // of each bucket: 1 + its place in used_buckets_, 0 if it is not used
   std::vector<UsedBucket> used_buckets_;  // and one more, where the slots end
   std::vector<Index> slot_;               // of each entry
-  std::uint64_t meetings_ = 0, used_ = 0, longest_ = 0;
 };
 
 }  // namespace collide::methods

@@ -41,7 +41,6 @@ class GridHash final : public Detector {
         visit_cells(part, slot, double{cutoff}, hash);
       }
     });
-    table_.count(result.counters);
     result.counters.hashes += points_.size();
     for (const Thread& thread : threads_) result.counters.hashes += thread.hashes;
     search_.finish(result);

@@ -2,11 +2,11 @@
 // between its corners, and boxes are not padded by the tolerance, so contacts can be missed. And the same method made
 // complete: only its §2.2 differs, which says into which buckets a box goes.
 
+#include "collide/core/contact_search.h"
 #include "collide/core/cutoff.h"
 #include "collide/methods/box_table.h"
 #include "collide/methods/cell_hash.h"
 #include "collide/methods/detectors.h"
-#include "collide/methods/scattered_search.h"
 #include "collide/methods/subdivision.h"
 
 namespace collide::methods {
@@ -151,7 +151,6 @@ class MultiLevelSb final : public Detector {
     constexpr double test_ns = 20;  // of work, of a vertex
     const int parts = workers.threads_for(test_ns * subdivision_.points().size());
     search_.begin(frame, settings, subdivision_.points(), parts);
-    scattered_.begin(search_, parts);
     table_.prepare_meetings(parts);
     workers.run(parts, [&](int part) { test_boxes(part, parts); });  // §2.3, §2.4
     search_.finish(result);
@@ -188,20 +187,29 @@ class MultiLevelSb final : public Detector {
       end_of_body_[body] = static_cast<Index>(next);
     }
     table_.build(settings_.buckets);
-    table_.buckets().count(result.counters);
     result.counters.boxes = table_.size();
     result.coverage = hashing.coverage();
   }
 
+  /// Tests each box against all that it meets: of the short runs of vertices many at a time.
   void test_boxes(int thread, int threads) {
+    constexpr Index short_run = 64, max_runs = 256;  // 2^20 pairs
     const std::vector<SubdividedBox>& boxes = subdivision_.boxes();
     const bool self = settings_.self_collision;
+    std::vector<Range> runs;
     for (auto a = static_cast<Index>(thread); a < boxes.size(); a += static_cast<Index>(threads)) {
-      scattered_.start(thread, boxes[a].slots, self);  // a box meets itself, too
-      table_.for_each_run(thread, a, self ? a + 1 : end_of_body_[boxes[a].body], [&](Range run) {
-        scattered_.add(thread, {boxes[run.begin].slots.begin, boxes[run.end - 1].slots.end});
+      const Range own = boxes[a].slots;
+      if (self) search_.test(thread, own, own);  // a box meets itself, too
+      table_.for_each_run(thread, a, self ? a + 1 : end_of_body_[boxes[a].body], [&](Range met) {
+        const Range run{boxes[met.begin].slots.begin, boxes[met.end - 1].slots.end};
+        if (own.size() > short_run || run.size() > short_run) return search_.test(thread, own, run);
+        runs.push_back(run);
+        if (runs.size() < max_runs) return;
+        search_.test(thread, own, runs);
+        runs.clear();
       });
-      scattered_.finish(thread);
+      search_.test(thread, own, runs);
+      runs.clear();
     }
   }
 
@@ -211,7 +219,6 @@ class MultiLevelSb final : public Detector {
   std::vector<Index> end_of_body_;  // of the bodies with boxes: past their last one
   BoxTable table_;
   ContactSearch search_;
-  ScatteredSearch scattered_;
 };
 
 }  // namespace

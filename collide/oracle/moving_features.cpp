@@ -143,8 +143,16 @@ Meeting meeting_at(const Filtered& passing, const Points& points) {
   return meeting_at(Root{piece, coefficients(Kind::side(restricted(integer_motion<Kind>(points), piece)))});
 }
 
+[[maybe_unused]] bool all_finite(const Points& points) {
+  const auto finite = [](const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
+  return std::ranges::all_of(points, [&](const MovingPoint& p) { return finite(p.from) && finite(p.to); });
+}
+
 template <class Kind>
 std::optional<Meeting> first_meeting(const Points& points) {
+  assert(all_finite(points));
   const Filtered filtered = filter_motion<Kind>(points);
   if (filtered.answer == Filtered::Answer::apart) return std::nullopt;
   if (filtered.answer == Filtered::Answer::passing) return meeting_at<Kind>(filtered, points);
@@ -161,6 +169,7 @@ Passage passage_at(const Meeting& meeting, bool inward) { return {(meeting.low +
 
 template <class Kind>
 std::optional<Passage> first_passage(const Points& points) {
+  assert(all_finite(points));
   const Filtered filtered = filter_motion<Kind>(points);
   if (filtered.answer == Filtered::Answer::apart) return std::nullopt;
   if (filtered.answer == Filtered::Answer::passing)
@@ -177,36 +186,25 @@ std::optional<Passage> first_passage(const Points& points) {
   return std::nullopt;
 }
 
-[[maybe_unused]] bool is_finite(const MovingPoint& p) {
-  const auto finite = [](const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-  };
-  return finite(p.from) && finite(p.to);
-}
-
 }  // namespace
 
 std::optional<Meeting> vertex_meets_face(const MovingPoint& p, const MovingPoint& a, const MovingPoint& b,
                                          const MovingPoint& c) {
-  assert(is_finite(p) && is_finite(a) && is_finite(b) && is_finite(c));
   return first_meeting<VertexFace>({p, a, b, c});
 }
 
 std::optional<Meeting> edge_meets_edge(const MovingPoint& p, const MovingPoint& q, const MovingPoint& u,
                                        const MovingPoint& v) {
-  assert(is_finite(p) && is_finite(q) && is_finite(u) && is_finite(v));
   return first_meeting<EdgeEdge>({p, q, u, v});
 }
 
 std::optional<Passage> vertex_through_face(const MovingPoint& p, const MovingPoint& a, const MovingPoint& b,
                                            const MovingPoint& c) {
-  assert(is_finite(p) && is_finite(a) && is_finite(b) && is_finite(c));
   return first_passage<VertexFace>({p, a, b, c});
 }
 
 std::optional<Passage> edge_through_edge(const MovingPoint& p, const MovingPoint& q, const MovingPoint& u,
                                          const MovingPoint& v) {
-  assert(is_finite(p) && is_finite(q) && is_finite(u) && is_finite(v));
   return first_passage<EdgeEdge>({p, q, u, v});
 }
 

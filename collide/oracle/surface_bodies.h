@@ -1,8 +1,6 @@
 #pragma once
 // The bodies that take part: shared by both parts of the oracle, surface_overlaps.cpp and surface_crossings.cpp.
 
-#include <utility>
-
 #include "collide/surface/box_tree.h"
 #include "collide/surface/surface.h"
 

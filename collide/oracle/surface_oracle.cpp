@@ -69,20 +69,16 @@ SurfaceFigures figures_of(const Frame& frame, const Overlaps& overlaps, std::spa
     figures.deepest = std::max(figures.deepest, in.depth);
     figures.mean_depth += in.depth / static_cast<double>(overlaps.penetrations.size());
   }
-  std::vector<OverlappingPair> crossed_pairs;
   for (const Crossing& crossing : crossings) {
     if (crossing.kind == Crossing::Kind::vertex_face)
       crossed.push_back(crossing.feature[0]);
     else
       ++figures.edge_crossings;
-    if (crossing.body != crossing.other) crossed_pairs.push_back(pair_of(crossing.body, crossing.other));
   }
   sort_unique(inside);
   sort_unique(crossed);
-  sort_unique(crossed_pairs);
   figures.penetrating_vertices = inside.size();
   figures.crossed_vertices = crossed.size();
-  figures.crossed_pairs = crossed_pairs.size();
   return figures;
 }
 

@@ -81,7 +81,6 @@ struct SurfaceFigures {
   std::size_t piercings = 0;
   std::size_t crossed_vertices = 0;  // vertices that passed through a face, each counted once
   std::size_t edge_crossings = 0;    // pairs of edges that passed through each other
-  std::size_t crossed_pairs = 0;     // pairs of different bodies with a crossing of either kind
   bool operator==(const SurfaceFigures&) const = default;
 };
 /// Counts the overlaps and crossings of a frame.

@@ -12,26 +12,20 @@
 namespace engine::render {
 namespace {
 
-struct UnitSphere {
-  std::vector<glm::vec3> directions;
-  std::vector<std::uint32_t> indices;
-};
-
-/// A tessellated octahedron whose points are moved onto the unit sphere: 1,602 points. Smaller triangles would cost
-/// more on software renderers, because these shade whole blocks of pixels.
-UnitSphere unit_sphere() {
+/// A tessellated octahedron whose points are moved onto the unit sphere: 1,602 points, and the corners of its
+/// triangles. Smaller triangles would cost more on software renderers, because these shade whole blocks of pixels.
+std::pair<std::vector<glm::vec3>, std::vector<std::uint32_t>> unit_sphere() {
   constexpr std::array<glm::vec3, 6> corners{glm::vec3(1, 0, 0),  glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0),
                                              glm::vec3(0, -1, 0), glm::vec3(0, 0, 1),  glm::vec3(0, 0, -1)};
   constexpr std::array<std::uint32_t, 24> faces{2, 4, 0, 2, 0, 5, 2, 5, 1, 2, 1, 4, 3, 0, 4, 3, 5, 0, 3, 1, 5, 3, 4, 1};
   TessellatedMesh mesh = tessellate(faces, corners.size(), 20);
-  UnitSphere sphere;
-  for (const TessellatedVertex& vertex : mesh.vertices) {
-    const auto [u, v] = vertex.weights;
-    sphere.directions.push_back(glm::normalize(u * corners[vertex.corners[0]] + v * corners[vertex.corners[1]] +
-                                               (1.0f - u - v) * corners[vertex.corners[2]]));
+  std::vector<glm::vec3> directions;
+  for (const auto& [corner, weights] : mesh.vertices) {
+    const auto [u, v] = weights;
+    directions.push_back(
+        glm::normalize(u * corners[corner[0]] + v * corners[corner[1]] + (1.0f - u - v) * corners[corner[2]]));
   }
-  sphere.indices = std::move(mesh.indices);
-  return sphere;
+  return {std::move(directions), std::move(mesh.indices)};
 }
 
 }  // namespace
@@ -39,11 +33,11 @@ UnitSphere unit_sphere() {
 SpherePass::SpherePass(const std::filesystem::path& shaders)
     : program_(scene_program(shaders, "sphere.vert", "surface.frag")),
       shadow_program_(shaders, "sphere_shadow.vert", "depth.frag") {
-  const UnitSphere sphere = unit_sphere();
-  index_count_ = static_cast<GLsizei>(sphere.indices.size());
+  const auto [directions, indices] = unit_sphere();
+  index_count_ = static_cast<GLsizei>(indices.size());
   array_.bind();
-  indices_.set(GL_ELEMENT_ARRAY_BUFFER, std::span(sphere.indices));
-  directions_.set(GL_ARRAY_BUFFER, std::span(sphere.directions));
+  indices_.set(GL_ELEMENT_ARRAY_BUFFER, std::span(indices));
+  directions_.set(GL_ARRAY_BUFFER, std::span(directions));
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
   constexpr GLsizei stride = sizeof(Instance);
   glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.id());

@@ -39,7 +39,7 @@ unsigned act_by(const Shape& shape, std::size_t used, const SolidArguments& s, F
     const V moves = select_bits(s.near >> first, load<V>(s.moves + first));
     if (!any_above(moves, zero)) continue;
     const Vec<V> place{load<V>(s.place.x + first), load<V>(s.place.y + first), load<V>(s.place.z + first)};
-    Vec<V> impulse = load<V>(s.impulse, first);
+    Vec<V> impulse = load<V>(s.sums.impulse, first);
     V most{}, energy{}, returned{};
     for (std::size_t at = first; at < s.particles * width; at += width) {
       const Vec<V> d = load<V>(x, at) - place;
@@ -53,9 +53,9 @@ unsigned act_by(const Shape& shape, std::size_t used, const SolidArguments& s, F
       most = larger(change, most);
       store(v, at, velocity);
     }
-    store(s.impulse, first, impulse);
-    store(s.returned + first, load<V>(s.returned + first) + s.mass * returned);
-    store(s.energy + first, load<V>(s.energy + first) + s.mass * energy);
+    store(s.sums.impulse, first, impulse);
+    store(s.sums.returned + first, load<V>(s.sums.returned + first) + s.mass * returned);
+    store(s.sums.energy + first, load<V>(s.sums.energy + first) + s.mass * energy);
     acted |= lanes_above(most, zero) << first;
   }
   return acted;

@@ -9,6 +9,13 @@
 
 namespace softbody {
 
+/// What solids do to the body in each lane is added here.
+struct SolidSums {
+  Field<float> impulse;  // N s, along their normals
+  float* returned;       // J, that restitution gives back
+  float* energy;         // J, that pushing out gives
+};
+
 /// A solid seen from each body's own origin.
 struct SolidArguments {
   std::size_t particles;
@@ -17,9 +24,7 @@ struct SolidArguments {
   SolidShape<float> shape;      // grown by the thickness that particles keep from it
   LaneVector place;             // m, see the shape
   const float* moves;
-  Field<float> impulse;         // N s, a value a lane: the normal impulses are added here ...
-  float* returned;              // ... here the energy (J) that restitution gives back ...
-  float* energy;                // ... and here that which pushing out gives
+  SolidSums sums;
   float h = 0;                  // s
   float slack = 0;              // m/s: a smaller change of normal velocity is left undone
   Field<const float> before{};  // velocities at the start of the step; read only if there is restitution

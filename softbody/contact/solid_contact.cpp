@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -82,7 +81,7 @@ void SolidContact::ease_out(const Batch& b, int lane, const glm::dvec3& way, con
   const glm::vec3 change(law::max_separation_speed * way - 0.5 * seconds * gravity - mean);
   for (std::size_t i = 0; i < b.particles(); ++i) softbody::add(v, slot(i), change);
   const glm::dvec3 given = double(b.particles()) * b.model->particle_mass * glm::dvec3(change);  // N s
-  BodyField{impulse(b), std::size_t(lane), 1}.add(0, given);
+  BodyField{sums(b).impulse, std::size_t(lane), 1}.add(0, given);
   state_.ledger.book(WorkBy::easing, glm::dot(given, mean + 0.5 * glm::dvec3(change)));
   of_batch_[b.index].pushed |= 1u << lane;
   state_.memory(b.body[std::size_t(lane)]).calm_frames = 0;
@@ -147,9 +146,7 @@ const SolidArguments& SolidContact::add(const Batch& b, const Solid& solid, unsi
   }
   s.near = lanes_near;
   s.moves = b.moves.data();
-  s.impulse = impulse(b);
-  s.returned = returned(b);
-  s.energy = energy(b);
+  s.sums = sums(b);
   return s;
 }
 
@@ -177,8 +174,6 @@ void SolidContact::note_velocities(const Batch& b) {
   state_kernels(b.width).copy(std::size_t(b.used), b.particles(), b.moves.data(), field(state_.v, b.base),
                               field(before_, b.base));
 }
-
-Field<float> SolidContact::impulse(const Batch& b) { return field(of_batch_[b.index].impulse); }
 
 /// Particles first, then what lies between them, which may push particles back.
 void SolidContact::apply(const Batch& b, float h) {

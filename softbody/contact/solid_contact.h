@@ -67,12 +67,11 @@ class SolidContact {
   void add_particle_rows(BodyId body, float travel, std::vector<ContactRow>& rows) const;
   /// Books the impulses of these rows as those of the solids. Threads may call it at once for different bodies.
   void book(BodyId body, std::span<const ContactRow> rows);
-  /// Returns where the solids' impulses along their normals (N s) are summed for each lane of a batch.
-  Field<float> impulse(const Batch& batch);
-  /// Returns where the energy (J) is summed that restitution gives back to each lane.
-  float* returned(const Batch& batch) { return of_batch_[batch.index].returned.data(); }
-  /// Returns where the energy (J) is summed that they give to each lane by pushing out.
-  float* energy(const Batch& batch) { return of_batch_[batch.index].energy.data(); }
+  /// Returns where it is summed what the solids do to the bodies of a batch.
+  SolidSums sums(const Batch& batch) {
+    OfBatch& own = of_batch_[batch.index];
+    return {field(own.impulse), own.returned.data(), own.energy.data()};
+  }
 
   /// Returns the solids that the bodies of a batch may touch in this frame.
   std::span<const SolidArguments> near(const Batch& batch) const {

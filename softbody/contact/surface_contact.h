@@ -93,9 +93,6 @@ class SurfaceContact {
   void keep(const ContactRow& row);
   void join_islands();
   void separate(Pair& pair, Field<const float> x, Field<float> v) const;
-  bool few_rows() const { return rows() < 2000; }
-  template <class Visit>
-  void for_each_pair(int thread, int threads, const std::function<void()>& barrier, const Visit& visit);
 
   SurfaceCandidates candidates_;
   std::vector<OfThread> of_thread_;

@@ -17,17 +17,17 @@ using collide::surface::FeaturePair;
 constexpr float hair = 0.02f;      // of the distance, that may be used up unsolved
 constexpr float push_kept = 0.8f;  // of an impulse that pushes out is handed on to the next substep; by trial
 
-ContactRow corners_of(const Closest& c, std::size_t vertex_slot, float vertex_mobility,
-                      const collide::surface::Triangle& face, std::size_t face_slot, std::size_t stride,
-                      float face_mobility) {
+ContactRow corners_of(const Closest& c, const SurfaceCandidates::Side& vertex_side, Index vertex,
+                      const SurfaceCandidates::Side& face_side, Index face) {
   ContactRow row{};
-  row.slot[0] = static_cast<std::uint32_t>(vertex_slot);
+  row.slot[0] = static_cast<std::uint32_t>(vertex_side.slot + vertex * vertex_side.stride);
   row.weight[0] = 1;
-  row.mobility[0] = vertex_mobility;
+  row.mobility[0] = vertex_side.inverse_mass;
   for (std::size_t k = 0; k < 3; ++k) {
-    row.slot[k + 1] = static_cast<std::uint32_t>(face_slot + face[k] * stride);
+    const Index corner = face_side.surface->triangles()[face][k];
+    row.slot[k + 1] = static_cast<std::uint32_t>(face_side.slot + corner * face_side.stride);
     row.weight[k + 1] = -c.weight[k + 1];
-    row.mobility[k + 1] = face_mobility * row.weight[k + 1];
+    row.mobility[k + 1] = face_side.inverse_mass * row.weight[k + 1];
   }
   return row;
 }
@@ -100,9 +100,7 @@ void SurfaceRowMaker::vertex_on_faces(Pair& pair, const Side& vertex_side, const
   const std::vector<NearFace>& near_faces = scratch_.near_faces;
   const auto corners = [&](const NearFace& n) {
     const FeaturePair& f = features[n.feature];
-    ContactRow row =
-        corners_of(n.closest, vertex_side.slot + f.a * vertex_side.stride, vertex_side.inverse_mass,
-                   face_side.surface->triangles()[f.b], face_side.slot, face_side.stride, face_side.inverse_mass);
+    ContactRow row = corners_of(n.closest, vertex_side, f.a, face_side, f.b);
     row.feature = n.feature;
     return row;
   };
@@ -156,8 +154,7 @@ void SurfaceRowMaker::add_interior_vertices(Pair& pair) {
     const glm::vec3 p = at(vertex_side, d.vertex);
     const Closest c = collide::surface::closest_vertex_face(p, corner[0], corner[1], corner[2]);
     const glm::vec3 normal = unit(normal_of(corner[0], corner[1], corner[2]), {});
-    ContactRow row = corners_of(c, vertex_side.slot + d.vertex * vertex_side.stride, vertex_side.inverse_mass, face,
-                                face_side.slot, face_side.stride, face_side.inverse_mass);
+    ContactRow row = corners_of(c, vertex_side, d.vertex, face_side, d.face);
     row.feature = uncached;
     CachedContact unseen;
     add_row(pair, row, normal, glm::dot(p - corner[0], normal), unseen);

@@ -65,29 +65,22 @@ void SurfaceContact::separate(Pair& pair, Field<const float> x, Field<float> v) 
     add(v, two.slot + i * two.stride, -impulse * b.inverse_mass * axis);
 }
 
-/// visit(pair, its rows): colour by colour, each by one thread. A few rows are done by the first thread before all have
-/// met at every colour; the others do not wait for it.
-template <class Visit>
-void SurfaceContact::for_each_pair(int thread, int threads, const std::function<void()>& barrier, const Visit& visit) {
-  const bool alone = few_rows();
-  for (const auto& colour : candidates_.colours()) {
-    const collide::Part part =
-        alone ? collide::Part{0, thread == 0 ? colour.size() : 0} : collide::part_of(colour.size(), thread, threads);
-    for (std::size_t i = part.begin; i < part.end; ++i) {
-      Pair& p = candidates_.pairs()[colour[i]];
-      visit(p, std::span(of_thread_[static_cast<std::size_t>(p.thread)].rows).subspan(p.first_row, p.rows));
-    }
-    if (!alone) barrier();
-  }
-}
-
+/// In each pass colour by colour, each by one thread. A few rows are done by the first thread before all have met at
+/// every colour; the others do not wait for it.
 void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
                            const std::function<void()>& barrier) {
+  const bool alone = rows() < 2000;
   const auto pass = [&](const auto& visit) {
-    for_each_pair(thread, threads, barrier, [&](Pair& p, std::span<ContactRow> rows) {
-      if (p.separating) separate(p, x, v);
-      std::ranges::for_each(rows, visit);
-    });
+    for (const auto& colour : candidates_.colours()) {
+      const collide::Part part =
+          alone ? collide::Part{0, thread == 0 ? colour.size() : 0} : collide::part_of(colour.size(), thread, threads);
+      for (std::size_t i = part.begin; i < part.end; ++i) {
+        Pair& p = candidates_.pairs()[colour[i]];
+        if (p.separating) separate(p, x, v);
+        std::ranges::for_each(rows_of(p), visit);
+      }
+      if (!alone) barrier();
+    }
   };
   pass([&](ContactRow& row) {
     if (row.normal_impulse > 0) apply(row, row.normal_impulse * row.normal + row.friction_impulse, v);
@@ -101,7 +94,7 @@ void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<
     for (OfThread& own : of_thread_) own.joint_work = 0;
     last_h_ = h;
   }
-  if (few_rows()) barrier();
+  if (alone) barrier();
 }
 
 void SurfaceContact::keep(const ContactRow& row) {

@@ -26,6 +26,7 @@ class ContactPass {
   void set_max_candidates(const MaxCandidates& max) { max_candidates_ = max; }
   /// Takes the world's list of bodies, which must outlive this.
   void set_vertices(const collide::Bodies& vertices) { vertices_ = &vertices; }
+  const collide::Bodies& vertices() const { return *vertices_; }
 
   void begin_frame() { found_ = 0; }
   /// Wakes sleepers that a body comes near within `seconds` which is faster than twice the speed of sleep: a body that

@@ -56,10 +56,10 @@ class Motion {
   void kick(const Batch& batch, float h);  // v += h (f / m + g)
   void accelerations(const Batch& batch);  // f = f / m + g
   void drift(const Batch& batch, float h) { add(batch, positions, h, velocities); }  // x += h v
-  /// Changes the velocities so that in a step of h from here surfaces do not pass through each other, nor particles
-  /// into solids. The velocities of all batches must be there. Needs a barrier after it.
   /// Tells contacts that what has acted until now is no impact of theirs.
   void note_velocities(const Batch& batch) { parts_.solids.note_velocities(batch); }
+  /// Changes the velocities so that in a step of h from here surfaces do not pass through each other, nor particles
+  /// into solids. The velocities of all batches must be there. Needs a barrier after it.
   void contacts(const Worker& worker, float h) { parts_.contacts.apply(worker, h); }
   /// Does the same after advance_velocities() with Volumes::implicit_, so that the pressure is the one at the end.
   void contacts_under_pressure(const Worker& worker, float h);
@@ -79,7 +79,6 @@ class Motion {
 
  private:
   VectorArray& array(Quantity q);
-  Field<const float> x(const Batch& b) const { return field(std::as_const(parts_.state.x), b.base); }
   Field<float> v(const Batch& b) { return field(parts_.state.v, b.base); }
   Field<float> f(const Batch& b) { return field(parts_.state.f, b.base); }
   ForceBatch step_of(const Batch& batch, float h) { return {parts_.state, batch, double(h), gravity_, f(batch)}; }

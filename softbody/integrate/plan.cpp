@@ -134,8 +134,6 @@ std::string_view stage_key(Stage stage) { return row_of(stage).key; }
 
 bool Plan::has(Stage stage) const { return std::find(stages.begin(), stages.end(), stage) != stages.end(); }
 
-bool Plan::has(std::string_view key) const { return std::ranges::find(stages, key, stage_key) != stages.end(); }
-
 std::vector<Stage> Plan::unprojected(const Integrator& integrator) const {
   std::vector<Stage> list;
   if (!integrator.projects) return list;

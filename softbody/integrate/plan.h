@@ -45,7 +45,6 @@ struct Plan {
   std::vector<LeftOut> left_out;           // in order
   std::vector<const ShapeTraits*> shapes;  // of the solids that are enabled, each once
   bool has(Stage stage) const;
-  bool has(std::string_view key) const;
   /// Returns the stages that act as forces although the integrator moves particles to where others have them.
   std::vector<Stage> unprojected(const Integrator& integrator) const;
 };

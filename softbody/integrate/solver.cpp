@@ -33,11 +33,6 @@ Solver::Solver(const Scene& scene, const Crew& crew)
 
 Solver::~Solver() = default;
 
-void Solver::set_vertices(const collide::Bodies& vertices) {
-  vertices_ = &vertices;
-  contacts_.set_vertices(vertices);
-}
-
 void Solver::set_plan(const Plan& plan) {
   has_gravity_ = plan.has(Stage::gravity);
   motion_.set_plan(plan);
@@ -49,7 +44,7 @@ void Solver::set_plan(const Plan& plan) {
 }
 
 void Solver::remove(BodyId body) {
-  penalty_.remove(body, vertices_->first[body], vertices_->size(body));
+  penalty_.remove(body, contacts_.vertices().first[body], contacts_.vertices().size(body));
   contacts_.surfaces() = {};  // found anew in the next frame
   solids_.remove(body);
   rebounds_.remove(body);
@@ -264,7 +259,7 @@ void Solver::finish_frame(double seconds, Field<float> places) {
   const std::span<const Batch> batches = state_.batches();
   crew_.for_each(batches.size(), [&](std::size_t i) {
     if (batches[i].any_moves()) finish(batches[i], seconds);
-    state_.write_positions(batches[i], vertices_->first, places);  // while they are in the cache
+    state_.write_positions(batches[i], contacts_.vertices().first, places);  // while they are in the cache
   });
   for (BodyId id = 0; id < state_.body_count(); ++id)
     state_.ledger.book(WorkBy::solids, double(std::exchange(state_.memory(id).impact.given, 0.0f)));
@@ -288,7 +283,8 @@ void Solver::finish(const Batch& b, double seconds) {
 
 void Solver::write_positions(Field<float> to) const {
   const std::span<const Batch> batches = state_.batches();
-  crew_.for_each(batches.size(), [&](std::size_t i) { state_.write_positions(batches[i], vertices_->first, to); });
+  crew_.for_each(batches.size(),
+                 [&](std::size_t i) { state_.write_positions(batches[i], contacts_.vertices().first, to); });
 }
 
 SolverState Solver::save() const {

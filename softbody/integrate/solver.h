@@ -56,7 +56,7 @@ class Solver {
   const PenaltyContact& penalty_contact() const { return penalty_; }
 
   /// Takes the world's list of bodies, which must outlive this and change with the state.
-  void set_vertices(const collide::Bodies& vertices);
+  void set_vertices(const collide::Bodies& vertices) { contacts_.set_vertices(vertices); }
   void set_plan(const Plan& plan);
   void set_max_candidates(const MaxCandidates& max) { contacts_.set_max_candidates(max); }
   /// Removes a body. The world's list of bodies must still contain it.
@@ -123,7 +123,6 @@ class Solver {
   Rebounds rebounds_;
   StepController steps_;
   StepBounds bounds_;
-  const collide::Bodies* vertices_ = nullptr;
   bool has_gravity_ = false;
   std::vector<unsigned> pushed_;  // of each batch, bits: lanes that something may push in this frame
   std::vector<char> joined_;      // of each batch: whether contacts may join it to others, or act within it

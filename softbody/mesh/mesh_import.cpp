@@ -76,8 +76,6 @@ class Importer {
   ImportedMesh run() {
     begin("reading the file");
     mesh_file_ = read_file_mesh(file_.path, {.doubles = true});
-    findings_.file_vertices = mesh_file_.x.size();
-    findings_.file_faces = mesh_file_.faces.size();
     findings_.weights = mesh_file_.weights;
     if (mesh_file_.faces.empty()) fail("has no face; export it as a mesh of polygons, not as points or lines");
     begin("closing seams");
@@ -209,11 +207,7 @@ class Importer {
 
   void orient_faces() {
     try {
-      const SurfaceFindings found = orient(mesh_.triangles, mesh_.vertices);
-      findings_.components = found.components;
-      findings_.cavities = found.cavities;
-      findings_.turned_faces = found.turned_faces;
-      findings_.closed = found.closed;
+      static_cast<SurfaceFindings&>(findings_) = orient(mesh_.triangles, mesh_.vertices);
     } catch (const SurfaceError& error) {
       fail(reason(error));
     }
@@ -288,22 +282,17 @@ class Importer {
 
 void add_coarse_mesh(ImportedMesh& imported, std::size_t resolution) {
   const std::size_t vertices = imported.mesh.vertices.size();
-  ImportFindings& findings = imported.findings;
-  findings.particles = vertices;
   if (vertices <= (resolution > 0 ? resolution : max_simulated_vertices)) return;
   imported.coarse = coarsen(imported.mesh, resolution > 0 ? resolution : default_resolution);
-  findings.too_fine = !imported.coarse;
-  if (!imported.coarse) return;
-  findings.particles = imported.coarse->mesh.vertices.size();
-  findings.distance = imported.coarse->distance;
-  findings.crossings = imported.coarse->crossings;
+  imported.findings.too_fine = !imported.coarse;
 }
 
 ImportedMesh import_mesh(const MeshFile& file, const std::function<void(std::string_view)>& begin_stage) {
   return Importer(file, begin_stage).run();
 }
 
-std::string remarks(const ImportFindings& f) {
+std::string remarks(const ImportedMesh& imported) {
+  const ImportFindings& f = imported.findings;
   std::string text;
   const auto add = [&text](std::size_t number, const char* what) {
     if (number > 0) text.append(text.empty() ? "" : ", ").append(std::to_string(number)).append(what);
@@ -318,10 +307,10 @@ std::string remarks(const ImportFindings& f) {
   add(f.cavities, f.cavities == 1 ? " cavity, which holds no gas" : " cavities, which hold no gas");
   const auto say = [&text](const std::string& what) { text.append(text.empty() ? "" : ", ").append(what); };
   if (!f.closed) say("open, so that it holds no gas");
-  if (f.distance)
-    say("simulated by " + std::to_string(f.particles) + " particles, whose surface is within " +
-        two_digits(1e3 * *f.distance) + " mm of the mesh");
-  if (f.crossings > 0) say("the simulated surface crosses itself");
+  if (imported.coarse)
+    say("simulated by " + std::to_string(imported.simulated().vertices.size()) +
+        " particles, whose surface is within " + two_digits(1e3 * imported.coarse->distance) + " mm of the mesh");
+  if (imported.coarse && imported.coarse->crossings > 0) say("the simulated surface crosses itself");
   if (f.too_fine) say("no coarse mesh has its form, so all vertices are simulated");
   if (f.coarse_step > 0) say(advice_on_digits(f.coarse_step));
   return text;

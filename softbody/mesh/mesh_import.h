@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "softbody/mesh/coarse_mesh.h"
+#include "softbody/mesh/surface.h"
 
 namespace softbody {
 
@@ -27,24 +28,16 @@ inline constexpr std::size_t max_simulated_vertices = 1000, default_resolution =
 inline constexpr std::size_t min_resolution = 50;  // a leg or an ear needs some vertices
 
 /// What the import found in the file and what it changed.
-struct ImportFindings {
-  std::size_t file_vertices = 0, file_faces = 0;  // as written
-  std::size_t welded_vertices = 0;                // dropped: another vertex is at the same place
-  std::size_t unused_vertices = 0;                // dropped: no face uses them
-  std::size_t degenerate_faces = 0;               // dropped: fewer than three corners were left after welding
-  std::size_t duplicate_faces = 0;                // dropped: an earlier face has the same outline, in either direction
-  std::size_t weights = 0;                        // vertices with a weight other than 1, which is ignored
-  std::size_t turned_faces = 0;                   // faces whose corners were reversed
-  std::size_t components = 0;                     // parts connected by edges; all are one body
-  std::size_t cavities = 0;                       // of these, see orient()
-  bool closed = false;                            // the mesh encloses a volume
-  double file_extent = 0;                         // largest extent before scaling
-  double coarse_step = 0;                         // the file's coordinates are multiples of it, too coarse; 0: fine
-  double extent = 0;                              // m, after scaling
-  bool too_fine = false;                          // a coarse mesh was asked for, but none keeps the form of the mesh
-  std::size_t particles = 0;                      // vertices of the mesh that is simulated
-  std::optional<double> distance{};  // m, between that and the mesh, see coarsen(); none: they are the same
-  std::size_t crossings = 0;         // see CoarseMesh
+struct ImportFindings : SurfaceFindings {
+  std::size_t welded_vertices = 0;   // dropped: another vertex is at the same place
+  std::size_t unused_vertices = 0;   // dropped: no face uses them
+  std::size_t degenerate_faces = 0;  // dropped: fewer than three corners were left after welding
+  std::size_t duplicate_faces = 0;   // dropped: an earlier face has the same outline, in either direction
+  std::size_t weights = 0;           // vertices with a weight other than 1, which is ignored
+  double file_extent = 0;            // largest extent before scaling
+  double coarse_step = 0;            // the file's coordinates are multiples of it, too coarse; 0: fine
+  double extent = 0;                 // m, after scaling
+  bool too_fine = false;             // a coarse mesh was asked for, but none keeps the form of the mesh
   bool operator==(const ImportFindings&) const = default;
 };
 
@@ -70,6 +63,6 @@ ImportedMesh import_mesh(const MeshFile& file, const std::function<void(std::str
 
 /// Returns one line for people, e.g. "12 vertices welded, 3 unused ones dropped; open; 2 components". It is empty for a
 /// closed mesh in one piece that was not changed.
-std::string remarks(const ImportFindings& findings);
+std::string remarks(const ImportedMesh& imported);
 
 }  // namespace softbody

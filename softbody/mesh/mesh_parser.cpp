@@ -57,21 +57,17 @@ std::optional<double> MeshParser::rounded(double value) const {
 }
 
 void MeshParser::require_vertices() const {
-  const auto require = [&](Index vertex, const auto& place, const char* feature) {
-    if (vertex >= vertex_count())
-      fail_at(place(), feature + (" names vertex " + std::to_string(vertex + std::uint64_t{mesh_.first_number()})) +
-                           " of " + std::to_string(vertex_count()) + "; correct the index");
+  const auto refuse = [&](Index vertex, const std::string& place, const char* feature) {
+    fail_at(place, feature + (" names vertex " + std::to_string(vertex + std::uint64_t{mesh_.first_number()})) +
+                       " of " + std::to_string(vertex_count()) + "; correct the index");
   };
   mesh_.for_each_face([&](std::span<const Index> corners, std::size_t face) {
     for (const Index vertex : corners)
-      require(
-          vertex, [&] { return mesh_.place(face); }, "a face");
+      if (vertex >= vertex_count()) refuse(vertex, mesh_.place(face), "a face");
   });
-  for (const FileMesh::Segment& segment : mesh_.segments) {
+  for (const FileMesh::Segment& segment : mesh_.segments)
     for (const Index vertex : {segment.a, segment.b})
-      require(
-          vertex, [&] { return std::to_string(segment.line); }, "a line");
-  }
+      if (vertex >= vertex_count()) refuse(vertex, std::to_string(segment.line), "a line");
 }
 
 glm::dvec3 origin_near(const glm::dvec3& lo, const glm::dvec3& hi) {

@@ -13,14 +13,9 @@ namespace {
 enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 /// The two names of each type, in their order.
-constexpr std::array<std::array<std::string_view, 2>, 8> type_names{{{"char", "int8"},
-                                                                     {"uchar", "uint8"},
-                                                                     {"short", "int16"},
-                                                                     {"ushort", "uint16"},
-                                                                     {"int", "int32"},
-                                                                     {"uint", "uint32"},
-                                                                     {"float", "float32"},
-                                                                     {"double", "float64"}}};
+constexpr std::array<std::string_view, 16> type_names{"char",   "int8",    "uchar",  "uint8",  "short", "int16",
+                                                      "ushort", "uint16",  "int",    "int32",  "uint",  "uint32",
+                                                      "float",  "float32", "double", "float64"};
 
 bool is_real(Type type) { return type == Type::float32 || type == Type::float64; }
 
@@ -143,11 +138,10 @@ class PlyParser : public MeshParser {
   }
 
   Type type_of(std::string_view word) const {
-    const auto is_named = [&](const auto& names) { return std::ranges::find(names, word) != names.end(); };
-    const auto* type = std::ranges::find_if(type_names, is_named);
-    if (type == type_names.end())
+    const auto* name = std::ranges::find(type_names, word);
+    if (name == type_names.end())
       fail_at_line(quoted(word) + " is no type of a property; write e.g. float, int or uchar");
-    return static_cast<Type>(type - type_names.begin());
+    return static_cast<Type>((name - type_names.begin()) / 2);
   }
 
   void require_complete(const Element& element) const {

@@ -35,7 +35,8 @@ struct SurfaceFindings {
   std::size_t components = 0;    // parts connected by edges
   std::size_t cavities = 0;      // closed parts that face inwards
   std::size_t turned_faces = 0;  // triangles whose corners were reversed
-  bool closed = true;            // all parts are
+  bool closed = false;           // all parts are
+  bool operator==(const SurfaceFindings&) const = default;
 };
 
 /// Aligns triangles and turns every closed part outwards, so that its volume is positive, but for cavities: parts that

@@ -38,26 +38,20 @@ BodyMesh body_mesh(Mesh mesh) {
 
 }  // namespace
 
-void list_faces(BodyModel& p) {
-  std::vector<std::vector<Index>> at(p.mesh.vertices.size());
-  for (Index f = 0; f < p.mesh.triangles.size(); ++f)
-    for (const Index corner : p.mesh.triangles[f]) at[corner].push_back(f);
-  for (Index vertex = 0; vertex < at.size(); ++vertex) {
-    for (const Index f : at[vertex]) {
-      const auto& [a, b, c] = p.mesh.triangles[f];
-      p.face.push_back(f);
-      p.opposite.push_back(vertex == a ? Edge{b, c} : vertex == b ? Edge{c, a} : Edge{a, b});
-    }
-    p.first_face.push_back(static_cast<Index>(p.face.size()));
-  }
-}
+std::span<const Index> BodyModel::faces_of(Index vertex) const { return surface->triangles_at(vertex); }
 
 std::shared_ptr<BodyModel> make_body_mesh(Mesh mesh) {
   auto p = std::make_shared<BodyModel>();
   static_cast<BodyMesh&>(*p) = body_mesh(std::move(mesh));
-  list_faces(*p);
-  for (Index i = 0; i < p->mesh.vertices.size(); ++i)
-    p->largest_degree = std::max(p->largest_degree, double(p->faces_of(i).size()));
+  for (Index vertex = 0; vertex < p->mesh.vertices.size(); ++vertex) {
+    const std::span<const Index> faces = p->faces_of(vertex);
+    for (const Index f : faces) {
+      const auto& [a, b, c] = p->mesh.triangles[f];
+      p->opposite.push_back(vertex == a ? Edge{b, c} : vertex == b ? Edge{c, a} : Edge{a, b});
+    }
+    p->first_opposite.push_back(static_cast<Index>(p->opposite.size()));
+    p->largest_degree = std::max(p->largest_degree, double(faces.size()));
+  }
   p->rolls = nearly_closed(p->mesh);
   p->start = p->mesh.vertices;
   if (p->mesh.closed) p->start_volume = volume(p->start, p->mesh.triangles);

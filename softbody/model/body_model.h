@@ -47,8 +47,8 @@ struct FineMesh : BodyMesh {
 struct BodyModel : BodyMesh {
   Material material;
   std::shared_ptr<const FineMesh> fine;       // null if the body shows its own mesh
-  std::vector<Index> first_face{0}, face;     // triangles at each vertex, one list after another, see faces_of()
-  std::vector<Edge> opposite;                 // of each of these: the edge opposite the vertex, as the triangle turns
+  std::vector<Edge> opposite;                 // see edges_opposite(), of one vertex after another
+  std::vector<Index> first_opposite{0};       // of each vertex, and one more
   bool rolls = false;                         // the mesh is closed, or has holes of less than a tenth of its area
   double particle_mass = 0;                   // kg
   std::vector<glm::dvec3> start;              // starting shape: the equilibrium, or the mesh itself
@@ -62,17 +62,12 @@ struct BodyModel : BodyMesh {
   /// Returns where the vertices of that mesh are at rest, m.
   const std::vector<glm::dvec3>& shown_at_rest() const { return fine ? fine->mesh.vertices : start; }
   /// Returns the triangles at a vertex.
-  std::span<const Index> faces_of(Index vertex) const {
-    return std::span(face).subspan(first_face[vertex], first_face[vertex + 1] - first_face[vertex]);
-  }
-  /// Returns the edges opposite a vertex in its triangles.
+  std::span<const Index> faces_of(Index vertex) const;
+  /// Returns the edges opposite a vertex in its triangles, as these turn.
   std::span<const Edge> edges_opposite(Index vertex) const {
-    return std::span(opposite).subspan(first_face[vertex], first_face[vertex + 1] - first_face[vertex]);
+    return std::span(opposite).subspan(first_opposite[vertex], first_opposite[vertex + 1] - first_opposite[vertex]);
   }
 };
-
-/// Lists the faces at each vertex of the mesh.
-void list_faces(BodyModel& model);
 
 /// Returns a body model that has its mesh, in the shape in which it starts, and no material yet.
 std::shared_ptr<BodyModel> make_body_mesh(Mesh mesh);

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
 namespace softbody {

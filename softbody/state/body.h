@@ -17,10 +17,9 @@ struct Particle {
 /// State of a body as a whole.
 struct BodyState {
   std::uint32_t number = 0;  // stays the same when bodies before it are removed and ids move up
-  glm::dvec3 origin{0.0};    // m; the solver stores the positions of particles relative to it
+  glm::dvec3 origin{0.0};    // m; places of particles are stored relative to it, so that floats stay fine far from zero
   bool pinned = false;       // held in place until the frame that its BodySource names
   bool asleep = false;
-  glm::dvec3 solid_impulse{0.0};  // N s, the normal impulses of solids on it in the last step
   bool moves() const { return !pinned && !asleep; }
 };
 

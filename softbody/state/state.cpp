@@ -66,8 +66,7 @@ BodyId State::add(const std::shared_ptr<const BodyModel>& model, const glm::dvec
   Batch& batch = batch_with_free_lane(model);
   const BodyId id = body_count();
   const std::uint32_t number = bodies_.empty() ? 0 : bodies_.back().number + 1;  // numbers ascend
-  const Body& body =
-      bodies_.emplace_back(Body{.batch = batch.index, .lane = batch.used++, .number = number, .origin = position});
+  const Body& body = bodies_.emplace_back(Body{{.number = number, .origin = position}, batch.index, batch.used++});
   batch.body[std::size_t(body.lane)] = id;
   for (Index i = 0; i < batch.particles(); ++i) {
     field_of(id, x).set(i, model->start[i]);

@@ -58,14 +58,10 @@ struct BodyMemory {
   double speed = 0;              // m/s, of its fastest particle, as of the end of the last frame in which it moved
 };
 
-struct Body {
+struct Body : BodyState {
   Index batch;
   int lane;
-  std::uint32_t number = 0;  // stays when bodies before it are removed and ids move up
-  glm::dvec3 origin;  // m; particles' positions are stored relative to it, so that floats stay fine far from zero
-  bool pinned = false, asleep = false;
   BodyMemory memory{};
-  bool moves() const { return !pinned && !asleep; }
 };
 
 /// The components of one vector for each particle of all bodies.

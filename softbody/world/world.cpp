@@ -271,10 +271,7 @@ const State& World::state() const { return parts_->solver.state(); }
 std::uint64_t World::state_hash() const { return parts_->solver.state().hash(); }
 const StepReport& World::last_step() const { return parts_->report; }
 
-BodyState World::body(BodyId body) const {
-  const Body& b = parts_->solver.state().body(body);
-  return {b.number, b.origin, b.pinned, b.asleep, parts_->solver.solid_contact().push(body).impulse};
-}
+BodyState World::body(BodyId body) const { return parts_->solver.state().body(body); }
 
 std::vector<SurfaceContactPoint> World::surface_contacts() const {
   return parts_->solver.surface_contact().contact_points(parts_->particles.bodies);

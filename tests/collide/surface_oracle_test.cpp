@@ -74,8 +74,7 @@ TEST(SurfaceOracle, FiguresCountEachItemOnce) {
                                      .mean_depth = 1,
                                      .piercings = 3,
                                      .crossed_vertices = 1,
-                                     .edge_crossings = 1,
-                                     .crossed_pairs = 2}));
+                                     .edge_crossings = 1}));
   EXPECT_EQ(overlapping_pairs(frame, overlaps), (std::vector<OverlappingPair>{{0, 1}, {0, 2}, {2, 2}}));
 }
 

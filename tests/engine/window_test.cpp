@@ -24,7 +24,7 @@ TEST(Window, ErrorWithoutADisplaySaysWhatToDo) {
   const std::string before = display != nullptr ? display : "";
   ::setenv("DISPLAY", ":9999", 1);
   try {
-    const Window window;
+    const Window window("test", {400, 300});
     ADD_FAILURE() << "a window without a display";
   } catch (const ContextError& error) {
     const std::string message = error.what();
@@ -36,7 +36,7 @@ TEST(Window, ErrorWithoutADisplaySaysWhatToDo) {
 }
 
 TEST(Window, ShowsASceneAndAPanel) {
-  Window window({.title = "test", .size = {400, 300}, .samples = 4, .vsync = false});
+  Window window("test", {400, 300});
   Gui gui(window);
   render::Renderer renderer(find_folder("shaders"));
   FrameData frame;
@@ -67,7 +67,7 @@ TEST(Window, ShowsASceneAndAPanel) {
   window.poll();  // another poll() does not lose the files
   EXPECT_EQ(window.take_dropped_files(), (std::vector<std::string>{"/a/star.obj", "/a/b c.toml"}));
   EXPECT_TRUE(window.take_dropped_files().empty());
-  window.close();
+  glfwSetWindowShouldClose(window.handle(), GLFW_TRUE);  // as when the user closes it
   EXPECT_FALSE(window.is_open());
 }
 
@@ -81,7 +81,7 @@ bool poll_until(Window& window, auto done) {
 }
 
 TEST(Window, TellsOfEventsAndWaitsInVainWithoutAny) {
-  Window window({.title = "test", .size = {400, 300}, .samples = 0, .vsync = false});
+  Window window("test", {400, 300});
   ASSERT_TRUE(poll_until(window, [&] { return !window.poll(0.05); })) << "those of its opening come to an end";
   const GLFWcursorposfun on_cursor = glfwSetCursorPosCallback(window.handle(), nullptr);
   on_cursor(window.handle(), 20, 30);
@@ -92,7 +92,7 @@ TEST(Window, TellsOfEventsAndWaitsInVainWithoutAny) {
 }
 
 TEST(Window, IsMinimisedWhileNobodyCanSeeIt) {
-  Window window({.title = "test", .size = {400, 300}, .samples = 0, .vsync = false});
+  Window window("test", {400, 300});
   glfwHideWindow(window.handle());
   EXPECT_TRUE(poll_until(window, [&] { return window.minimised(); }));
   glfwShowWindow(window.handle());
@@ -133,7 +133,7 @@ class WindowInputTest : public testing::Test {
     }
   }
 
-  Window window{{.title = "test", .size = {400, 300}, .samples = 0, .vsync = false}};
+  Window window{"test", {400, 300}};
   Gui gui{window};
   const GLFWcursorposfun on_cursor = glfwSetCursorPosCallback(window.handle(), nullptr);
   const GLFWmousebuttonfun on_button = glfwSetMouseButtonCallback(window.handle(), nullptr);

@@ -69,9 +69,9 @@ TEST(Shapes, AreInTheFilesOfTheAssets) {
     EXPECT_TRUE(f.closed);
     EXPECT_EQ(f.components, 1u);
     EXPECT_EQ(f.welded_vertices + f.unused_vertices + f.degenerate_faces + f.duplicate_faces + f.turned_faces, 0u);
-    ASSERT_TRUE(f.distance) << "it rides on a coarse mesh";
-    EXPECT_LT(*f.distance, 0.02 * f.extent);
-    EXPECT_EQ(f.crossings, 0u);
+    ASSERT_TRUE(imported.coarse) << "it rides on a coarse mesh";
+    EXPECT_LT(imported.coarse->distance, 0.02 * f.extent);
+    EXPECT_EQ(imported.coarse->crossings, 0u);
     EXPECT_NEAR(double(file.x.size()), shape.vertices, 0.05 * shape.vertices);
     EXPECT_GT(smallest_angle(imported.mesh), 28);
   }

@@ -173,8 +173,7 @@ TEST_P(EveryKernel, OfSolidsGivesTheSameBits) {
     expect_the_same([&](int width, int first, Values xs, Values vs, Values fs, float* returned) {
       LaneVector impulse{};
       float work[lanes]{};
-      SolidArguments solid{n,        0.02f, 0.5f, 0.25f, one, {}, moves + first, {impulse.x, impulse.y, impulse.z},
-                           returned, work};
+      SolidArguments solid{n, 0.02f, 0.5f, 0.25f, one, {}, moves + first, {field(impulse), returned, work}};
       for (int l = 0; l < width; ++l) returned[l] = 0, solid.place.y[l] = -0.45f + 0.01f * float(first + l);
       solid.h = 0.01f;
       solid.before = fs;

@@ -307,7 +307,7 @@ TEST_F(FineBody, IsMovedByContactsOfItsCoarseSurface) {
     double distance = 0;
     for (BodyId id = 0; id < 2; ++id) {
       surfaces.push_back(world.model(id).surface);
-      distance = world.model(id).fine->imported->findings.distance.value();
+      distance = world.model(id).fine->imported->coarse->distance;
     }
     collide::Workers workers(1);
     const auto overlaps = collide::oracle::find_overlaps(world.simulated().positions, surfaces, workers);

@@ -283,7 +283,7 @@ TEST(MaxCandidates, EndAFrameEarlyIfItHasMoved) {
   world.step();
   EXPECT_GT(world.last_step().substeps, 1);
   EXPECT_LT(world.last_step().seconds, world.frame_time());
-  EXPECT_GT(glm::length(world.body(2).solid_impulse), 0);
+  EXPECT_GT(glm::length(WorldTestAccess::solid_impulse(world, 2)), 0);
   EXPECT_FALSE(watch.look(world, measure_bodies(world))->from_nowhere());
   const std::uint64_t before = world.state_hash();
   EXPECT_THROW(world.step(), std::length_error);

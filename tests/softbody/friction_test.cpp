@@ -84,9 +84,7 @@ class SolidKernels : public tests::OnEveryTarget {
                      .shape = shape,
                      .place = {},
                      .moves = moves,
-                     .impulse = {impulse.x, impulse.y, impulse.z},
-                     .returned = returned,
-                     .energy = energy};
+                     .sums = {field(impulse), returned, energy}};
     s.h = 0.01f;
     return s;
   }

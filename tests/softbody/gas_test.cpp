@@ -52,11 +52,10 @@ Solid ball(int subdivisions) {
 
 /// A model of a solid that holds this gas.
 BodyModel model_of(const Solid& solid, const Gas& gas) {
-  BodyModel model;
-  model.mesh.vertices = solid.corners;
-  model.mesh.triangles = solid.faces;
-  list_faces(model);
-  return with_force<GasPressure>(std::move(model), gas);
+  Mesh mesh;
+  mesh.vertices = solid.corners;
+  mesh.triangles = solid.faces;
+  return with_force<GasPressure>(*make_body_mesh(std::move(mesh)), gas);
 }
 
 /// Each lane larger than the one before.

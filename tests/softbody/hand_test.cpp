@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <numbers>
+#include <random>
 
 #include <glm/geometric.hpp>
 
@@ -11,68 +13,73 @@
 namespace softbody::test {
 namespace {
 
-/// It pulls at a body of three particles.
+/// It pulls at the last of five bodies of three particles.
 class HandOnThreeParticles : public testing::Test {
  protected:
   HandOnThreeParticles() {
-    model.material[Material::mass] = 2;
-    model.particle_mass = 0.5;
-    x.randomise(random, 1);
-    v.randomise(random, 1);
-    f.randomise(random, 1);
+    const auto model = std::make_shared<BodyModel>();
+    model->material[Material::mass] = mass;
+    model->particle_mass = particle_mass;
+    model->mesh.vertices.resize(3);
+    model->start.resize(3);
+    for (int i = 0; i < 5; ++i) state.add(model, origin, glm::dvec3(0.0));
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> number(-1, 1);
+    for (VectorArray* array : {&state.x, &state.v, &state.f})
+      for (auto& component : *array)
+        for (float& value : component) value = number(random);
     hand.take(grab);
   }
-  static BodyField of(LaneField& field) { return {field.field(), lane, lanes}; }
-  HeldBody body() { return {model, origin, of(x), of(v), of(f)}; }
+  BodyField of(VectorArray& array) const { return state.field_of(grab.body, array); }
+  ForceBatch batch() {
+    const Batch& b = state.batch_of(grab.body);
+    return {state, b, h, gravity, field(state.f, b.base)};
+  }
   /// N, on the point, which moves at `velocity` after a step of h but for the hand.
   glm::dvec3 expected(const glm::dvec3& velocity) {
-    const double rate = 2 * std::numbers::pi * grab.frequency, mass = model.material[Material::mass];
+    const double rate = 2 * std::numbers::pi * grab.frequency;
     return pull(mass * rate * rate, 2 * grab.damping_ratio * mass * rate,
-                model.particle_mass / glm::dot(grab.weights, grab.weights), h, grab.target - origin - mean(of(x)),
+                particle_mass / glm::dot(grab.weights, grab.weights), h, grab.target - origin - mean(state.x),
                 velocity);
   }
   /// Of the vectors at the corners, by their weights.
-  glm::dvec3 mean(const BodyField& field) const {
+  glm::dvec3 mean(VectorArray& array) const {
     glm::dvec3 sum(0.0);
-    for (int i = 0; i < 3; ++i) sum += grab.weights[i] * field(grab.corners[std::size_t(i)]);
+    for (int i = 0; i < 3; ++i) sum += grab.weights[i] * of(array)(grab.corners[std::size_t(i)]);
     return sum;
   }
+  /// Expects that the corners have changed by their weights times `change` since `before`, and nothing else has.
+  void expect_change(VectorArray now, VectorArray before, const glm::dvec3& change) const {
+    for (int i = 0; i < 3; ++i) {
+      const std::size_t corner = grab.corners[std::size_t(i)];
+      const glm::dvec3 there = of(now)(corner) - of(before)(corner);
+      EXPECT_LT(glm::distance(there, grab.weights[i] * change), 1e-6 * glm::length(change));
+      of(now).set(corner, of(before)(corner));
+    }
+    EXPECT_EQ(now, before) << "another body's";
+  }
 
-  static constexpr int lane = 2;
-  static constexpr double h = 0.01;  // s
-  std::mt19937 random{3};
+  static constexpr double h = 0.01, mass = 2, particle_mass = 0.5;  // s and kg
   const Grab grab{.body = 4, .corners = {2, 0, 1}, .weights = {0.5, 0.3, 0.2}, .target = {3, 2, 1}};
-  const glm::dvec3 origin{5, 0, 0};
-  BodyModel model;
-  LaneField x{3}, v{3}, f{3};
+  const glm::dvec3 origin{5, 0, 0}, gravity{0, -10, 0};
+  State state;
   Hand hand;
 };
 
 TEST_F(HandOnThreeParticles, AddsItsForceByTheWeights) {
-  const glm::dvec3 gravity(0, -10, 0);
-  const glm::dvec3 force = expected(mean(of(v)) + h * (gravity + mean(of(f)) / model.particle_mass));
-  const LaneField x_before = x, v_before = v;
-  LaneField before = f;
-  hand.add_force(body(), h, gravity);
-  for (int i = 0; i < 3; ++i) {
-    const std::size_t corner = grab.corners[std::size_t(i)];
-    EXPECT_LT(glm::distance(of(f)(corner) - of(before)(corner), grab.weights[i] * force), 1e-6 * glm::length(force));
-    EXPECT_EQ(f.at(corner, 1), before.at(corner, 1)) << "another body's";
-  }
-  EXPECT_TRUE(x == x_before && v == v_before);
+  const glm::dvec3 force = expected(mean(state.v) + h * (gravity + mean(state.f) / particle_mass));
+  const VectorArray x = state.x, v = state.v, f = state.f;
+  hand.add(batch());
+  expect_change(state.f, f, force);
+  EXPECT_TRUE(state.x == x && state.v == v);
 }
 
 TEST_F(HandOnThreeParticles, AddsItsImpulseByTheWeights) {
-  const glm::dvec3 change = h / model.particle_mass * expected(mean(of(v)));
-  const LaneField x_before = x, f_before = f;
-  LaneField before = v;
-  hand.add_impulse(body(), h);
-  for (int i = 0; i < 3; ++i) {
-    const std::size_t corner = grab.corners[std::size_t(i)];
-    EXPECT_LT(glm::distance(of(v)(corner) - of(before)(corner), grab.weights[i] * change), 1e-6 * glm::length(change));
-    EXPECT_EQ(v.at(corner, 1), before.at(corner, 1)) << "another body's";
-  }
-  EXPECT_TRUE(x == x_before && f == f_before);
+  const glm::dvec3 change = h / particle_mass * expected(mean(state.v));
+  const VectorArray x = state.x, v = state.v, f = state.f;
+  hand.kick(batch());
+  expect_change(state.v, v, change);
+  EXPECT_TRUE(state.x == x && state.f == f);
 }
 
 TEST_F(HandOnThreeParticles, FollowsItsBodyWhenOthersGo) {

@@ -18,6 +18,7 @@ struct BatchRig {
   static constexpr double h = 0.01, nowhere = -100;  // s, and m: ground that nothing comes to
   std::shared_ptr<const BodyModel> model = make_body_model({}, gas_ball(1e5));
   std::array<float, lanes> moves{};
+  Batch own;
   LaneField x{particles() + 3}, v = x, mean = x, rest = x;
   glm::dvec3 gravity{0, -9.81, 0};
   PenaltyContact penalty;
@@ -50,12 +51,10 @@ struct BatchRig {
     solids[0].place.y[lane] = float(lowest - gap);
   }
   ImplicitBatch batch(std::span<const PenaltyEnd> ends = {}) {
-    return {model, lanes,   0,      implicit_lanes, moves,   x.field(), v.field(),
-            base,  gravity, solids, features,       penalty, ends,      [](BodyId id) { return id < 2; }};
+    own = {.model = model, .width = lanes, .base = base, .used = implicit_lanes, .moves = moves};
+    return {own, x.field(), v.field(), gravity, solids, features, penalty, ends, [](BodyId id) { return id < 2; }};
   }
-  ImplicitResult result() {
-    return {mean.field(), rest.field(), {impulse.x, impulse.y, impulse.z}, returned.data(), given.data()};
-  }
+  ImplicitResult result() { return {mean.field(), rest.field(), {field(impulse), returned.data(), given.data()}}; }
   /// m/s, of a lane's ball as a whole.
   glm::dvec3 velocity(const LaneField& f, int lane) const {
     glm::dvec3 sum(0.0);

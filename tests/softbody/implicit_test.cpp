@@ -269,7 +269,7 @@ TEST(Auto, TakesMoreExplicitSubstepsInContactThanInFlight) {
   World world(scene, {});
   world.step();
   EXPECT_EQ(world.last_step().integrator->key, "implicit");
-  while (world.frame() < 90 && world.body(0).solid_impulse.y <= 0) world.step();
+  while (world.frame() < 90 && WorldTestAccess::solid_impulse(world, 0).y <= 0) world.step();
   ASSERT_LT(world.frame(), 90) << "it should have come to the ground";
   EXPECT_EQ(world.last_step().integrator->key, "semi-implicit-euler") << world.last_step().why;
 }

@@ -10,6 +10,7 @@
 #include "softbody/integrate/resistance.h"
 #include "softbody/state/rigid_motion.h"
 #include "tests/softbody/helpers.h"
+#include "tests/support/world_test_access.h"
 
 namespace softbody::test {
 namespace {
@@ -129,7 +130,7 @@ std::vector<Particle> tumbled_sheet(double resistance) {
   bool touched = false;
   for (int frame = 0; frame < 40; ++frame) {
     world.step();
-    touched = touched || glm::length(world.body(0).solid_impulse) > 0;
+    touched = touched || glm::length(WorldTestAccess::solid_impulse(world, 0)) > 0;
   }
   EXPECT_TRUE(touched);
   return particles_of(world, 0);

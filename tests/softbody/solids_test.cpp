@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/softbody/helpers.h"
+#include "tests/support/world_test_access.h"
 
 namespace softbody::test {
 namespace {
@@ -90,7 +91,7 @@ TEST(Solids, HoldABodysWeight) {
   glm::dvec3 impulse(0.0);
   for (int i = 0; i < 60; ++i) {
     world.step();
-    impulse += world.body(0).solid_impulse;
+    impulse += WorldTestAccess::solid_impulse(world, 0);
   }
   EXPECT_NEAR(impulse.y, 9.81, 0.02);
   EXPECT_NEAR(std::hypot(impulse.x, impulse.z), 0, 1e-9) << "only along the normal";

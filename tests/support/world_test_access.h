@@ -8,6 +8,10 @@ namespace softbody {
 struct WorldTestAccess {
   static const Solver& solver(const World& world) { return world.parts_->solver; }
   static Solver& solver(World& world) { return world.parts_->solver; }
+  /// N s, the normal impulses of solids on a body in the last step.
+  static glm::dvec3 solid_impulse(const World& world, BodyId body) {
+    return solver(world).solid_contact().push(body).impulse;
+  }
   /// Gives bodies a material that may be beyond the limits of a scene.
   static void set_material(World& world, std::size_t index, const Material& material) {
     World::Parts& s = *world.parts_;

@@ -89,9 +89,9 @@ CoarseResults measure_coarse(bool quick) {
       middle = std::max(middle, glm::distance(here.middle, finest.middle) / radius);
       shape = std::max(shape, reference::rms_distance(here.about, finest.about) / radius);
     }
-    const auto apart = mesh.findings.distance;  // nothing: the mesh itself is simulated
-    results.runs.add({{"particles", whole(double(mesh.findings.particles))},
-                      {"surfaces apart, R", when(apart.has_value(), fmt::format("{:.2g}", apart.value_or(0) / radius))},
+    const double apart = mesh.coarse ? mesh.coarse->distance : 0;
+    results.runs.add({{"particles", whole(double(mesh.simulated().vertices.size()))},
+                      {"surfaces apart, R", when(mesh.coarse.has_value(), fmt::format("{:.2g}", apart / radius))},
                       {"middle, R", fmt::format("{:.2g}", middle)},
                       {"shape, R", fmt::format("{:.2g}", shape)},
                       {"run time", fmt::format("{:.2g}", solving[i].median() / solving.back().median())}});

@@ -36,8 +36,7 @@ void draw_state(Widgets& w, const Session& session) {
 void draw_distance(Widgets& w, const softbody::BodiesInMotion& world) {
   double distance = 0;
   for (softbody::BodyId id = 0; id < world.bodies().count(); ++id)
-    if (const auto& fine = world.model(id).fine)
-      distance = std::max(distance, fine->imported->findings.distance.value_or(0));
+    if (const auto& fine = world.model(id).fine) distance = std::max(distance, fine->imported->coarse->distance);
   if (distance > 0)
     w.figure("Fine meshes within", millimetres(distance),
              "The surfaces of the simulated meshes are checked. At rest, the fine meshes that are drawn are no farther "

@@ -72,7 +72,8 @@ LaneMask second_order_step(const ImplicitStep& step, ImplicitWork& work, LaneMas
   if (solved.none()) return solved;
   const double h = step.h, stage = implicit_stage * h;
   const double second = 1 / (2 * implicit_stage);  // the second stage's share in what else acts
-  const ImplicitFrames frames = step.frames.subset(solved).falling(h * h / 2 * step.gravity);
+  ImplicitFrames frames = step.frames.subset(solved);
+  frames.set_fall(h * h / 2 * step.gravity);
   ImplicitProblem problem = work.problem(step.model, step.stage_matrix, frames, stage);
   work.solved_x = work.solver.solve(problem);
   solved &= work.solver.converged();

@@ -69,8 +69,8 @@ LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, LaneM
     }
     const std::size_t first = work.planes.size();
     for (const ContactRow& row : b.features) {
-      if (row.slot[0] % std::size_t(b.width) != own) continue;
-      const PlaneContact c{point_of(row, b.width, lane), double(row.friction), double(row.restitution),
+      if (row.slot[0] % std::size_t(b.batch.width) != own) continue;
+      const PlaneContact c{point_of(row, b.batch.width, lane), double(row.friction), double(row.restitution),
                            glm::dvec3(row.normal), double(row.target) * h};
       if (std::ranges::none_of(std::span(work.planes).subspan(first),
                                [&](const PlaneContact& other) { return is_same(c, other); }))
@@ -88,9 +88,9 @@ LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, I
     const PenaltyPair pair = b.penalty.pairs[end.pair];
     const auto [slot, other_slot] =
         end.at_b ? std::pair(pair.slot_b, pair.slot_a) : std::pair(pair.slot_a, pair.slot_b);
-    const std::size_t in_batch = slot - b.base, lane = in_batch % std::size_t(b.width) - b.first_lane;
+    const std::size_t in_batch = slot - b.batch.base, lane = in_batch % std::size_t(b.batch.width) - b.first_lane;
     if (lane >= implicit_lanes || !moving[lane]) continue;
-    const std::size_t at = in_batch / std::size_t(b.width) * implicit_lanes + lane;
+    const std::size_t at = in_batch / std::size_t(b.batch.width) * implicit_lanes + lane;
     const PenaltyContact::Slopes slopes = b.penalty.slopes(pair, b.x, b.v, float(h));
     if (slopes.spring <= 0) continue;
     LinearPenaltyPair s{.end = end, .at = at, .normal = double(end.sign()) * glm::dvec3(pair.normal), .slopes = slopes};

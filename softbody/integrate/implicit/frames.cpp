@@ -20,21 +20,10 @@ ImplicitFrames ImplicitFrames::subset(LaneMask which) const {
   return result;
 }
 
-ImplicitFrames ImplicitFrames::falling(const glm::dvec3& fall) const {
-  ImplicitFrames result = *this;
-  result.fall_ = fall;
-  return result;
-}
-
-glm::dvec3 ImplicitFrames::turn(std::size_t lane, const glm::dvec3& x) const {
-  const Frame& f = frames_[lane];
-  return f.turned * (x - f.body.centre) - (x - f.body.centre);
-}
-
 glm::dvec3 ImplicitFrames::free_displacement(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const {
   const Frame& f = frames_[lane];
-  const glm::dvec3 own = v - glm::cross(f.spin, x - f.body.centre) - f.body.velocity;
-  return h_ * f.body.velocity + fall_ + turn(lane, x) + f.turned * (h_ * own);
+  const glm::dvec3 out = x - f.body.centre, own = v - glm::cross(f.spin, out) - f.body.velocity;
+  return h_ * f.body.velocity + fall_ + (f.turned * out - out) + f.turned * (h_ * own);
 }
 
 /// Calls change(frame, x, v, at) for each particle of the lanes that have a frame of their own.

@@ -19,8 +19,8 @@ class ImplicitFrames {
   ImplicitFrames(const Lanes& x, const Lanes& v, LaneMask which, double h, const glm::dvec3& gravity);
   /// Returns frames for the lanes `which` only; the frame of other lanes is the world's.
   ImplicitFrames subset(LaneMask which) const;
-  /// Returns the same frames with origins that fall by `fall` (m).
-  ImplicitFrames falling(const glm::dvec3& fall) const;
+  /// Lets the origins fall by `fall` (m).
+  void set_fall(const glm::dvec3& fall) { fall_ = fall; }
   double step() const { return h_; }  // s
   /// Returns the lanes that have a frame of their own.
   LaneMask active() const { return active_; }
@@ -40,10 +40,8 @@ class ImplicitFrames {
   /// Transforms positions and velocities of the end back into the world.
   void leave(Lanes& x, Lanes& v) const;
 
-  // For a particle with x, v at the start, in the world:
-  /// Returns its displacement (m) in the step by the frame's rotation.
-  glm::dvec3 turn(std::size_t lane, const glm::dvec3& x) const;
-  /// Returns its displacement (m) in the step if no force acts on it.
+  /// Returns the displacement (m) in the step of a particle with x, v at the start, in the world, if no force acts on
+  /// it.
   glm::dvec3 free_displacement(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const;
 
  private:

@@ -1,6 +1,5 @@
 #include "softbody/integrate/implicit/steps.h"
 
-#include <algorithm>
 #include <cassert>
 
 #include <glm/geometric.hpp>
@@ -14,13 +13,13 @@ namespace {
 
 LaneMask moving_lanes(const ImplicitBatch& b) {
   LaneMask moving;
-  for (std::size_t l = 0; l < b.used; ++l) moving[l] = b.moves[b.first_lane + l] > 0;
+  for (std::size_t l = 0; l < implicit_lanes; ++l) moving[l] = b.batch.moves[b.first_lane + l] > 0;
   return moving;
 }
 
 void read_start(const ImplicitBatch& b, ImplicitWork& work) {
   for (std::size_t at = 0; at < work.x.size() / 3; ++at) {
-    const bool taken = at % implicit_lanes < b.used;
+    const bool taken = b.first_lane + at % implicit_lanes < std::size_t(b.batch.used);
     write(work.x, at, taken ? glm::dvec3(read(b.x, b.slot(at))) : glm::dvec3(0.0));
     write(work.v, at, taken ? glm::dvec3(read(b.v, b.slot(at))) : glm::dvec3(0.0));
   }
@@ -39,7 +38,7 @@ void write_end(const ImplicitWork& work, LaneMask moving, double h, const Implic
 
 void add_impulses(const ImplicitStep& step, const ImplicitWork& work, const ImplicitBatch& b,
                   const ImplicitResult& result) {
-  const BodyField sum{result.impulse, b.first_lane, 1};
+  const BodyField sum{result.solids.impulse, b.first_lane, 1};
   for (const PlaneContact& c : work.planes) {
     const std::size_t own = c.point.lane(), lane = b.first_lane + own;
     const double push = glm::dot(c.force, c.normal);
@@ -50,8 +49,8 @@ void add_impulses(const ImplicitStep& step, const ImplicitWork& work, const Impl
     const glm::dvec3 whole = step.frames.start(own).velocity;
     const double before = glm::dot(whole + step.frames.leave(own, of_point(work.v) - whole), c.normal);
     const double after = glm::dot(of_point(work.end_v), c.normal);
-    result.returned[lane] += float(law::bounce_energy(step.h * push, before, after, c.restitution));
-    result.energy[lane] += float(push * c.out());
+    result.solids.returned[lane] += float(law::bounce_energy(step.h * push, before, after, c.restitution));
+    result.solids.energy[lane] += float(push * c.out());
   }
   if (!b.penalty.bounces()) return;
   for (const LinearPenaltyPair& s : work.penalty_pairs) {
@@ -82,22 +81,20 @@ void ImplicitSteps::prepare(const std::shared_ptr<const BodyModel>& model, doubl
 }
 
 void ImplicitSteps::advance(int thread, ImplicitBatch batch, const ImplicitResult& result, double h) {
-  const auto found = work_[std::size_t(thread)].find(batch.model);
+  const auto found = work_[std::size_t(thread)].find(batch.batch.model);
   assert(found != work_[std::size_t(thread)].end());
-  const std::size_t end = batch.first_lane + batch.used;
-  for (; batch.first_lane < end; batch.first_lane += implicit_lanes) {
-    batch.used = std::min(end - batch.first_lane, std::size_t(implicit_lanes));
+  for (; batch.first_lane < std::size_t(batch.batch.used); batch.first_lane += implicit_lanes)
     advance_part(found->second, batch, result, h);
-  }
 }
 
 void ImplicitSteps::advance_part(ImplicitWork& work, const ImplicitBatch& b, const ImplicitResult& result, double h) {
   const LaneMask moving = moving_lanes(b);
   if (moving.none()) return;
   read_start(b, work);
-  ImplicitStep step{*b.model,
-                    matrices_.at(*b.model, h),
-                    matrices_.at(*b.model, implicit_stage * h),
+  const BodyModel& model = *b.batch.model;
+  ImplicitStep step{model,
+                    matrices_.at(model, h),
+                    matrices_.at(model, implicit_stage * h),
                     h,
                     b.gravity,
                     ImplicitFrames(work.x, work.v, moving, h, b.gravity)};

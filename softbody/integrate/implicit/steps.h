@@ -15,33 +15,28 @@
 
 namespace softbody {
 
-/// The start of a step of a batch, and what may touch it. A step takes up to implicit_lanes of its lanes at a time.
+/// The start of a step of a batch, and what may touch it.
 struct ImplicitBatch {
-  const std::shared_ptr<const BodyModel>& model;
-  int width;                            // of the batch
-  std::size_t first_lane, used;         // the lanes of the batch that a step takes: from the first on, and how many
-  std::span<const float, lanes> moves;  // 0 or 1 for each lane of the batch
-  Field<const float> x, v;              // m and m/s, of all batches
-  std::size_t base;                     // where the values of this one start in them
-  glm::dvec3 gravity;                   // m/s^2
+  const Batch& batch;
+  Field<const float> x, v;  // m and m/s, of all batches
+  glm::dvec3 gravity;       // m/s^2
   std::span<const SolidArguments> near_solids;
   std::span<const ContactRow> features;   // of the bodies, which may meet these solids between vertices
   PenaltyContact& penalty;                // evaluated at x, v; is told what its pairs do
   std::span<const PenaltyEnd> ends;       // of its pairs, those that fall to this batch
   std::function<bool(BodyId)> is_moving;  // false for bodies that are held or asleep
+  std::size_t first_lane = 0;             // of the batch, of implicit_lanes that are solved side by side
 
   /// Returns where the value `at` = particle * implicit_lanes + lane stands in the fields of all batches.
   std::size_t slot(std::size_t at) const {
-    return base + at / implicit_lanes * std::size_t(width) + first_lane + at % implicit_lanes;
+    return batch.base + at / implicit_lanes * std::size_t(batch.width) + first_lane + at % implicit_lanes;
   }
 };
 
 /// Where the end of a step goes. Lanes that do not move are left alone.
 struct ImplicitResult {
   Field<float> mean, rest;  // m/s, of all batches: velocities that lead to the end, and what they change by there
-  Field<float> impulse;     // N s, a value a lane: the normal impulses of solids are added here ...
-  float* returned;          // ... the energy (J) that restitution gives back is added here ...
-  float* energy;            // ... and here that which pushing out gives
+  SolidSums solids;
 };
 
 /// Takes the steps, and owns the matrices and the workspaces that they need.

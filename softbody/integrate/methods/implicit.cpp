@@ -8,26 +8,16 @@ void Motion::solve_implicit(const Worker& worker, const Batch& b, Quantity mean,
   const State& state = parts_.state;
   PenaltyContact& penalty = parts_.penalty;
   parts_.implicit.advance(worker.index(),
-                          {.model = b.model,
-                           .width = b.width,
-                           .first_lane = 0,
-                           .used = std::size_t(b.used),
-                           .moves = b.moves,
+                          {.batch = b,
                            .x = field(state.x),
                            .v = field(state.v),
-                           .base = b.base,
                            .gravity = gravity_,
                            .near_solids = parts_.solids.near(b),
                            .features = parts_.solids.find_feature_rows(b, h),
                            .penalty = penalty,
                            .ends = penalty.ends_of(b),
                            .is_moving = [&state](BodyId body) { return state.body(body).moves(); }},
-                          {.mean = field(array(mean)),
-                           .rest = field(array(rest)),
-                           .impulse = parts_.solids.impulse(b),
-                           .returned = parts_.solids.returned(b),
-                           .energy = parts_.solids.energy(b)},
-                          double(h));
+                          {field(array(mean)), field(array(rest)), parts_.solids.sums(b)}, double(h));
 }
 
 void implicit_step(Motion& motion, const Worker& worker, const Substep& substep) {
