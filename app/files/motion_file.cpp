@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "app/base/usage_error.h"
 #include "app/files/body_file.h"
 #include "app/files/forest.h"
@@ -29,9 +31,9 @@ void require_match(const Frame& from, const Frame& to) {
   const auto refuse = [&](const std::string& in_to, const std::string& in_from) {
     throw UsageError(to.file + in_to + from.file + in_from + "; give two frames of one mesh");
   };
-  const auto require_number = [&](const std::string& of, std::size_t in_from, std::size_t in_to) {
+  const auto require_number = [&](const char* of, std::size_t in_from, std::size_t in_to) {
     if (in_from != in_to)
-      refuse(": number of " + of + " " + std::to_string(in_to) + ", in ", " " + std::to_string(in_from));
+      refuse(fmt::format(": number of {} {}, in ", of, in_to), fmt::format(" {}", in_from));
   };
   const FileMesh &a = from.mesh, &b = to.mesh;
   require_number("vertices", a.x.size(), b.x.size());
@@ -39,11 +41,11 @@ void require_match(const Frame& from, const Frame& to) {
   require_number("segments of lines", a.segments.size(), b.segments.size());
   for (std::size_t face = 0; face < a.faces.size(); ++face)
     if (!std::ranges::equal(a.corners_of(face), b.corners_of(face)))
-      refuse(":" + b.place(face) + ": another face than ", ":" + a.place(face));
+      refuse(fmt::format(":{}: another face than ", b.place(face)), fmt::format(":{}", a.place(face)));
   for (std::size_t k = 0; k < a.segments.size(); ++k) {
     const FileMesh::Segment &s = a.segments[k], &t = b.segments[k];
     if (s.a != t.a || s.b != t.b)
-      refuse(":" + std::to_string(t.line) + ": another line than ", ":" + std::to_string(s.line));
+      refuse(fmt::format(":{}: another line than ", t.line), fmt::format(":{}", s.line));
   }
 }
 
