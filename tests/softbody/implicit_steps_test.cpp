@@ -253,7 +253,7 @@ TEST(ImplicitSteps, GiveTheSameBitsOnAnyThreadAndAgain) {
   EXPECT_EQ(other.mean, rig.mean);
   EXPECT_EQ(other.rest, rig.rest);
   steps.retain([](const BodyModel&) { return false; });
-  EXPECT_EQ(rig.model.use_count(), 2) << "only the two batches have it";
+  EXPECT_EQ(rig.model.use_count(), 4) << "only the two rigs and their batches have it";
   steps.prepare(rig.model, rig.h, 1);
   steps.advance(0, other.batch(), other.result(), rig.h);
   EXPECT_EQ(other.mean, rig.mean);
