@@ -32,8 +32,7 @@ void require_match(const Frame& from, const Frame& to) {
     throw UsageError(to.file + in_to + from.file + in_from + "; give two frames of one mesh");
   };
   const auto require_number = [&](const char* of, std::size_t in_from, std::size_t in_to) {
-    if (in_from != in_to)
-      refuse(fmt::format(": number of {} {}, in ", of, in_to), fmt::format(" {}", in_from));
+    if (in_from != in_to) refuse(fmt::format(": number of {} {}, in ", of, in_to), fmt::format(" {}", in_from));
   };
   const FileMesh &a = from.mesh, &b = to.mesh;
   require_number("vertices", a.x.size(), b.x.size());
@@ -44,8 +43,7 @@ void require_match(const Frame& from, const Frame& to) {
       refuse(fmt::format(":{}: another face than ", b.place(face)), fmt::format(":{}", a.place(face)));
   for (std::size_t k = 0; k < a.segments.size(); ++k) {
     const FileMesh::Segment &s = a.segments[k], &t = b.segments[k];
-    if (s.a != t.a || s.b != t.b)
-      refuse(fmt::format(":{}: another line than ", t.line), fmt::format(":{}", s.line));
+    if (s.a != t.a || s.b != t.b) refuse(fmt::format(":{}: another line than ", t.line), fmt::format(":{}", s.line));
   }
 }
 
