@@ -1,6 +1,7 @@
 #include "app/session/scene_file.h"
 
 #include <algorithm>
+#include <array>
 
 #include "app/files/output_file.h"
 #include "softbody/scene/scene_keys.h"
@@ -49,7 +50,12 @@ bool options_make(const softbody::Scene& used, const softbody::Scene& named) {
   softbody::Scene made = named;
   made.key = used.key;  // depends on the file's name
   made.view = used.view;
-  softbody::copy_values(used, made, true);
+  using namespace softbody::scene_key;
+  static constexpr std::array with_option{&method,    &levels,          &buckets,   &primes,
+                                          &cell_size, &contact_surface, &tolerance, &self_collision};
+  softbody::for_each_value(used, [&](const softbody::Key& key, const auto& value) {
+    if (std::ranges::find(with_option, &key) != with_option.end()) softbody::set_value(made, key, value);
+  });
   return made == used;
 }
 
