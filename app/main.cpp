@@ -18,10 +18,18 @@ namespace {
 
 void run(const app::cli::Options& options) {
   using app::cli::Command;
-  if (options.command == Command::list) return app::cli::list(options.list_of);
-  if (options.command == Command::simulate) return app::cli::simulate(options);
-  if (options.command == Command::detect) return app::cli::detect(options);
-  if (options.command == Command::report) return app::report::report(options.report);
+  switch (options.command) {
+    case Command::list:
+      return app::cli::list(options.list_of);
+    case Command::simulate:
+      return app::cli::simulate(options);
+    case Command::detect:
+      return app::cli::detect(options);
+    case Command::report:
+      return app::report::report(options.report);
+    case Command::demo:
+      break;
+  }
 #if SBCOLLIDE_GRAPHICS
   app::window::run_demo({.opened = app::cli::open(options),
                          .scene_name = options.play.empty() ? options.scene : options.play.front(),

@@ -68,17 +68,19 @@ HeadlessContext::HeadlessContext() {
 bool HeadlessContext::try_display(void* display, std::string& problem) {
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return false;
   const EGLContext context = create_context(display);
-  try {
-    if (context == EGL_NO_CONTEXT || !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
-      throw ContextError("the EGL driver gives no OpenGL 3.3 core context");
-    load_opengl();
-    display_ = display;
-    context_ = context;
-    return true;
-  } catch (const ContextError& error) {
-    problem = error.what();
+  if (context != EGL_NO_CONTEXT && eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+    try {
+      load_opengl();
+      display_ = display;
+      context_ = context;
+      return true;
+    } catch (const ContextError& error) {
+      problem = error.what();
+    }
+    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  } else {
+    problem = "the EGL driver gives no OpenGL 3.3 core context";
   }
-  eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
   eglTerminate(display);
   return false;

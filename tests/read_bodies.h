@@ -15,8 +15,7 @@ struct BodyFile {
 inline BodyFile read_bodies(const std::filesystem::path& file, std::optional<BodiesBy> by = {}) {
   const softbody::FileMesh mesh = softbody::read_file_mesh(file);
   BodyFile read;
-  const BodiesBy usual = mesh.format == softbody::FileMesh::Format::obj ? BodiesBy::objects : BodiesBy::components;
-  read.meshes = divide(mesh, by.value_or(usual), file, read.notes);
+  read.meshes = divide(mesh, by.value_or(default_bodies_by(mesh)), file, read.notes);
   read.at = positions_of(mesh, read.meshes);
   return read;
 }

@@ -24,7 +24,7 @@ softbody/scene: collide softbody/mesh softbody/state softbody/model softbody/con
 softbody/integrate/implicit: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces
 softbody/integrate: collide/core collide/surface softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate/implicit
 softbody/integrate/methods: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
-softbody/world: collide collide/core softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
+softbody/world: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
 softbody/api/sbcollide:
 softbody/api: collide/api collide/api/sbcollide collide/core softbody/api/sbcollide softbody/mesh softbody/model softbody/forces softbody/scene softbody/world
 engine:

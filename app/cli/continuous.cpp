@@ -17,15 +17,26 @@ namespace {
 using Json = nlohmann::ordered_json;
 using collide::oracle::FeatureMeeting;
 
+/// Numbers of pairs of features.
+struct Counts {
+  std::size_t own = 0, others = 0;  // of one surface; of two
+};
+
 /// Of one kind of pairs.
 struct KindCounts {
   const char *key, *name;
-  std::array<std::size_t, 2> meetings{}, passages{};  // of features of two surfaces; of one
+  Counts meetings{}, passages{};
 };
 
 struct Figures {
   std::array<KindCounts, 2> kinds{{{"vf", "vertex and face"}, {"ee", "edge and edge"}}};  // as in FeatureMeeting::Kind
   double ms = 0;
+
+  void count(const FeatureMeeting& meeting, bool own) {
+    KindCounts& kind = kinds[static_cast<std::size_t>(meeting.kind)];
+    ++(own ? kind.meetings.own : kind.meetings.others);
+    if (meeting.passes) ++(own ? kind.passages.own : kind.passages.others);
+  }
 };
 
 /// Returns a number with the fewest digits that identify it.
@@ -52,10 +63,7 @@ Figures find(const files::MotionFiles& motion, const Options& options) {
   collide::Workers workers(options.threads);
   const auto take = [&](const std::vector<FeatureMeeting>& meetings) {
     for (const FeatureMeeting& m : meetings) {
-      const bool own = motion.mesh.body[m.feature[0]] == motion.mesh.body[m.against[0]];
-      KindCounts& kind = figures.kinds[static_cast<std::size_t>(m.kind)];
-      ++kind.meetings[own];
-      if (m.passes) ++kind.passages[own];
+      figures.count(m, motion.mesh.body[m.feature[0]] == motion.mesh.body[m.against[0]]);
       if (csv) csv->write(csv_line(m));
     }
   };
@@ -73,7 +81,7 @@ Json to_json(const files::MotionFiles& motion, const Figures& figures, int threa
   for (const auto& [name, counts] :
        {std::pair("meetings", &KindCounts::meetings), {"passages", &KindCounts::passages}}) {
     for (const KindCounts& kind : figures.kinds)
-      document[name][kind.key] = {{"own", (kind.*counts)[true]}, {"others", (kind.*counts)[false]}};
+      document[name][kind.key] = {{"own", (kind.*counts).own}, {"others", (kind.*counts).others}};
   }
   document["ms"] = figures.ms;
   return document;
@@ -86,8 +94,8 @@ void print_table(const files::MotionFiles& motion, const Figures& figures, int t
   std::cout << fmt::format("{:16} {:>12} {:>12} {:>12} {:>12}\n", "pairs of", "meet, own", "others", "pass, own",
                            "others");
   for (const KindCounts& kind : figures.kinds)
-    std::cout << fmt::format("{:16} {:12} {:12} {:12} {:12}\n", kind.name, kind.meetings[true], kind.meetings[false],
-                             kind.passages[true], kind.passages[false]);
+    std::cout << fmt::format("{:16} {:12} {:12} {:12} {:12}\n", kind.name, kind.meetings.own, kind.meetings.others,
+                             kind.passages.own, kind.passages.others);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "app/cli/method_runs.h"
 
+#include <algorithm>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -65,14 +66,15 @@ class SideBySide {
   void search(std::size_t m, std::size_t f) {
     Runner& runner = runners_[m];
     if (!runner.run.not_run.empty()) return;
+    if (const std::uint64_t work = work_with(m, f); work > max_work) {
+      refuse(runner, f, fmt::format("would take {} a frame", cost_model_.of(m).in_words()));
+      return;
+    }
+    show_progress(fmt::format("frame {} of {}: {}", f + 1, task_.frames.size(), runner.run.method->name));
     try {
-      if (work_with(m, f) > max_work)
-        throw UsageError(fmt::format("would take {} a frame", cost_model_.of(m).in_words()));
-      show_progress(fmt::format("frame {} of {}: {}", f + 1, task_.frames.size(), runner.run.method->name));
       runner.search(f, task_, workers_, result_);
-    } catch (const std::exception& error) {  // or out of memory, or more contacts than a detector may report
-      const std::string from = f == 0 && repetition_ == 0 ? "" : fmt::format("from frame {} on: ", f);
-      runner.run.not_run = from + error.what();
+    } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report
+      refuse(runner, f, error.what());
       return;
     }
     cost_model_.learn(m, result_.counters);
@@ -89,6 +91,10 @@ class SideBySide {
                repeat = static_cast<std::uint64_t>(task_.repeat);
     const std::uint64_t left = (repeat - static_cast<std::uint64_t>(repetition_)) * frames - f;
     return runners_[m].work + left * cost_model_.of(m).cost();
+  }
+
+  void refuse(Runner& runner, std::size_t f, const std::string& why) {
+    runner.run.not_run = f == 0 && repetition_ == 0 ? why : fmt::format("from frame {} on: {}", f, why);
   }
 
   void choose_reference() {

@@ -106,14 +106,15 @@ std::vector<std::string> world_warnings(const softbody::World& world) {
 
 /// Returns the document of a world after its last frame, with these warnings; without `frames`, its other fields.
 Json document_json(const softbody::World& world, const std::vector<std::string>& warnings, std::optional<Json> frames) {
-  Json document{{"scene", world.scene().key},
-                {"method", world.method().key},
-                {"integrator",  // the one asked for, the one that the last frame used, and why if it was chosen so
-                 {{"key", world.integrator_choice().key},
-                  {"used", world.last_step().integrator->key},
-                  {"why", world.last_step().why}}},
-                {"plan", plan_json(world)},
-                {"warnings", warnings}};
+  Json document{
+      {"scene", world.scene().key},
+      {"method", world.method().key},
+      {"integrator",  // the one asked for, the one that the last frame used, and why if it was chosen automatically
+       {{"key", world.integrator_choice().key},
+        {"used", world.last_step().integrator->key},
+        {"why", world.last_step().why}}},
+      {"plan", plan_json(world)},
+      {"warnings", warnings}};
   if (frames) document["frames"] = std::move(*frames);
   document["state_hash"] = hex(world.state_hash());
   return document;
@@ -344,8 +345,10 @@ void simulate(const Options& options) {
   std::ranges::copy(world_warnings(world), std::back_inserter(warnings));
   if (!options.json_lines && !options.json) return print_table(world, warnings, rows);
   std::optional<Json> frames;
-  if (options.json) frames = Json::array();
-  for (const FrameRow& r : rows) frames->push_back(to_json(r));
+  if (options.json) {
+    frames = Json::array();
+    for (const FrameRow& r : rows) frames->push_back(to_json(r));
+  }
   print_line(document_json(world, warnings, std::move(frames)));
 }
 

@@ -96,8 +96,14 @@ Partition components_of(const FileMesh& mesh) {
 }
 
 Partition partition_of(const FileMesh& mesh, BodiesBy by, std::vector<std::string>& notes) {
-  if (by == BodiesBy::objects) return objects_of(mesh, notes);
-  if (by == BodiesBy::components) return components_of(mesh);
+  switch (by) {
+    case BodiesBy::objects:
+      return objects_of(mesh, notes);
+    case BodiesBy::components:
+      return components_of(mesh);
+    case BodiesBy::one:
+      break;
+  }
   return {std::vector<Index>(mesh.x.size(), 0), 1};
 }
 
@@ -116,6 +122,10 @@ struct Groups {
 };
 
 }  // namespace
+
+BodiesBy default_bodies_by(const FileMesh& mesh) {
+  return mesh.format == FileMesh::Format::obj ? BodiesBy::objects : BodiesBy::components;
+}
 
 BodyMeshes divide(const FileMesh& mesh, BodiesBy by, const std::filesystem::path& file,
                   std::vector<std::string>& notes) {
@@ -136,7 +146,10 @@ BodyMeshes divide(const FileMesh& mesh, BodiesBy by, const std::filesystem::path
   if (by == BodiesBy::components && count > 2 && 2 * count > mesh.faces.size() && !mesh.faces.empty())
     notes.push_back(std::to_string(mesh.faces.size()) + " faces are " + std::to_string(count) +
                     " bodies, since most share no vertex with another one; if they are one mesh, give --bodies one");
-  BodyMeshes bodies{std::move(vertices.first), std::move(vertices.members), {}, std::move(faces.first)};
+  BodyMeshes bodies{.first = std::move(vertices.first),
+                    .file_vertex = std::move(vertices.members),
+                    .polygons = {},
+                    .first_polygon = std::move(faces.first)};
   bodies.polygons.corners.reserve(mesh.corners.size());
   bodies.polygons.ends.reserve(mesh.faces.size());
   for (const std::size_t face : faces.members) {

@@ -68,6 +68,9 @@ void for_each_triangle(std::span<const collide::Index> corners, const Position& 
 /// without triangles that have a vertex twice. Nothing is welded, turned or dropped.
 std::vector<softbody::Triangle> triangles_of(const BodyMeshes& meshes, std::size_t body, const softbody::Points& at);
 
+/// Returns objects for an OBJ file, components for a PLY file.
+BodiesBy default_bodies_by(const softbody::FileMesh& mesh);
+
 /// Divides a mesh that was read from `file`. Throws MeshFileError if a face names vertices of several objects that are
 /// bodies. notes: gets a line for each thing that the author may have meant differently.
 BodyMeshes divide(const softbody::FileMesh& mesh, BodiesBy by, const std::filesystem::path& file,

@@ -59,7 +59,7 @@ FrameSequence::FrameSequence(std::vector<std::filesystem::path> files, const Opt
     for (std::size_t v = 0; v < mesh.x.size(); ++v) box.add(mesh.position(v));
     origin_ = softbody::origin_near(box.lo, box.hi);
   }
-  by_ = options.by.value_or(mesh.format == softbody::FileMesh::Format::obj ? BodiesBy::objects : BodiesBy::components);
+  by_ = options.by.value_or(default_bodies_by(mesh));
   const auto first = std::make_shared<SequenceBodies>();
   first->meshes = divide(mesh, by_, files_.front(), notes_);
   first_at_ = positions_of(mesh, first->meshes, origin_);

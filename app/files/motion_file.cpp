@@ -28,11 +28,11 @@ Frame read_frame(const std::filesystem::path& file) {
 
 /// Throws UsageError unless both frames have the same vertices, faces and lines.
 void require_match(const Frame& from, const Frame& to) {
-  const auto refuse = [&](const std::string& in_to, const std::string& in_from) {
-    throw UsageError(to.file + in_to + from.file + in_from + "; give two frames of one mesh");
+  const auto refuse = [](const std::string& difference) {
+    throw UsageError(difference + "; give two frames of one mesh");
   };
   const auto require_number = [&](const char* of, std::size_t in_from, std::size_t in_to) {
-    if (in_from != in_to) refuse(fmt::format(": number of {} {}, in ", of, in_to), fmt::format(" {}", in_from));
+    if (in_from != in_to) refuse(fmt::format("{}: number of {} {}, in {} {}", to.file, of, in_to, from.file, in_from));
   };
   const FileMesh &a = from.mesh, &b = to.mesh;
   require_number("vertices", a.x.size(), b.x.size());
@@ -40,10 +40,11 @@ void require_match(const Frame& from, const Frame& to) {
   require_number("segments of lines", a.segments.size(), b.segments.size());
   for (std::size_t face = 0; face < a.faces.size(); ++face)
     if (!std::ranges::equal(a.corners_of(face), b.corners_of(face)))
-      refuse(fmt::format(":{}: another face than ", b.place(face)), fmt::format(":{}", a.place(face)));
+      refuse(fmt::format("{}:{}: another face than {}:{}", to.file, b.place(face), from.file, a.place(face)));
   for (std::size_t k = 0; k < a.segments.size(); ++k) {
     const FileMesh::Segment &s = a.segments[k], &t = b.segments[k];
-    if (s.a != t.a || s.b != t.b) refuse(fmt::format(":{}: another line than ", t.line), fmt::format(":{}", s.line));
+    if (s.a != t.a || s.b != t.b)
+      refuse(fmt::format("{}:{}: another line than {}:{}", to.file, t.line, from.file, s.line));
   }
 }
 

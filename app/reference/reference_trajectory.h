@@ -16,7 +16,7 @@ struct Trajectory {
 struct TrajectoryLimits {
   double seconds = 0.5;
   std::uint64_t steps = 200'000;
-  /// m/s: a body whose unsettled_speed() stays below this for a while has settled. 0: never.
+  /// m/s: a body whose unsettled_speed() stays below this for a while has settled: integrate() ends then. 0: never.
   double settled_speed = 0;
 };
 

@@ -27,7 +27,7 @@ constexpr float faint = 0.12f;         // for what fills the scene
 constexpr float half_hidden = 0.3f;    // for contacts, most of which lie behind a surface: where bodies press together
 constexpr float seen_through = 0.45f;  // for the few that must be found: chosen with the mouse, or missed
 
-/// Lines and points that look alike, added to the frame.
+/// Lines and points that look alike, added to the frame. Valid until another set is added to it.
 struct LinesAndPoints {
   LinesAndPoints(engine::FrameData& frame, float width, float diameter, float occluded_alpha)
       : lines(frame.lines.emplace_back(engine::LineSet{{}, width, occluded_alpha}).lines),

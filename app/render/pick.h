@@ -28,10 +28,12 @@ std::optional<Pick> pick(const engine::Ray& ray, const softbody::BodiesInMotion&
 std::optional<float> distance_to_scene(const engine::Ray& ray, const softbody::BodiesInMotion& world,
                                        const compare::DrawnPositions& positions);
 
+/// Where a ray enters a solid.
 struct SolidPick {
   std::size_t index;  // in the scene
   double distance;    // m, from the ray's origin
 };
+
 /// Returns the solid that the ray enters first, within `max_distance` (m). It looks through a solid in which the ray
 /// starts, as the drawing does.
 std::optional<SolidPick> pick_solid(const engine::Ray& ray, const softbody::Scene& scene, double max_distance);

@@ -71,7 +71,7 @@ double Session::stepped() {
 void Session::intervened() { notify(ghost_.restart(simulated())); }
 
 void Session::detection_changed() {
-  inspector.select_bucket(inspector.selected_bucket());  // the table may have fewer
+  inspector.select_bucket(inspector.selected_bucket());  // the table may have fewer buckets
   comparison.detection_changed(world(), simulation.revision());
 }
 

@@ -57,20 +57,28 @@ const char* sbcollide_finder_error(const sbcollide_finder* finder) { return find
 sbcollide_status sbcollide_finder_set(sbcollide_finder* finder, sbcollide_finder_setting setting, double value) {
   return guarded(finder, [&] {
     sbcollide::FinderSettings changed = finder->settings;
-    if (setting == SBCOLLIDE_TOLERANCE)
-      changed.tolerance = static_cast<float>(value);
-    else if (setting == SBCOLLIDE_SELF_COLLISION)
-      changed.self_collision = value != 0;
-    else if (setting == SBCOLLIDE_THREADS)
-      changed.threads = whole<int>(value, "threads");
-    else if (setting == SBCOLLIDE_LEVELS)
-      changed.levels = whole<int>(value, "levels");
-    else if (setting == SBCOLLIDE_BUCKETS)
-      changed.buckets = whole<std::uint32_t>(value, "buckets");
-    else if (setting == SBCOLLIDE_CELL_SIZE)
-      changed.cell_size.fill(static_cast<float>(value));
-    else
-      throw sbcollide::Error("setting " + std::to_string(int(setting)) + ": there is none");
+    switch (setting) {
+      case SBCOLLIDE_TOLERANCE:
+        changed.tolerance = static_cast<float>(value);
+        break;
+      case SBCOLLIDE_SELF_COLLISION:
+        changed.self_collision = value != 0;
+        break;
+      case SBCOLLIDE_THREADS:
+        changed.threads = whole<int>(value, "threads");
+        break;
+      case SBCOLLIDE_LEVELS:
+        changed.levels = whole<int>(value, "levels");
+        break;
+      case SBCOLLIDE_BUCKETS:
+        changed.buckets = whole<std::uint32_t>(value, "buckets");
+        break;
+      case SBCOLLIDE_CELL_SIZE:
+        changed.cell_size.fill(static_cast<float>(value));
+        break;
+      default:
+        throw sbcollide::Error("setting " + std::to_string(int(setting)) + ": there is none");
+    }
     finder->take(changed);
   });
 }

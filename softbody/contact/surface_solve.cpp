@@ -65,11 +65,12 @@ void SurfaceContact::separate(Pair& pair, Field<const float> x, Field<float> v) 
     add(v, two.slot + i * two.stride, -impulse * b.inverse_mass * axis);
 }
 
-/// In each pass colour by colour, each by one thread. A few rows are done by the first thread before all have met at
-/// every colour; the others do not wait for it.
+/// Each pass goes colour by colour, each pair is solved by one thread. A few rows are done by the first thread before
+/// all have met at every colour; the others do not wait for it.
 void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
                            const std::function<void()>& barrier) {
-  const bool alone = rows() < 2000;
+  constexpr std::size_t few_rows = 2000;
+  const bool alone = rows() < few_rows;
   const auto pass = [&](const auto& visit) {
     for (const auto& colour : candidates_.colours()) {
       const collide::Part part =

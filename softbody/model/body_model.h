@@ -39,7 +39,7 @@ struct BodyMesh {
 
 /// A fine mesh that rides on the mesh of a body model.
 struct FineMesh : BodyMesh {
-  std::shared_ptr<const ImportedMesh> imported;  // with the embedding
+  std::shared_ptr<const ImportedMesh> imported;  // with the coarse mesh and the embedding
   const Embedding& embedding() const { return imported->coarse->embedding; }
 };
 

@@ -9,7 +9,6 @@
 #include <glm/vec2.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "collide/core/vertex_kernels.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/scene/scene_keys.h"
 #include "softbody/world/measures.h"
@@ -146,11 +145,25 @@ BodyId World::add(const BodySource& source) {
 
 /// Wakes the bodies near this one: they may rest on it, even if the detector reports no contact.
 void World::Parts::wake_near(BodyId body) {
-  const auto box = [&](BodyId b) { return collide::measure_bounds(collide::vertices_of(particles.frame(), b)).box; };
-  const collide::Aabb own = box(body);
+  const collide::Frame now = particles.frame();
+  const collide::Bodies& bodies = particles.bodies;
+  const auto box = [&](BodyId b) {
+    const Index first = bodies.first[b];
+    glm::vec3 lo(now.x[first], now.y[first], now.z[first]), hi = lo;
+    for (Index i = first; i < bodies.first[b + 1]; ++i) {
+      const glm::vec3 p(now.x[i], now.y[i], now.z[i]);
+      lo = glm::min(lo, p), hi = glm::max(hi, p);
+    }
+    return std::pair(lo, hi);
+  };
   const float wake_distance = std::max(settings.tolerance, 0.25f * float(solver.state().model(body).mean_edge));
-  for (BodyId b = 0; b < particles.bodies.count(); ++b)
-    if (solver.state().body(b).asleep && collide::near(own, box(b), wake_distance)) solver.state().set_asleep(b, false);
+  const auto [lo, hi] = box(body);
+  for (BodyId b = 0; b < bodies.count(); ++b) {
+    if (!solver.state().body(b).asleep) continue;
+    const auto [low, high] = box(b);
+    if (glm::all(glm::lessThan(low, hi + wake_distance)) && glm::all(glm::lessThan(lo, high + wake_distance)))
+      solver.state().set_asleep(b, false);
+  }
 }
 
 void World::remove(BodyId body) {

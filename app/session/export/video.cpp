@@ -1,8 +1,7 @@
 // Writes a video by ffmpeg, a child process that reads the pictures.
 
+#include <fcntl.h>
 #include <spawn.h>
-#include <stdio.h>
-#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -33,25 +32,42 @@ namespace {
 
 constexpr int timeout_seconds = 30;  // for one picture, and for the end
 
+/// Owns a file descriptor and closes it.
+class FileDescriptor {
+ public:
+  explicit FileDescriptor(int number = -1) : number_(number) {}
+  ~FileDescriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  FileDescriptor(FileDescriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  FileDescriptor& operator=(FileDescriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
 /// A running ffmpeg. It reads from a socket, not a pipe: when ffmpeg dies, sending fails, and no signal ends the
 /// program.
 class Ffmpeg {
  public:
   /// video: the file to write, which becomes ffmpeg's standard output. Throws UsageError if there is no ffmpeg.
   Ffmpeg(std::vector<std::string> arguments, int video) {
-    std::array<int, 2> pictures{};
-    if (!errors_ || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pictures.data()) != 0) refuse(errno);
-    pictures_ = pictures[0];
+    std::array<int, 2> pictures{}, errors{};
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pictures.data()) != 0) refuse(errno);
+    const FileDescriptor input(pictures[1]);
+    pictures_ = FileDescriptor(pictures[0]);
+    if (::pipe2(errors.data(), O_CLOEXEC) != 0) refuse(errno);
+    const FileDescriptor output(errors[1]);
+    errors_ = FileDescriptor(errors[0]);
     const timeval limit{timeout_seconds, 0};
-    ::setsockopt(pictures_, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
-    const int error = spawn(std::move(arguments), pictures[1], video, ::fileno(errors_.get()));
-    ::close(pictures[1]);
-    if (error == 0) return;
-    ::close(pictures_);
-    refuse(error);
+    ::setsockopt(pictures[0], SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
+    if (const int error = spawn(std::move(arguments), input.number(), video, output.number())) refuse(error);
   }
   ~Ffmpeg() {
-    if (pictures_ >= 0) ::close(pictures_);
     if (child_ <= 0) return;
     ::kill(child_, SIGKILL);
     ::waitpid(child_, nullptr, 0);
@@ -62,7 +78,7 @@ class Ffmpeg {
   /// Returns false if ffmpeg reads no more.
   bool send(std::span<const std::uint8_t> bytes) {
     while (!bytes.empty()) {
-      const auto sent = ::send(pictures_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      const auto sent = ::send(pictures_.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
       if (sent < 0 && errno == EINTR) continue;
       if (sent <= 0) return false;
       bytes = bytes.subspan(static_cast<std::size_t>(sent));
@@ -72,7 +88,7 @@ class Ffmpeg {
 
   /// Ends the pictures and waits for ffmpeg. Returns true if ffmpeg reports success. Call it once.
   bool finish() {
-    ::close(std::exchange(pictures_, -1));
+    pictures_ = FileDescriptor();
     if (child_ <= 0) return false;
     int status = 0;
     for (int tenth = 0; tenth < 10 * timeout_seconds; ++tenth) {
@@ -87,12 +103,13 @@ class Ffmpeg {
 
   /// Returns the last line that ffmpeg wrote to standard error. Call it after finish().
   std::string last_error_line() const {
-    std::string last = "it does not say why";
-    std::array<char, 4096> line;
-    std::rewind(errors_.get());
-    while (std::fgets(line.data(), static_cast<int>(line.size()), errors_.get()))
-      if (const std::string_view text(line.data()); text != "\n") last = text.substr(0, text.find('\n'));
-    return last;
+    std::string text(4096, '\0');
+    ::fcntl(errors_.number(), F_SETFL, O_NONBLOCK);
+    const auto length = ::read(errors_.number(), text.data(), text.size());
+    text.resize(length > 0 ? static_cast<std::size_t>(length) : 0);
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    text.erase(0, text.rfind('\n') + 1);
+    return text.empty() ? "it does not say why" : text;
   }
 
  private:
@@ -117,10 +134,7 @@ class Ffmpeg {
     return error;
   }
 
-  int pictures_ = -1;  // the socket
-  // A file in memory: it holds any amount, so that ffmpeg never waits.
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> errors_{::fdopen(::memfd_create("ffmpeg", MFD_CLOEXEC), "r+"),
-                                                                &std::fclose};
+  FileDescriptor pictures_, errors_;
   pid_t child_ = 0;
 };
 

@@ -27,7 +27,10 @@ std::string Ghost::choose(const softbody::World& of, const std::optional<softbod
         softbody::Scene(), softbody::World::Options{.threads = threads, .frame_time = of.frame_time()});
     bring_to(*chosen, of, *choice);
   }
+  compare::Positions before;
+  if (chosen) before.copy(chosen->positions());
   world_ = std::move(chosen);
+  before_ = std::move(before);
   restarted();
   return {};
 } catch (const std::exception& error) {

@@ -12,7 +12,7 @@
 namespace app::session {
 
 /// There is one if the user wants it. It is kept in step with the world that is shown (`of`). Functions that return a
-/// text return what went wrong, for the user; the ghost is gone then. Empty: nothing did.
+/// text return what went wrong, for the user; unless said otherwise, the ghost is gone then. Empty: nothing did.
 class Ghost {
  public:
   /// Begins a ghost of the present state, or ends it. On an error the ghost before stays.

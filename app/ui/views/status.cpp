@@ -43,6 +43,7 @@ StatusLight status_light(const collide::Method& method) {
 
 StatusLight status_light(collide::Coverage coverage) {
   static constexpr std::array<StatusLight, 3> lights{
+      // by collide::Coverage
       {{render::status_green, "Green", "exact",
         "The method is exact: it finds every pair of vertices closer than the tolerance."},
        {render::status_amber, "Amber", "can miss",

@@ -48,11 +48,18 @@ void draw_marker(ImVec2 at, float radius, compare::Marker marker, ImU32 colour, 
                                             at.y + radius * shape.radius * std::sin(angle)};
   }
   ImDrawList* draw = ImGui::GetWindowDrawList();
-  const std::size_t half = static_cast<std::size_t>(shape.corners) / 2;
-  if (shape.style == Shape::filled) draw->AddConvexPolyFilled(corners.data(), shape.corners, colour);
-  if (shape.style == Shape::outline) draw->AddPolyline(corners.data(), shape.corners, colour, ImDrawFlags_Closed, line);
-  for (std::size_t i = 0; shape.style == Shape::strokes && i < half; ++i)
-    draw->AddLine(corners[i], corners[i + half], colour, line);
+  switch (shape.style) {
+    case Shape::strokes:
+      for (std::size_t i = 0, half = static_cast<std::size_t>(shape.corners) / 2; i < half; ++i)
+        draw->AddLine(corners[i], corners[i + half], colour, line);
+      break;
+    case Shape::outline:
+      draw->AddPolyline(corners.data(), shape.corners, colour, ImDrawFlags_Closed, line);
+      break;
+    case Shape::filled:
+      draw->AddConvexPolyFilled(corners.data(), shape.corners, colour);
+      break;
+  }
 }
 
 void draw_method_mark(const Widgets& w, const collide::Method& method, float line_height) {

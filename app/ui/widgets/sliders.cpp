@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
-#include <utility>
 
 #include "app/base/parse_numbers.h"
 #include "app/ui/widgets/widgets.h"
@@ -28,6 +27,15 @@ void Widgets::register_number(const char* label, const char* tooltip) {
 }
 
 namespace {
+
+/// Hides ImGui's own grab, which would cover the value in the middle of the slider.
+class HiddenGrab {
+ public:
+  HiddenGrab() {
+    for (const ImGuiCol which : {ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive}) ImGui::PushStyleColor(which, {});
+  }
+  ~HiddenGrab() { ImGui::PopStyleColor(2); }
+};
 
 /// Returns the position of a value between the ends of a slider, 0 .. 1.
 float relative_position(double value, double min, double max, bool logarithmic) {
@@ -54,6 +62,13 @@ constexpr ImGuiSliderFlags clamped = ImGuiSliderFlags_AlwaysClamp;
 
 /// True at a double-click, unless a field is open already: there a double-click selects a word.
 bool opens_field() { return ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && !ImGui::IsAnyItemActive(); }
+
+/// Lets a double-click open a slider's field for typing. ImGui opens it only by Ctrl+click.
+struct OpenByDoubleClick {
+  const bool before = ImGui::GetIO().KeyCtrl;
+  OpenByDoubleClick() { ImGui::GetIO().KeyCtrl |= opens_field(); }
+  ~OpenByDoubleClick() { ImGui::GetIO().KeyCtrl = before; }
+};
 
 template <class Value>
 constexpr ImGuiDataType imgui_type = std::is_same_v<Value, float> ? ImGuiDataType_Float
@@ -120,17 +135,15 @@ bool Widgets::slide(const Number<Value>& n, bool logarithmic, const char* shown_
   const Value now = n.value;
   const bool double_clicked = opens_field() && input_.pressed == n.label;
   if (double_clicked) n.value = static_cast<Value>(input_.value_before);
-  // A double-click opens a field for typing, which ImGui opens only by Ctrl+click.
-  const bool ctrl = std::exchange(ImGui::GetIO().KeyCtrl, ImGui::GetIO().KeyCtrl || opens_field());
-  // ImGui's own grab would cover the value in the middle of the slider.
-  for (const ImGuiCol which : {ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive}) ImGui::PushStyleColor(which, {});
-  const bool changed = drag_or_type(n, [&](const char* id) {
-    return ImGui::SliderScalar(id, imgui_type<Value>, &n.value, &n.min, &n.max,
-                               double_clicked ? n.format : shown_format,
-                               clamped | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
-  });
-  ImGui::PopStyleColor(2);
-  ImGui::GetIO().KeyCtrl = ctrl;
+  const bool changed = [&] {
+    const HiddenGrab hide;
+    const OpenByDoubleClick opens;
+    return drag_or_type(n, [&](const char* id) {
+      return ImGui::SliderScalar(id, imgui_type<Value>, &n.value, &n.min, &n.max,
+                                 double_clicked ? n.format : shown_format,
+                                 clamped | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
+    });
+  }();
   if (double_clicked) {
     if (!ImGui::IsItemActive()) n.value = now;  // the second click missed the slider
     input_.pressed.clear();
