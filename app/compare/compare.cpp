@@ -18,6 +18,14 @@ CompareRow scored(const collide::Result& found, const std::vector<collide::Conta
   return row;
 }
 
+CompareReport empty_report(const FrameSnapshot& snapshot) {
+  CompareReport report;
+  report.id = snapshot.id;
+  report.frame = snapshot.frame_number;
+  report.rows.resize(collide::method_table().size());
+  return report;
+}
+
 }  // namespace
 
 std::size_t method_index(std::string_view key) {
@@ -39,47 +47,41 @@ std::optional<std::size_t> choose_reference(const collide::Method& beside,
   return std::nullopt;
 }
 
-CompareReport Comparison::run(const FrameSnapshot& snapshot, const std::stop_token& stop) {
+std::optional<CompareReport> Comparison::advance(const FrameSnapshot& snapshot,
+                                                 const Background<Comparison>& background) {
+  try {
+    if (!report_) begin(snapshot);
+    if (background.cancelled()) return std::exchange(report_, std::nullopt);
+    if (timed_ < report_->order.size()) {
+      detect(report_->order[timed_++], snapshot);
+      return std::nullopt;
+    }
+    score(snapshot);
+  } catch (const std::exception& error) {
+    report_ = empty_report(snapshot);
+    report_->reference_note = std::string("the comparison failed: ") + error.what();
+  }
+  return std::exchange(report_, std::nullopt);
+}
+
+void Comparison::begin(const FrameSnapshot& snapshot) {
   if (world_ != snapshot.world) entries_.clear();  // the detectors of another world may hold much memory
   world_ = snapshot.world;
   for (const collide::Method& method : collide::method_table().subspan(entries_.size()))
     entries_.push_back({.detector = method.make(), .result = {}, .error = {}});
-  CompareReport report;
-  report.id = snapshot.id;
-  report.frame = snapshot.frame_number;
-  report.rows.resize(entries_.size());
+  report_ = empty_report(snapshot);
   for (Entry& entry : entries_) entry.done = false;
   cost_model_.begin(snapshot.view(), snapshot.settings, snapshot.world);
   cost_model_.learn(snapshot.driver, snapshot.found.counters);
-
-  report.order = choose(snapshot, report);
-  std::ranges::shuffle(report.order, random_);
-  for (const std::size_t method : report.order) {
-    if (stop.stop_requested()) return report;
-    detect(method, snapshot);
-    CompareRow& row = report.rows[method];
-    if (entries_[method].done) row.ms = entries_[method].ms;
-    row.not_run = entries_[method].error;
-  }
-  report.reference = find_reference(snapshot, report.reference_note);
-  if (report.reference && !entries_[*report.reference].done) detect(*report.reference, snapshot);
-  score(snapshot, report);
-  return report;
-}
-
-/// Returns the methods to time, in the order of the table. Brute force is not among them: it only serves as the
-/// reference.
-std::vector<std::size_t> Comparison::choose(const FrameSnapshot& snapshot, CompareReport& report) {
-  std::vector<std::size_t> order;
   for (std::size_t i = 0; i < snapshot.chosen.size(); ++i) {
     if (!snapshot.chosen[i]) continue;
-    if (const WorkEstimate work = cost_model_.of(i); work.cost() > budget_) {
-      report.rows[i].not_run = "not run: " + work.in_words() + " predicted";
-    } else if (collide::method_table()[i].key != collide::reference_method) {
-      order.push_back(i);
-    }
+    if (const WorkEstimate work = cost_model_.of(i); work.cost() > budget_)
+      report_->rows[i].not_run = "not run: " + work.in_words() + " predicted";
+    else if (collide::method_table()[i].key != collide::reference_method)  // which is not timed
+      report_->order.push_back(i);
   }
-  return order;
+  std::ranges::shuffle(report_->order, random_);
+  timed_ = 0;
 }
 
 void Comparison::detect(std::size_t method, const FrameSnapshot& snapshot) {
@@ -95,28 +97,32 @@ void Comparison::detect(std::size_t method, const FrameSnapshot& snapshot) {
   }
 }
 
-std::optional<std::size_t> Comparison::find_reference(const FrameSnapshot& snapshot,
-                                                      std::string& reference_note) const {
+std::optional<std::size_t> Comparison::find_reference(const FrameSnapshot& snapshot) {
   if (const WorkEstimate work = cost_model_.of(method_index(collide::reference_method)); work.cost() > budget_)
-    reference_note = "brute force would take " + work.in_words();
-  return choose_reference(collide::method_table()[snapshot.driver], [&](std::size_t i) {
+    report_->reference_note = "brute force would take " + work.in_words();
+  const auto reference = choose_reference(collide::method_table()[snapshot.driver], [&](std::size_t i) {
     return i < entries_.size() && (entries_[i].done || cost_model_.of(i).cost() <= budget_);
   });
+  if (!reference || entries_[*reference].done) return reference;
+  detect(*reference, snapshot);
+  if (entries_[*reference].done) return reference;
+  report_->reference_note = entries_[*reference].error;
+  return std::nullopt;
 }
 
-void Comparison::score(const FrameSnapshot& snapshot, CompareReport& report) const {
-  if (!report.reference) return;
-  const Entry& reference = entries_[*report.reference];
-  if (!reference.done) {  // it threw
-    report.reference_note = reference.error;
-    report.reference.reset();
-    return;
+void Comparison::score(const FrameSnapshot& snapshot) {
+  for (const std::size_t method : report_->order) {
+    if (entries_[method].done) report_->rows[method].ms = entries_[method].ms;
+    report_->rows[method].not_run = entries_[method].error;
   }
+  report_->reference = find_reference(snapshot);
+  if (!report_->reference) return;
+  const Entry& reference = entries_[*report_->reference];
   const std::vector<collide::Contact>& truth = reference.result.contacts;
-  report.true_contacts = truth.size();
-  report.reference_ms = reference.ms;
+  report_->true_contacts = truth.size();
+  report_->reference_ms = reference.ms;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
-    CompareRow& row = report.rows[i];
+    CompareRow& row = report_->rows[i];
     if (i == snapshot.driver) {
       row = scored(snapshot.found, truth, std::move(row));
       if (entries_[i].done) row.counters = entries_[i].result.counters;  // of the search from scratch that was timed

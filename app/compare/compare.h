@@ -5,10 +5,10 @@
 #include <memory>
 #include <optional>
 #include <random>
-#include <stop_token>
 #include <string>
 #include <vector>
 
+#include "app/base/background.h"
 #include "app/compare/cost_model.h"
 #include "app/compare/method_style.h"
 #include "app/compare/positions.h"
@@ -59,18 +59,21 @@ struct CompareReport {
   std::vector<CompareRow> rows;    // by method
 };
 
-/// Runs the methods one after another. Each has a detector of its own, which is kept from frame to frame of a world.
+/// Runs the methods one after another, as a task for Background. Each has a detector of its own, which is kept from
+/// frame to frame of a world.
 class Comparison {
  public:
+  using Question = FrameSnapshot;
+  using Answer = CompareReport;
   /// The pair tests that one method may take on one frame: about a second on one core.
   static constexpr std::uint64_t default_budget = 1'000'000'000;
 
   explicit Comparison(std::uint32_t seed, std::uint64_t budget = default_budget) : budget_(budget), random_(seed) {}
 
-  /// Times the chosen methods within the budget, in a new random order with each call. The reference is brute force;
-  /// where this exceeds the budget, an exact method of another kind than the driver. `stop` is checked between methods;
-  /// the report of a stopped run is worthless.
-  CompareReport run(const FrameSnapshot& snapshot, const std::stop_token& stop = {});
+  /// Times the chosen methods within the budget, one a part, in a new random order for each snapshot. The reference is
+  /// brute force; where this exceeds the budget, an exact method of another kind than the driver. A comparison that
+  /// fails, as with too little memory, says so in its report. The report of a cancelled comparison is worthless.
+  std::optional<CompareReport> advance(const FrameSnapshot& snapshot, const Background<Comparison>& background);
 
  private:
   struct Entry {
@@ -81,16 +84,18 @@ class Comparison {
     std::string error;
   };
 
-  std::vector<std::size_t> choose(const FrameSnapshot& snapshot, CompareReport& report);
+  void begin(const FrameSnapshot& snapshot);
   void detect(std::size_t method, const FrameSnapshot& snapshot);
-  std::optional<std::size_t> find_reference(const FrameSnapshot& snapshot, std::string& reference_note) const;
-  void score(const FrameSnapshot& snapshot, CompareReport& report) const;
+  std::optional<std::size_t> find_reference(const FrameSnapshot& snapshot);
+  void score(const FrameSnapshot& snapshot);
 
   std::uint64_t budget_;
   std::mt19937 random_;
-  std::vector<Entry> entries_;  // by method; those that have joined the table since the last run() are missing
+  std::vector<Entry> entries_;  // by method; those that have joined the table since the last begin() are missing
   std::uint64_t world_ = 0;     // of the last frame
   CostModel cost_model_;
+  std::optional<CompareReport> report_;  // of the snapshot at hand
+  std::size_t timed_ = 0;                // of its order
   collide::Workers alone_{1};
 };
 

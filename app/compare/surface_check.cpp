@@ -1,6 +1,7 @@
 #include "app/compare/surface_check.h"
 
 #include <array>
+#include <utility>
 
 namespace app::compare {
 namespace {
@@ -25,15 +26,20 @@ std::vector<SurfaceMark> marks_of(const Positions& at, const collide::oracle::Ov
 
 }  // namespace
 
-SurfaceReport check_surfaces(const StepSnapshot& step, const std::stop_token& stop) {
+std::optional<SurfaceReport> SurfaceCheck::advance(const StepSnapshot& step,
+                                                   const Background<SurfaceCheck>& background) {
   SurfaceReport report;
   report.id = step.id;
   report.frame = step.frame;
   try {
     collide::Workers worker(1);
     const collide::Frame now = step.view();
-    const collide::oracle::Overlaps overlaps = collide::oracle::find_overlaps(now, step.surfaces, worker);
-    if (stop.stop_requested()) return report;
+    if (!overlaps_) {
+      overlaps_ = collide::oracle::find_overlaps(now, step.surfaces, worker);
+      return std::nullopt;
+    }
+    const collide::oracle::Overlaps overlaps = *std::exchange(overlaps_, std::nullopt);
+    if (background.cancelled()) return report;
     Positions start = step.before;
     for (std::size_t v = start.x.size(); v < step.at.x.size(); ++v)  // bodies that were added in the step
       start.add(std::array{glm::dvec3(softbody::ConstPoints(step.at)[v])});

@@ -2,10 +2,10 @@
 // Checks one step, copied from the world, with the surface oracle: what is inside what, what passed through what, and
 // which of these overlaps the detector's contacts do not show.
 
-#include <stop_token>
+#include <optional>
 #include <string>
 
-#include "app/base/background_worker.h"
+#include "app/base/background.h"
 #include "app/compare/positions.h"
 #include "collide/oracle/surface_oracle.h"
 
@@ -38,15 +38,16 @@ struct SurfaceReport {
   std::string failure;             // why there are no figures, else empty
 };
 
-/// Checks a step on the calling thread alone. `stop` is checked between overlaps and crossings; the report of a stopped
-/// check is worthless. Too little memory is reported as a failure.
-SurfaceReport check_surfaces(const StepSnapshot& step, const std::stop_token& stop = {});
-
-struct SurfaceCheckTask {
+/// Checks a step on one thread, as a task for Background: first its overlaps, then its crossings. The report of a
+/// cancelled check is worthless. Too little memory is reported as a failure.
+class SurfaceCheck {
+ public:
   using Question = StepSnapshot;
   using Answer = SurfaceReport;
-  SurfaceReport answer(const StepSnapshot& step, const std::stop_token& stop) { return check_surfaces(step, stop); }
+  std::optional<SurfaceReport> advance(const StepSnapshot& step, const Background<SurfaceCheck>& background);
+
+ private:
+  std::optional<collide::oracle::Overlaps> overlaps_;  // of the step at hand
 };
-using SurfaceCheckWorker = BackgroundWorker<SurfaceCheckTask>;
 
 }  // namespace app::compare

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 
 #include <fmt/core.h>
@@ -62,9 +63,19 @@ std::vector<std::string> lines_about(const FileReader::Mesh& read, const softbod
   return lines;
 }
 
-FileReader::World world_of(const std::filesystem::path& path, std::string what, files::Opened opened, int threads) {
-  ShownWorld shown = show_in_window(opened, threads);
-  return {path, std::move(what), std::move(opened), std::move(shown)};
+/// Returns a mesh without its model, or what a window can show.
+FileReader::Answer read_file(const FileReader::Question& question,
+                             const std::function<void(std::string_view)>& begin_stage) {
+  if (const auto* file = std::get_if<softbody::MeshFile>(&question.file))
+    return FileReader::Mesh{softbody::MeshSource::from_file(*file, begin_stage), nullptr};
+  if (const auto* frames = std::get_if<FileReader::FramesToRead>(&question.file)) {
+    files::Opened opened = files::open_recording(*frames);
+    for (const int number : {1, opened.recording->frame_count() - 1}) opened.recording->frame(number);
+    std::string look_at = opened.scene.look_at;
+    return FileReader::World{frames->front(), std::move(look_at), std::move(opened), {}};
+  }
+  const auto& [path, presets] = std::get<FileReader::SceneToRead>(question.file);
+  return FileReader::World{path, "scene " + path.filename().string(), softbody::load_scene(path, presets), {}};
 }
 
 bool is_mesh(const std::filesystem::path& file) {
@@ -78,25 +89,27 @@ bool is_rest_shape(const std::filesystem::path& file) { return file.filename() =
 
 }  // namespace
 
-FileReader::Answer FileReader::answer(const Question& question, const std::stop_token&) const {
-  const auto begin = [&](std::string_view stage) { question.progress->begin(stage); };
+std::optional<FileReader::Answer> FileReader::advance(const Question& question, Background<FileReader>& background) {
+  struct Cancelled {};
+  const auto begin_stage = [&](std::string_view name) {
+    if (background.cancelled()) throw Cancelled{};
+    background.publish(Stage{std::string(name)});
+  };
   try {
-    if (const auto* file = std::get_if<softbody::MeshFile>(&question.file)) {
-      Mesh read{softbody::MeshSource::from_file(*file, begin), nullptr};
-      begin("preparing the body");
-      read.model = softbody::shared_body_model(read.mesh, imported_material(read.mesh.imported->findings.extent));
-      return read;
+    if (!read_) {
+      read_ = read_file(question, begin_stage);
+      return std::nullopt;
     }
-    if (const auto* frames = std::get_if<FramesToRead>(&question.file)) {
-      files::Opened opened = files::open_recording(*frames);
-      for (const int number : {1, opened.recording->frame_count() - 1}) opened.recording->frame(number);
-      std::string look_at = opened.scene.look_at;
-      return world_of(frames->front(), std::move(look_at), std::move(opened), question.threads);
+    Answer answer = *std::exchange(read_, std::nullopt);
+    if (auto* mesh = std::get_if<Mesh>(&answer)) {
+      begin_stage("preparing the body");
+      mesh->model = softbody::shared_body_model(mesh->mesh, imported_material(mesh->mesh.imported->findings.extent));
+    } else if (auto& world = std::get<World>(answer); !background.cancelled()) {
+      world.shown = show_in_window(world.opened, question.threads);
     }
-    const auto& [path, presets] = std::get<SceneToRead>(question.file);
-    return world_of(path, "scene " + path.filename().string(), softbody::load_scene(path, presets), question.threads);
+    return answer;
   } catch (const Cancelled&) {
-    return Cancelled{};
+    return std::string();
   } catch (const std::exception& error) {
     return std::string(error.what());
   }
@@ -128,19 +141,19 @@ Material imported_material(double extent) {
 }
 
 std::string Import::progress() const {
-  if (!progress_) return {};
+  if (!reading_) return {};
   const auto seconds =
       std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - began_).count();
-  std::string text = progress_->cancelled ? "giving up " : "reading ";
+  std::string text = reader_.cancelled() ? "giving up " : "reading ";
   text += std::filesystem::path(path).filename().string();
-  if (const std::string stage = progress_->stage(); !stage.empty()) text.append(": ").append(stage);
+  if (!stage_.empty()) text.append(": ").append(stage_);
   return text + (seconds > 0 ? ", " + std::to_string(seconds) + " s so far" : "");
 }
 
 void Import::cancel() {
   dropped_.clear();
   together_.clear();
-  if (progress_) progress_->cancelled = true;
+  if (reading_) reader_.cancel();
 }
 
 void Import::add(FileReport file_report) {
@@ -157,7 +170,7 @@ void Import::refuse(const std::string& why) {
 }
 
 void Import::load(Session& session) {
-  if (path.empty() || progress_) return;
+  if (path.empty() || reading_) return;
   report_.clear();
   problem_.clear();
   is_dropped_ = false;
@@ -176,8 +189,9 @@ void Import::open(Session& session) {
 
 void Import::read(decltype(FileReader::Question::file) file, const Session& session) {
   began_ = std::chrono::steady_clock::now();
-  progress_ = std::make_shared<FileReader::Progress>();
-  reader_.offer({std::move(file), progress_, session.simulation.threads()});
+  reading_ = true;
+  stage_.clear();
+  reader_.offer({std::move(file), session.simulation.threads()});
 }
 
 void Import::drop(const std::vector<std::string>& files, Session& session) {
@@ -218,9 +232,14 @@ void Import::import_each(Session& session) {
 }
 
 void Import::update(Session& session) {
-  if (auto answer = reader_.take(); answer && !std::exchange(progress_, nullptr)->cancelled)
-    take(session, std::move(*answer));
-  if (progress_ || frames_ || dropped_.empty()) return;
+  std::optional<FileReader::Answer> answer = reader_.take();
+  if (auto* stage = answer ? std::get_if<FileReader::Stage>(&*answer) : nullptr) {
+    stage_ = std::move(stage->name);
+  } else if (answer) {
+    reading_ = false;
+    if (!reader_.cancelled()) take(session, std::move(*answer));
+  }
+  if (reading_ || frames_ || dropped_.empty()) return;
   path = dropped_.front();
   dropped_.erase(dropped_.begin());
   is_dropped_ = true;

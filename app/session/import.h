@@ -2,44 +2,22 @@
 // Imports the user's own meshes, scenes and recorded frames: named or dropped on the window, read beside the demo, and
 // reported on.
 
-#include <atomic>
 #include <chrono>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "app/base/background_worker.h"
+#include "app/base/background.h"
 #include "app/session/session.h"
 
 namespace app::session {
 
-/// Reads a file and makes its body or world, which may take long. A task for BackgroundWorker.
-struct FileReader {
-  /// How far an answer has got; shared by the two threads.
-  class Progress {
-   public:
-    /// Throws Cancelled if the user does not want the answer any more.
-    void begin(std::string_view stage) {
-      if (cancelled) throw Cancelled{};
-      const std::scoped_lock lock(mutex_);
-      stage_ = stage;
-    }
-    std::string stage() const {
-      const std::scoped_lock lock(mutex_);
-      return stage_;
-    }
-    std::atomic<bool> cancelled = false;
-
-   private:
-    mutable std::mutex mutex_;  // guards the stage
-    std::string stage_;
-  };
-  struct Cancelled {};
+/// Reads a file, and makes its body or world with the last part. A task for Background.
+class FileReader {
+ public:
   struct SceneToRead {
     std::filesystem::path path, presets;
   };
@@ -54,13 +32,19 @@ struct FileReader {
     files::Opened opened;
     ShownWorld shown;
   };
+  struct Stage {  // that was begun; the answer is not whole yet
+    std::string name;
+  };
   struct Question {
     std::variant<softbody::MeshFile, SceneToRead, FramesToRead> file;
-    std::shared_ptr<Progress> progress;
     int threads = 1;  // of the world
   };
-  using Answer = std::variant<Mesh, World, std::string, Cancelled>;  // string: what failed
-  Answer answer(const Question& question, const std::stop_token& stop) const;
+  using Answer =
+      std::variant<Stage, Mesh, World, std::string>;  // string: what failed; without a text: it was cancelled
+  std::optional<Answer> advance(const Question& question, Background<FileReader>& background);
+
+ private:
+  std::optional<Answer> read_;  // a mesh without its model, or what has not been shown
 };
 
 /// Returns a body of this mesh, which must be imported, placed above the middle of the scene, clear of solids and
@@ -112,7 +96,7 @@ class Import {
   std::optional<JoinedAt> take_joined() { return std::exchange(joined_, std::nullopt); }
 
   /// Returns true while something is read; not while question() waits for the user.
-  bool busy() const { return progress_ || (!frames_ && !dropped_.empty()); }
+  bool busy() const { return reading_ || (!frames_ && !dropped_.empty()); }
   /// Returns what is being read, what is done with it, and for how long; empty unless busy().
   std::string progress() const;
   /// Gives up what is being read, and all files that wait. busy() until the present stage is over.
@@ -150,8 +134,9 @@ class Import {
   std::optional<Frames> frames_;       // what question() is about
   std::optional<JoinedAt> joined_;
   std::chrono::steady_clock::time_point began_;
-  std::shared_ptr<FileReader::Progress> progress_;  // of what is read; nullptr: nothing is
-  BackgroundWorker<FileReader> reader_;
+  bool reading_ = false;
+  std::string stage_;  // of what is read
+  Background<FileReader> reader_;
 };
 
 }  // namespace app::session

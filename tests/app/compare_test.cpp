@@ -3,18 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <set>
 
-#include "app/session/live/live_comparison.h"
 #include "softbody/world/world.h"
 #include "tests/app/scenes.h"
 #include "tests/support/change.h"
 
 namespace app {
 namespace {
-
-using namespace std::chrono_literals;
 
 constexpr std::uint32_t seed = 7;
 
@@ -28,6 +24,13 @@ compare::FrameSnapshot snapshot_of(const softbody::BodiesInMotion& world) {
   snapshot.found = world.detection();
   snapshot.chosen.assign(collide::method_table().size(), true);
   return snapshot;
+}
+
+compare::CompareReport compare_on(const compare::FrameSnapshot& snapshot,
+                                  std::uint64_t budget = compare::Comparison::default_budget) {
+  Background<compare::Comparison> comparison(Runs::in_slices, seed, budget);
+  comparison.offer(snapshot);
+  return *comparison.wait();
 }
 
 /// Returns the true contacts, by an independent double loop.
@@ -72,7 +75,7 @@ const compare::CompareRow& row(const compare::CompareReport& report, std::string
 
 TEST(Comparison, ReportsWhatTheDetectorsFind) {
   const softbody::World world = world_with("multi-level-sb", 0.13f);
-  const compare::CompareReport report = compare::Comparison(seed).run(snapshot_of(world));
+  const compare::CompareReport report = compare_on(snapshot_of(world));
   EXPECT_EQ(report.id, 1u);
   ASSERT_EQ(report.rows.size(), collide::method_table().size());
   for (const collide::Method& method : collide::method_table()) {
@@ -98,7 +101,7 @@ TEST(Comparison, CountsContactsThatTheLiteralMethodMissesWithSmallCells) {
   const softbody::World literal = world_with("multi-level-sb", 0.13f);
   std::ranges::set_intersection(truth, literal.detection().contacts, std::back_inserter(hit));
   std::ranges::set_difference(truth, hit, std::back_inserter(missed));
-  const compare::CompareReport report = compare::Comparison(seed).run(snapshot_of(world));
+  const compare::CompareReport report = compare_on(snapshot_of(world));
   EXPECT_EQ(report.true_contacts, truth.size());
   const compare::CompareRow& measured = row(report, "multi-level-sb");
   EXPECT_LT(measured.recall, 1.0);
@@ -110,7 +113,7 @@ TEST(Comparison, CountsContactsThatTheLiteralMethodMissesWithSmallCells) {
 
 TEST(Comparison, FindsNoMissedContactsOfExactMethods) {
   for (const float cell : {0.05f, 0.13f, 0.7f}) {
-    const compare::CompareReport report = compare::Comparison(seed).run(snapshot_of(world_with("brute-force", cell)));
+    const compare::CompareReport report = compare_on(snapshot_of(world_with("brute-force", cell)));
     for (const collide::Method& method : collide::method_table()) {
       if (!method.exact) continue;
       EXPECT_EQ(row(report, method.key).recall, 1.0) << method.key;
@@ -126,7 +129,7 @@ TEST(Comparison, ScoresTheDriverByItsOwnResult) {
   const std::size_t all = snapshot.found.contacts.size();
   snapshot.found.contacts.erase(snapshot.found.contacts.begin());
   snapshot.found.contacts.push_back({100'000, 100'001});
-  const compare::CompareReport report = compare::Comparison(seed).run(snapshot);
+  const compare::CompareReport report = compare_on(snapshot);
   const compare::CompareRow& driver = row(report, "grid-hash");
   EXPECT_EQ(driver.missed.size(), 1u);
   EXPECT_EQ(driver.recall, static_cast<double>(all - 1) / static_cast<double>(all));
@@ -139,7 +142,7 @@ TEST(Comparison, ScoresTheDriverByItsOwnResult) {
 TEST(Comparison, CountsTheDriversWorkFromScratch) {
   compare::FrameSnapshot snapshot = snapshot_of(world_with("multi-level-sb-exact", 0.5f));
   snapshot.found.counters = {};  // of a frame in which all bodies rested
-  const compare::CompareReport report = compare::Comparison(seed).run(snapshot);
+  const compare::CompareReport report = compare_on(snapshot);
   EXPECT_GT(row(report, "multi-level-sb-exact").counters.pair_tests, 0u);
 }
 
@@ -147,7 +150,7 @@ TEST(Comparison, HasRecallAndPrecisionOneWithoutContacts) {
   compare::FrameSnapshot snapshot = snapshot_of(world_with("brute-force", 0.5f));
   snapshot.settings.tolerance = 1e-6f;
   snapshot.found = {};
-  for (const compare::CompareRow& each : compare::Comparison(seed).run(snapshot).rows) {
+  for (const compare::CompareRow& each : compare_on(snapshot).rows) {
     EXPECT_EQ(each.recall, 1.0);
     EXPECT_EQ(each.precision, 1.0);
   }
@@ -157,7 +160,7 @@ TEST(Comparison, RunsOnlyChosenMethods) {
   compare::FrameSnapshot snapshot = snapshot_of(world_with("multi-level-sb", 0.5f));
   snapshot.chosen.assign(collide::method_table().size(), false);
   snapshot.chosen[compare::method_index("bounding-box")] = true;
-  const compare::CompareReport report = compare::Comparison(seed).run(snapshot);
+  const compare::CompareReport report = compare_on(snapshot);
   EXPECT_EQ(report.order, std::vector{compare::method_index("bounding-box")});
   for (const collide::Method& method : collide::method_table()) {
     EXPECT_EQ(row(report, method.key).ms.has_value(), method.key == "bounding-box") << method.key;
@@ -166,11 +169,13 @@ TEST(Comparison, RunsOnlyChosenMethods) {
 
 TEST(Comparison, ShufflesEachRunAndRepeatsForTheSameSeed) {
   const compare::FrameSnapshot snapshot = snapshot_of(world_with("multi-level-sb-exact", 0.5f));
-  compare::Comparison one(seed), same(seed);
+  Background<compare::Comparison> one(Runs::in_slices, seed), same(Runs::on_thread, seed);
   std::set<std::vector<std::size_t>> orders;
   for (int i = 0; i < 12; ++i) {
-    const auto order = one.run(snapshot).order;
-    EXPECT_EQ(order, same.run(snapshot).order);
+    one.offer(snapshot);
+    same.offer(snapshot);
+    const auto order = one.wait()->order;
+    EXPECT_EQ(order, same.wait()->order);
     EXPECT_EQ(order.size(), collide::method_table().size() - 1);
     EXPECT_EQ(std::ranges::count(order, compare::method_index("brute-force")), 0);
     orders.insert(order);
@@ -180,11 +185,11 @@ TEST(Comparison, ShufflesEachRunAndRepeatsForTheSameSeed) {
 
 TEST(Comparison, ReportsMethodsThatExceedTheBudget) {
   const compare::FrameSnapshot snapshot = snapshot_of(three_bodies("multi-level-sb-exact"));
-  const compare::CompareReport report = compare::Comparison(seed, tight_budget).run(snapshot);
+  const compare::CompareReport report = compare_on(snapshot, tight_budget);
   EXPECT_EQ(row(report, "brute-force").not_run, "not run: 117,855 pair tests predicted");
   EXPECT_FALSE(row(report, "brute-force").scored);
   EXPECT_TRUE(row(report, "multi-level-sb-exact").scored);  // the driver has run anyway
-  const compare::CompareReport none = compare::Comparison(seed, 10).run(snapshot);
+  const compare::CompareReport none = compare_on(snapshot, 10);
   EXPECT_TRUE(none.order.empty());
   EXPECT_FALSE(none.reference);
   EXPECT_EQ(none.reference_note, "brute force would take 117,855 pair tests");
@@ -194,7 +199,7 @@ TEST(Comparison, UsesAnIndependentExactReferenceIfBruteForceIsTooSlow) {
   for (const collide::Method& driver : collide::method_table()) {
     if (driver.key == "brute-force") continue;
     const softbody::World world = three_bodies(driver.key);
-    const compare::CompareReport report = compare::Comparison(seed, tight_budget).run(snapshot_of(world));
+    const compare::CompareReport report = compare_on(snapshot_of(world), tight_budget);
     ASSERT_TRUE(report.reference) << driver.key;
     const collide::Method& reference = collide::method_table()[*report.reference];
     EXPECT_EQ(reference.key, !driver.uses_levels ? "multi-level-sb-exact"
@@ -206,34 +211,26 @@ TEST(Comparison, UsesAnIndependentExactReferenceIfBruteForceIsTooSlow) {
   }
 }
 
-/// Waits for a report, which the demo never does.
-std::optional<compare::CompareReport> wait_for_report(session::CompareWorker& worker) {
-  for (const auto end = std::chrono::steady_clock::now() + 60s; std::chrono::steady_clock::now() < end;) {
-    if (auto report = worker.take()) return report;
-    std::this_thread::sleep_for(1ms);
-  }
-  return std::nullopt;
-}
-
-TEST(CompareWorker, ReportsOnTheOfferedSnapshot) {
-  session::CompareWorker worker;
-  EXPECT_TRUE(worker.ready());
-  compare::FrameSnapshot snapshot = snapshot_of(world_with("multi-level-sb", 0.13f));
+TEST(Comparison, TimesOneMethodAPart) {
+  const softbody::World world = world_with("multi-level-sb", 0.13f);
+  Background<compare::Comparison> comparison(Runs::in_slices, seed);
+  EXPECT_TRUE(comparison.ready());
+  compare::FrameSnapshot snapshot = snapshot_of(world);
   snapshot.id = 42;
-  const compare::CompareReport expected = compare::Comparison(seed).run(snapshot);
-  worker.offer(snapshot);
-  const auto report = wait_for_report(worker);
-  ASSERT_TRUE(report);
+  comparison.offer(snapshot);
+  std::size_t parts = 1;
+  std::optional<compare::CompareReport> report;
+  for (; !(report = comparison.take({})); ++parts) EXPECT_TRUE(comparison.has_work());
+  EXPECT_EQ(parts, report->order.size() + 1) << "the last part scores";
   EXPECT_EQ(report->id, 42u);
-  EXPECT_EQ(report->true_contacts, expected.true_contacts);
-  EXPECT_EQ(row(*report, "multi-level-sb").missed, row(expected, "multi-level-sb").missed);
-  EXPECT_FALSE(worker.take());
+  EXPECT_EQ(report->true_contacts, true_contacts(world).size());
+  EXPECT_FALSE(comparison.has_work());
 }
 
-TEST(CompareWorker, CanBeDestroyedWhileItWorks) {
+TEST(Comparison, CanBeDestroyedWhileItWorks) {
   for (int i = 0; i < 20; ++i) {
-    session::CompareWorker worker;
-    worker.offer(snapshot_of(world_with("brute-force", 0.5f)));
+    Background<compare::Comparison> comparison(Runs::on_thread, seed);
+    comparison.offer(snapshot_of(world_with("brute-force", 0.5f)));
   }
 }
 

@@ -229,10 +229,12 @@ TEST_F(ImportTest, GivesUpWhatTheUserCancels) {
 }
 
 TEST_F(ImportTest, MakesTheBodyBesideTheWindow) {
-  session::FileReader reader;
-  const softbody::MeshFile file{.path = folder.write("ball.obj", obj_of({})), .size = 1};
-  const session::FileReader::Answer answer =
-      reader.answer({file, std::make_shared<session::FileReader::Progress>()}, {});
+  Background<session::FileReader> reader(Runs::in_slices);
+  reader.offer({softbody::MeshFile{.path = folder.write("ball.obj", obj_of({})), .size = 1}});
+  const auto stage = reader.take({});
+  ASSERT_TRUE(stage);
+  EXPECT_TRUE(std::holds_alternative<session::FileReader::Stage>(*stage)) << "the body is made in the next part";
+  const session::FileReader::Answer answer = *reader.take({});
   const auto& mesh = std::get<session::FileReader::Mesh>(answer);
   EXPECT_EQ(softbody::shared_body_model(mesh.mesh, session::imported_material(mesh.mesh.imported->findings.extent)),
             mesh.model);

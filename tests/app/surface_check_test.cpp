@@ -35,8 +35,14 @@ compare::StepSnapshot pair_apart(double distance) {
   return step;
 }
 
-TEST(CheckSurfaces, ReportsAllOverlapsAsMissedWithoutContacts) {
-  const compare::SurfaceReport report = compare::check_surfaces(pair_apart(0.8));
+compare::SurfaceReport check(const compare::StepSnapshot& step) {
+  Background<compare::SurfaceCheck> check(Runs::in_slices);
+  check.offer(step);
+  return *check.wait();
+}
+
+TEST(SurfaceCheck, ReportsAllOverlapsAsMissedWithoutContacts) {
+  const compare::SurfaceReport report = check(pair_apart(0.8));
   EXPECT_EQ(report.id, 7u);
   EXPECT_EQ(report.frame, 3);
   EXPECT_EQ(report.failure, "");
@@ -48,9 +54,9 @@ TEST(CheckSurfaces, ReportsAllOverlapsAsMissedWithoutContacts) {
   EXPECT_EQ(report.missed_pairs, 1u);
 }
 
-TEST(CheckSurfaces, MarksEachMissedVertexAndPiercing) {
+TEST(SurfaceCheck, MarksEachMissedVertexAndPiercing) {
   const compare::StepSnapshot step = pair_apart(0.8);
-  const compare::SurfaceReport report = compare::check_surfaces(step);
+  const compare::SurfaceReport report = check(step);
   const auto piercings = static_cast<std::size_t>(std::ranges::count_if(report.marks, &compare::SurfaceMark::piercing));
   EXPECT_EQ(piercings, report.missed_piercings);
   EXPECT_EQ(report.marks.size(), report.missed_penetrations + report.missed_piercings);
@@ -66,35 +72,44 @@ TEST(CheckSurfaces, MarksEachMissedVertexAndPiercing) {
   EXPECT_NEAR(deepest, report.figures.deepest, 1e-6);
 }
 
-TEST(CheckSurfaces, ReportsNothingMissedIfAllVerticesAreInContact) {
+TEST(SurfaceCheck, ReportsNothingMissedIfAllVerticesAreInContact) {
   compare::StepSnapshot step = pair_apart(0.8);
   const collide::Index half = step.bodies.first[1];
   for (collide::Index a = 0; a < half; ++a)
     for (collide::Index b = half; b < step.bodies.vertex_count(); ++b) step.contacts.push_back({a, b});
-  const compare::SurfaceReport report = compare::check_surfaces(step);
+  const compare::SurfaceReport report = check(step);
   EXPECT_GT(report.penetrations, 0u);
   EXPECT_EQ(report.missed_penetrations + report.missed_piercings + report.missed_pairs, 0u);
   EXPECT_TRUE(report.marks.empty());
 }
 
-TEST(CheckSurfaces, CountsTheCrossingsOfTheStep) {
+TEST(SurfaceCheck, CountsTheCrossingsOfTheStep) {
   compare::StepSnapshot step = pair_apart(0.8);
-  EXPECT_EQ(compare::check_surfaces(step).figures.crossed_vertices, 0u);
+  EXPECT_EQ(check(step).figures.crossed_vertices, 0u);
   step.before = pair_apart(1.5).at;
-  const collide::oracle::SurfaceFigures passed = compare::check_surfaces(step).figures;
+  const collide::oracle::SurfaceFigures passed = check(step).figures;
   EXPECT_EQ(passed.crossed_vertices, passed.penetrating_vertices);
   for (auto* some : {&step.before.x, &step.before.y, &step.before.z}) some->resize(step.bodies.first[1]);
-  const collide::oracle::SurfaceFigures arrived =
-      compare::check_surfaces(step).figures;  // the second body has just been added
+  const collide::oracle::SurfaceFigures arrived = check(step).figures;  // the second body has just been added
   EXPECT_GT(arrived.crossed_vertices, 0u);
   step.before = {};
-  EXPECT_EQ(compare::check_surfaces(step).figures.crossed_vertices, 0u);  // both have just been added
+  EXPECT_EQ(check(step).figures.crossed_vertices, 0u);  // both have just been added
 }
 
-TEST(CheckSurfaces, ReportsWhyThereAreNoFigures) {
+TEST(SurfaceCheck, EndsBetweenItsPartsWhenCancelled) {
+  Background<compare::SurfaceCheck> check(Runs::in_slices);
+  check.offer(pair_apart(0.8));
+  EXPECT_FALSE(check.take({}));
+  check.cancel();
+  const auto report = check.take({});
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->penetrations, 0u) << "it was not finished";
+}
+
+TEST(SurfaceCheck, ReportsWhyThereAreNoFigures) {
   compare::StepSnapshot step = pair_apart(0.8);
   step.surfaces.pop_back();
-  EXPECT_NE(compare::check_surfaces(step).failure, "");
+  EXPECT_NE(check(step).failure, "");
 }
 
 /// Advances a paused session until the surfaces of its present state are checked.

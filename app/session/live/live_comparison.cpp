@@ -20,32 +20,19 @@ compare::FrameSnapshot copy_frame(const softbody::BodiesInMotion& world, std::ui
 
 }  // namespace
 
-compare::CompareReport CompareTask::answer(const compare::FrameSnapshot& snapshot, const std::stop_token& stop) {
-  try {
-    return comparison.run(snapshot, stop);
-  } catch (const std::exception& error) {
-    compare::CompareReport report;
-    report.id = snapshot.id;
-    report.frame = snapshot.frame_number;
-    report.reference_note = std::string("the comparison failed: ") + error.what();
-    report.rows.resize(collide::method_table().size());
-    return report;
-  }
-}
-
 void LiveComparison::exchange(const softbody::BodiesInMotion& world, std::uint64_t revision, std::uint64_t world_number,
                               int rests) {
-  auto report = worker_.take();
+  auto report = comparison_.take();
   compare::add_new_methods(choice.methods);
   method_ms_.resize(choice.methods.size());
   if (report && report->id >= first_wanted_) keep(std::move(*report));
-  if (!wants_report(revision) || !worker_.ready(rests)) return;
+  if (!wants_report(revision) || !comparison_.ready(rests)) return;
   compare::FrameSnapshot snapshot = copy_frame(world, revision, world_number);
   snapshot.chosen = chosen();
   if (std::exchange(offered_, revision) != revision || snapshot.chosen != offered_methods_) offers_ = 0;
   offered_methods_ = snapshot.chosen;
   ++offers_;
-  worker_.offer(std::move(snapshot));
+  comparison_.offer(std::move(snapshot));
 }
 
 /// A world at rest has nothing new for the recall, but times want to be taken until their median is worth something.

@@ -1,7 +1,6 @@
 #pragma once
-// The comparison of methods on a thread of its own, beside the world that is shown.
+// The comparison of methods beside the world that is shown.
 
-#include "app/base/background_worker.h"
 #include "app/base/time_series.h"
 #include "app/compare/compare.h"
 #include "app/compare/method_style.h"
@@ -9,18 +8,6 @@
 #include "softbody/world/bodies_in_motion.h"
 
 namespace app::session {
-
-struct CompareTask {
-  using Question = compare::FrameSnapshot;
-  using Answer = compare::CompareReport;
-  static constexpr std::uint32_t seed = 1;  // of the shuffled order: every run of the demo shuffles alike
-
-  /// Throws nothing: a comparison that fails, as with too little memory, says so in its report.
-  compare::CompareReport answer(const compare::FrameSnapshot& snapshot, const std::stop_token& stop);
-
-  compare::Comparison comparison{seed};
-};
-using CompareWorker = BackgroundWorker<CompareTask>;
 
 /// What to compare with the driving method, which is compared with the reference in any case.
 struct CompareChoice {
@@ -35,16 +22,17 @@ class LiveComparison {
  public:
   /// Number of times that each chosen method is timed while the state stays the same.
   static constexpr int times_per_state = 15;
+  static constexpr std::uint32_t seed = 1;  // of the shuffled order: every run of the demo shuffles alike
 
   CompareChoice choice;
 
   /// Takes the report that is ready, if any, and offers the present state if more is to be found out about it. Methods
   /// that have joined the table since the last call are taken in.
-  /// revision: names the state, ascending; world_number: another number, another world; rests: as
-  /// BackgroundWorker::ready().
+  /// revision: names the state, ascending; world_number: another number, another world; rests: see
+  /// Background::ready().
   void exchange(const softbody::BodiesInMotion& world, std::uint64_t revision, std::uint64_t world_number, int rests);
   /// Returns true if exchange() must be called again, though the state of this revision stays.
-  bool awaits_report(std::uint64_t revision) const { return wants_report(revision) || worker_.has_work(); }
+  bool awaits_report(std::uint64_t revision) const { return wants_report(revision) || comparison_.has_work(); }
   /// Another world: reports of states before this revision are dropped.
   void restart(const softbody::BodiesInMotion& world, std::uint64_t revision);
   /// Drops the curves of other settings; their report stays until a new one arrives.
@@ -87,7 +75,7 @@ class LiveComparison {
   compare::MethodSet offered_methods_;  // empty: none but the driver
   TimeSeries recall_;
   std::vector<TimeSeries> method_ms_ = std::vector<TimeSeries>(choice.methods.size());
-  CompareWorker worker_;
+  Background<compare::Comparison> comparison_{usual_runs, seed};
 };
 
 }  // namespace app::session

@@ -23,10 +23,10 @@ compare::StepSnapshot copy_step(const softbody::BodiesInMotion& world, const com
 void SurfaceMonitor::exchange(const softbody::BodiesInMotion& world, const compare::Positions& before,
                               std::uint64_t revision, int rests) {
   if (!on) return restart(revision);
-  if (auto report = worker_.take(); report && report->id >= first_wanted_) keep(std::move(*report));
-  if (offered_ == revision || !worker_.ready(rests)) return;
+  if (auto report = check_.take(); report && report->id >= first_wanted_) keep(std::move(*report));
+  if (offered_ == revision || !check_.ready(rests)) return;
   offered_ = revision;
-  worker_.offer(copy_step(world, before, revision));
+  check_.offer(copy_step(world, before, revision));
 }
 
 void SurfaceMonitor::restart(std::uint64_t revision) {

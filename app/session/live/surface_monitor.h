@@ -1,5 +1,5 @@
 #pragma once
-// Checks the surfaces of the world on the screen, step by step, on a thread of its own.
+// Checks the surfaces of the world on the screen, step by step, beside it.
 
 #include "app/compare/surface_check.h"
 #include "softbody/world/bodies_in_motion.h"
@@ -17,11 +17,11 @@ class SurfaceMonitor {
   bool on = false;
 
   /// Takes the report that is ready, if any, and offers the present state unless it was offered before. before:
-  /// positions before the last step; revision: ascending number of the state; rests: see BackgroundWorker::ready().
+  /// positions before the last step; revision: ascending number of the state; rests: see Background::ready().
   void exchange(const softbody::BodiesInMotion& world, const compare::Positions& before, std::uint64_t revision,
                 int rests);
   /// Returns true if exchange() must be called again, though the world stands still.
-  bool awaits_report(std::uint64_t revision) const { return on && (offered_ != revision || worker_.has_work()); }
+  bool awaits_report(std::uint64_t revision) const { return on && (offered_ != revision || check_.has_work()); }
   /// Starts anew. Reports of states before this revision will be dropped.
   void restart(std::uint64_t revision);
 
@@ -37,7 +37,7 @@ class SurfaceMonitor {
   compare::SurfaceReport report_;
   CrossingSums sums_;
   std::uint64_t offered_ = 0, first_wanted_ = 0, reports_ = 0;
-  compare::SurfaceCheckWorker worker_;
+  Background<compare::SurfaceCheck> check_;
 };
 
 }  // namespace app::session

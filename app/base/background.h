@@ -1,0 +1,175 @@
+#pragma once
+// Work beside the window: on a thread of its own, or in slices between two pictures where there are no threads, as in a
+// browser.
+
+#include <cassert>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace app {
+
+enum class Runs { on_thread, in_slices };
+#ifdef __EMSCRIPTEN__
+inline constexpr Runs usual_runs = Runs::in_slices;
+#else
+inline constexpr Runs usual_runs = Runs::on_thread;
+#endif
+
+/// Has one Task answer questions, one after another. Whoever asks does not wait for the answer.
+/// Task: has the types Question and Answer, and a member
+///   std::optional<Answer> advance(const Question& question, Background<Task>& background)
+/// that does the next part of the work on a question, and returns the answer with the last part. It throws nothing. The
+/// Task may keep data from one part to the next, and from one question to the next. It may have a member
+///   static constexpr int rests
+/// so that the thread rests after each part, for this multiple of the time that the part took.
+template <class Task>
+class Background {
+ public:
+  using Question = typename Task::Question;
+  using Answer = typename Task::Answer;
+  using Clock = std::chrono::steady_clock;
+
+  /// of_task: the arguments of the Task's constructor.
+  template <class... Arguments>
+  explicit Background(Runs runs = usual_runs, Arguments&&... of_task) : task_(std::forward<Arguments>(of_task)...) {
+    if (runs == Runs::on_thread) thread_ = std::thread([this] { work(); });
+  }
+  /// Waits for the end of the present part. Further parts and questions are dropped.
+  ~Background() {
+    cancel(true);
+    if (thread_.joinable()) thread_.join();
+  }
+  Background(const Background&) = delete;
+  Background& operator=(const Background&) = delete;
+
+  /// Returns true if all questions are answered and the task has rested. rests: the rest after an answer, in multiples
+  /// of the time that the answer took. With 2 the task takes at most a third of a core from the simulation and the
+  /// drawing.
+  bool ready(int rests = 2) const {
+    assert(rests >= 0);
+    const std::scoped_lock lock(mutex_);
+    return is_idle() && Clock::now() >= answered_ + rests * took_;
+  }
+
+  /// Returns true if a question is not answered yet, or take() has not returned its answer.
+  bool has_work() const {
+    const std::scoped_lock lock(mutex_);
+    return !is_idle() || latest_;
+  }
+
+  /// Returns how many questions wait: their answers have not been begun.
+  std::size_t waiting() const {
+    const std::scoped_lock lock(mutex_);
+    return waiting_.size();
+  }
+
+  /// Takes the question. Does not wait for the answer.
+  void offer(Question question) {
+    const std::scoped_lock lock(mutex_);
+    if (is_idle()) cancelled_ = false;
+    waiting_.push_back(std::move(question));
+    wake_.notify_all();
+  }
+
+  /// Asks the task to end its work on the questions that are not answered yet. They have answers nevertheless.
+  void cancel() { cancel(false); }
+  /// Returns true after cancel(), until the first question that is offered when all others are answered.
+  bool cancelled() const {
+    const std::scoped_lock lock(mutex_);
+    return cancelled_;
+  }
+
+  /// Returns the latest answer, once; nothing if there is no new one. Call it once for each picture: without a thread
+  /// it does the next parts until `slice` is spent, at least one.
+  std::optional<Answer> take(Clock::duration slice = std::chrono::milliseconds(3)) {
+    std::unique_lock lock(mutex_);
+    if (!thread_.joinable()) {
+      const Clock::time_point end = Clock::now() + slice;
+      for (bool in_time = true; in_time && !is_idle(); in_time = Clock::now() < end) do_part(lock);
+    }
+    return std::exchange(latest_, std::nullopt);
+  }
+
+  /// Returns the same, but waits until all questions are answered.
+  std::optional<Answer> wait() {
+    std::unique_lock lock(mutex_);
+    while (!is_idle())
+      if (thread_.joinable())
+        wake_.wait(lock);
+      else
+        do_part(lock);
+    return std::exchange(latest_, std::nullopt);
+  }
+
+  /// Makes this the latest answer. Tasks show so how far they have got.
+  void publish(Answer so_far) {
+    const std::scoped_lock lock(mutex_);
+    latest_ = std::move(so_far);
+  }
+  /// Returns true if take() has returned what was published.
+  bool was_taken() const {
+    const std::scoped_lock lock(mutex_);
+    return !latest_;
+  }
+
+ private:
+  bool is_idle() const { return !question_ && waiting_.empty(); }
+
+  void cancel(bool end) {
+    const std::scoped_lock lock(mutex_);
+    cancelled_ = true;
+    ending_ = end;
+    wake_.notify_all();
+  }
+
+  void work() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      wake_.wait(lock, [this] { return ending_ || !is_idle(); });
+      if (ending_) return;
+      [[maybe_unused]] const Clock::duration took = do_part(lock);
+      if (is_idle()) wake_.notify_all();
+      if constexpr (requires { Task::rests; })
+        if (question_) wake_.wait_for(lock, Task::rests * took, [this] { return cancelled_; });
+    }
+  }
+
+  /// Does the next part, without the lock. Returns how long it took.
+  Clock::duration do_part(std::unique_lock<std::mutex>& lock) {
+    if (!question_) {
+      question_.emplace(std::move(waiting_.front()));
+      waiting_.pop_front();
+      took_ = {};
+    }
+    lock.unlock();
+    const Clock::time_point start = Clock::now();
+    std::optional<Answer> answer = task_.advance(*question_, *this);
+    const Clock::time_point end = Clock::now();
+    lock.lock();
+    answered_ = end;
+    took_ += end - start;
+    if (answer) {
+      latest_ = std::move(answer);
+      question_.reset();
+    }
+    return end - start;
+  }
+
+  mutable std::mutex mutex_;  // guards the members below, except the task
+  std::condition_variable wake_;
+  std::deque<Question> waiting_;
+  std::optional<Question> question_;  // that is being answered
+  std::optional<Answer> latest_;
+  bool cancelled_ = false, ending_ = false;
+  Clock::time_point answered_;
+  Clock::duration took_{};  // for all parts of the last answer
+  Task task_;
+  std::thread thread_;  // none: it works in slices
+};
+
+}  // namespace app
