@@ -145,7 +145,7 @@ void Exporter::record(const Session& session, const Picture& picture) {
 
 void Exporter::follow_recording(Notice& notice) {
   if (!recording_) return;
-  const FrameRecording::Progress progress = recording_->progress();
+  const RecordingProgress progress = recording_->update();
   failed_ = !progress.error.empty();
   message_ = failed_ ? progress.error : progress.name + ": " + std::to_string(progress.written) + " frames";
   if (!failed_ && !progress.ended && progress.stopping) message_ += ", finishing";

@@ -1,69 +1,37 @@
 #include "app/session/export/recording.h"
 
-#include <utility>
-
 namespace app::session {
 
-FrameRecording::FrameRecording(std::unique_ptr<FrameWriter> writer) : writer_(std::move(writer)) {
+std::optional<RecordingProgress> RecordingTask::advance(const Question& frame, const Background<RecordingTask>&) {
+  if (progress_.ended) return progress_;  // it has failed
+  try {
+    if (frame) {
+      writer_->write(*frame);
+      ++progress_.written;
+    } else {
+      writer_->finish();
+      progress_.ended = true;
+    }
+  } catch (const std::exception& failure) {
+    progress_.error = failure.what();
+    progress_.ended = true;
+  }
   progress_.name = writer_->name();
-  thread_ = std::jthread([this] { work(); });
-}
-
-bool FrameRecording::has_room() const {
-  const std::scoped_lock lock(mutex_);
-  return waiting_.size() < max_waiting;
-}
-
-void FrameRecording::add(RecordedFrame frame) {
-  {
-    const std::scoped_lock lock(mutex_);
-    if (progress_.stopping || progress_.ended) return;
-    waiting_.push_back(std::move(frame));
-  }
-  wake_.notify_one();
-}
-
-void FrameRecording::stop(std::string error) {
-  {
-    const std::scoped_lock lock(mutex_);
-    progress_.stopping = true;
-    if (!error.empty()) progress_.error = std::move(error);
-  }
-  wake_.notify_one();
-}
-
-FrameRecording::Progress FrameRecording::progress() const {
-  const std::scoped_lock lock(mutex_);
   return progress_;
 }
 
-/// Waits for a frame; returns false after the last one.
-bool FrameRecording::next(RecordedFrame& frame) {
-  std::unique_lock lock(mutex_);
-  wake_.wait(lock, [this] { return progress_.stopping || !waiting_.empty(); });
-  if (waiting_.empty()) return false;
-  frame = std::move(waiting_.front());
-  waiting_.pop_front();
-  return true;
+void FrameRecording::stop(std::string error) {
+  if (!error.empty()) progress_.error = std::move(error);
+  if (!std::exchange(progress_.stopping, true)) task_.offer(std::nullopt);
 }
 
-void FrameRecording::work() {
-  std::string error;
-  try {
-    for (RecordedFrame frame; next(frame);) {
-      writer_->write(frame);
-      const std::scoped_lock lock(mutex_);
-      ++progress_.written;
-      progress_.name = writer_->name();
-    }
-    writer_->finish();
-  } catch (const std::exception& failure) {
-    error = failure.what();
+const RecordingProgress& FrameRecording::update() {
+  if (std::optional<RecordingProgress> now = task_.take()) {
+    now->stopping = progress_.stopping;
+    if (now->error.empty()) now->error = progress_.error;
+    progress_ = std::move(*now);
   }
-  const std::scoped_lock lock(mutex_);
-  if (!error.empty()) progress_.error = error;
-  progress_.ended = true;
-  waiting_.clear();
+  return progress_;
 }
 
 }  // namespace app::session

@@ -1,13 +1,13 @@
 #pragma once
-// Writes a sequence of frames on a thread of its own, so that the demo does not wait.
+// Writes a sequence of frames beside the demo, so that it does not wait.
 
-#include <condition_variable>
-#include <deque>
+#include <cassert>
 #include <memory>
-#include <mutex>
+#include <optional>
 #include <string>
-#include <thread>
+#include <utility>
 
+#include "app/base/background.h"
 #include "app/compare/positions.h"
 #include "app/files/obj_writer.h"
 #include "engine/image.h"
@@ -33,37 +33,54 @@ class FrameWriter {
   virtual std::string name() const = 0;
 };
 
+struct RecordingProgress {
+  int written = 0;
+  bool stopping = false, ended = false;
+  std::string name, error;  // error: empty if all went well
+};
+
+/// Writes a frame, and completes the result where there is none. A task for Background.
+class RecordingTask {
+ public:
+  using Question = std::optional<RecordedFrame>;
+  using Answer = RecordingProgress;
+  explicit RecordingTask(std::unique_ptr<FrameWriter> writer) : writer_(std::move(writer)) {}
+  std::optional<RecordingProgress> advance(const Question& frame, const Background<RecordingTask>& background);
+
+ private:
+  std::unique_ptr<FrameWriter> writer_;
+  RecordingProgress progress_;
+};
+
 class FrameRecording {
  public:
   static constexpr std::size_t max_waiting = 4;  // frames in memory
 
-  explicit FrameRecording(std::unique_ptr<FrameWriter> writer);
+  explicit FrameRecording(std::unique_ptr<FrameWriter> writer)
+      : progress_{.name = writer->name(), .error = {}}, task_(usual_runs, std::move(writer)) {}
   /// Waits until all frames are written.
-  ~FrameRecording() { stop(); }
+  ~FrameRecording() {
+    stop();
+    task_.wait();
+  }
 
   /// Returns true if a frame would be taken now. Otherwise the world must wait, so that no frame is lost.
-  bool has_room() const;
-  void add(RecordedFrame frame);
+  bool has_room() const { return task_.waiting() < max_waiting; }
+  /// Takes a frame. Precondition: stop() was not called.
+  void add(RecordedFrame frame) {
+    assert(!progress_.stopping);
+    task_.offer(std::move(frame));
+  }
   /// Ends the recording. Frames that wait are still written. `error`: why there are no more; empty if all went well.
   void stop(std::string error = "");
-
-  struct Progress {
-    int written = 0;
-    bool stopping = false, ended = false;
-    std::string name, error;  // error: empty if all went well
-  };
-  Progress progress() const;
+  /// Returns what has been written. Call it once for each picture.
+  const RecordingProgress& update();
+  /// Returns the same as the last update(), and whether stop() was called.
+  const RecordingProgress& progress() const { return progress_; }
 
  private:
-  void work();
-  bool next(RecordedFrame& frame);
-
-  std::unique_ptr<FrameWriter> writer_;  // used by the thread alone
-  mutable std::mutex mutex_;             // guards the members below
-  std::condition_variable wake_;
-  std::deque<RecordedFrame> waiting_;
-  Progress progress_;
-  std::jthread thread_;  // last member: starts after the others are made, and ends before they go
+  RecordingProgress progress_;
+  Background<RecordingTask> task_;
 };
 
 }  // namespace app::session
