@@ -88,19 +88,27 @@ std::shared_ptr<const RecordedFrame> Playback::frame(int number) {
   return frame;
 }
 
+std::optional<Playback::ReadAhead::Answer> Playback::ReadAhead::advance(int number, const Background<ReadAhead>&) {
+  try {
+    return Answer{number, sequence.read(static_cast<std::size_t>(number)), nullptr};
+  } catch (...) {
+    return Answer{number, {}, std::current_exception()};
+  }
+}
+
 /// Reads a frame now, unless it was read ahead.
 SequenceFrame Playback::read(int number) {
-  if (std::optional<Ahead> ahead = std::exchange(ahead_, std::nullopt)) {
-    if (ahead->number == number) return ahead->frame.get();
-    ahead->frame.wait();
+  if (auto ahead = ahead_ ? ahead_->wait() : std::nullopt; ahead && ahead->number == number) {
+    if (ahead->error) std::rethrow_exception(ahead->error);
+    return std::move(ahead->frame);
   }
   return sequence_.read(static_cast<std::size_t>(number));
 }
 
 void Playback::read_ahead(int number) {
-  if (ahead_ || kept_.contains(number)) return;
-  const auto read = [this, number] { return sequence_.read(static_cast<std::size_t>(number)); };
-  ahead_.emplace(Ahead{number, std::async(std::launch::async, read)});
+  if (kept_.contains(number)) return;
+  if (!ahead_) ahead_.emplace(usual_runs, sequence_);
+  if (!ahead_->has_work()) ahead_->offer(number);
 }
 
 void Playback::release() {

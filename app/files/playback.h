@@ -1,9 +1,11 @@
 #pragma once
 // A recording in a sequence of mesh files.
 
-#include <future>
+#include <exception>
 #include <map>
+#include <optional>
 
+#include "app/base/background.h"
 #include "app/files/frame_sequence.h"
 #include "app/files/recording.h"
 #include "collide/surface/box_tree.h"
@@ -36,22 +38,30 @@ class Playback : public Recording {
   float usual_tolerance();
 
  private:
-  struct Ahead {
-    int number;
-    std::future<SequenceFrame> frame;  // its end waits for the thread
+  /// Reads a frame ahead of time. A task for Background.
+  struct ReadAhead {
+    using Question = int;  // its number
+    struct Answer {
+      int number;
+      SequenceFrame frame;
+      std::exception_ptr error;  // why there is no frame
+    };
+    explicit ReadAhead(FrameSequence& of) : sequence(of) {}
+    std::optional<Answer> advance(int number, const Background<ReadAhead>& background);
+    FrameSequence& sequence;
   };
   SequenceFrame read(int number);
   void read_ahead(int number);
   void include(const RecordedFrame& frame);
   std::shared_ptr<const RecordedFrame> record(int number, SequenceFrame frame);
 
-  FrameSequence sequence_;                                    // while there is an ahead_, only its thread may use it
+  FrameSequence sequence_;                                    // only for ahead_ while it has work
   std::map<int, std::shared_ptr<const RecordedFrame>> kept_;  // by number; always the first
   std::size_t free_bytes_;                                    // for more of them
   std::vector<std::shared_ptr<const softbody::BodyModel>> models_;
   collide::surface::Box bounds_;
   std::vector<std::string> command_words_;
-  std::optional<Ahead> ahead_;  // last member: its thread ends before the others go
+  std::optional<Background<ReadAhead>> ahead_;  // last member: its thread ends before the others go
 };
 
 /// Returns the recording in these files, whose contacts are found with usual_tolerance(); the camera sees all of
