@@ -39,8 +39,7 @@ class FileReader {
     std::variant<softbody::MeshFile, SceneToRead, FramesToRead> file;
     int threads = 1;  // of the world
   };
-  using Answer =
-      std::variant<Stage, Mesh, World, std::string>;  // string: what failed; without a text: it was cancelled
+  using Answer = std::variant<Stage, Mesh, World, std::string>;  // string: what failed; empty if it was cancelled
   std::optional<Answer> advance(const Question& question, Background<FileReader>& background);
 
  private:

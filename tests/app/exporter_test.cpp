@@ -312,6 +312,69 @@ TEST_F(ExporterTest, CompletesARecordingWhenTheProgramEnds) {
   EXPECT_EQ(names(folder.path() / "pictures_0001").size(), 3u);
 }
 
+/// Notes the numbers of its frames, and 0 at the end.
+class NumberWriter : public session::FrameWriter {
+ public:
+  explicit NumberWriter(std::vector<int>& numbers) : numbers_(numbers) {}
+  void write(const session::RecordedFrame& frame) override {
+    if (frame.number < 0) throw std::runtime_error("no number");
+    numbers_.push_back(frame.number);
+  }
+  void finish() override { numbers_.push_back(0); }
+  std::string name() const override { return "numbers"; }
+
+ private:
+  std::vector<int>& numbers_;
+};
+
+session::RecordedFrame numbered(int number) {
+  session::RecordedFrame frame;
+  frame.number = number;
+  return frame;
+}
+
+TEST(FrameRecording, WritesWhatWaitsWithOrWithoutAThread) {
+  for (const Runs runs : {Runs::on_thread, Runs::in_slices}) {
+    std::vector<int> numbers;
+    {
+      session::FrameRecording recording(std::make_unique<NumberWriter>(numbers), runs);
+      for (const int number : {3, 1, 2}) recording.add(numbered(number));
+      EXPECT_EQ(recording.progress().name, "numbers");
+      recording.stop("that is enough");
+      EXPECT_TRUE(recording.progress().stopping);
+      while (!recording.update().ended) continue;
+      EXPECT_EQ(recording.progress().written, 3);
+      EXPECT_EQ(recording.progress().error, "that is enough");
+    }
+    EXPECT_EQ(numbers, (std::vector{3, 1, 2, 0}));
+  }
+}
+
+TEST(FrameRecording, HasRoomForAFewFrames) {
+  std::vector<int> numbers;
+  {
+    session::FrameRecording recording(std::make_unique<NumberWriter>(numbers), Runs::in_slices);
+    for (std::size_t i = 0; i < session::FrameRecording::max_waiting; ++i) {
+      EXPECT_TRUE(recording.has_room());
+      recording.add(numbered(1));
+    }
+    EXPECT_FALSE(recording.has_room());
+    EXPECT_GT(recording.update().written, 0);
+    EXPECT_TRUE(recording.has_room());
+  }
+  EXPECT_EQ(numbers.size(), session::FrameRecording::max_waiting + 1) << "its end waits for all";
+}
+
+TEST(FrameRecording, EndsWithTheFirstFrameThatCannotBeWritten) {
+  std::vector<int> numbers;
+  session::FrameRecording recording(std::make_unique<NumberWriter>(numbers));
+  for (const int number : {1, -1, 2}) recording.add(numbered(number));
+  while (!recording.update().ended) continue;
+  EXPECT_EQ(recording.progress().error, "no number");
+  EXPECT_EQ(recording.progress().written, 1);
+  EXPECT_FALSE(recording.progress().stopping);
+}
+
 TEST_F(ExporterTest, WritesALineOfCurvesForEachFrame) {
   frames(7);
   exporter.write_curves(session);

@@ -27,7 +27,7 @@ session::SweepState end_of(session::SweepWorker& worker) {
 TEST(SweepWorker, FindsWhatASweepOfTheSameFrameFinds) {
   const softbody::World world(touching_pair(), {});
   constexpr compare::SweepLimits limits{.repetitions = 1};
-  session::SweepWorker worker(limits);
+  session::SweepWorker worker(limits, Runs::in_slices);  // the others have a thread
   EXPECT_FALSE(worker.take());
   worker.start(world, compare::all_methods());
   const session::SweepState state = end_of(worker);

@@ -56,8 +56,8 @@ class FrameRecording {
  public:
   static constexpr std::size_t max_waiting = 4;  // frames in memory
 
-  explicit FrameRecording(std::unique_ptr<FrameWriter> writer)
-      : progress_{.name = writer->name(), .error = {}}, task_(usual_runs, std::move(writer)) {}
+  explicit FrameRecording(std::unique_ptr<FrameWriter> writer, Runs runs = usual_runs)
+      : progress_{.name = writer->name(), .error = {}}, task_(runs, std::move(writer)) {}
   /// Waits until all frames are written.
   ~FrameRecording() {
     stop();

@@ -43,7 +43,8 @@ class SweepWorker {
   /// quickly. In the largest scene some steps take a few seconds nevertheless.
   static constexpr compare::SweepLimits live_limits{.budget = 200'000'000, .repeat_ms = 250};
 
-  explicit SweepWorker(const compare::SweepLimits& limits = live_limits) : sweep_(usual_runs, limits) {}
+  explicit SweepWorker(const compare::SweepLimits& limits = live_limits, Runs runs = usual_runs)
+      : sweep_(runs, limits) {}
 
   /// Copies the world's present frame and sweeps the methods over it; the world may change or end meanwhile. Does
   /// nothing while a sweep is running. The state reports errors.
