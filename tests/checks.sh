@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # What takes longer than a commit should wait: other compilers and builds, sanitizers, coverage, long soaks and fuzzing.
 # Usage: tests/checks.sh NAME...     with names of the list below, or all
-#   debug      Debug, with g++ and with clang++, all tests
+#   debug      Debug, with g++ and with clang++: the tests of collide/ and of the libraries' interfaces, and two frames of
+#              every scene by every integrator. The solver's tests would take a hundred times as long as with -O3
 #   ci-clang   clang++, each file and header on its own (what one lacks shows only here), warnings are errors, all tests
 #   headless   without any graphics package, all tests
 #   asan       address and undefined-behaviour sanitizers, all tests
@@ -152,11 +153,26 @@ package() {
 # is not forced inline shows it, with g++, which tells of the first function of a file only.
 pass_registers() { ! grep -B 2 'note: the ABI for passing parameters' "$root/build/$1/build.log"; }
 
+# run_debug PRESET
+run_debug() {
+  cd "$root/build/$1"
+  bin/test_api --gtest_brief=1 && bin/test_collide --gtest_brief=1 || return
+  local scene integrator
+  for scene in $(bin/sbcollide list scenes | awk '{print $1}'); do
+    for integrator in $(bin/sbcollide list integrators | awk '{print $1}'); do
+      bin/sbcollide simulate --scene "$scene" --integrator "$integrator" --frames 2 >/dev/null ||
+        fail "simulate --scene $scene --integrator $integrator failed"
+    done
+  done
+}
+
+debug() { step "$1: build" build "$1" all -DBUILD_TESTING=ON && step "$1: run" run_debug "$1"; }
+
 check() {
   case $1 in
     debug)
-      build_and_test debug && step "debug: registers" pass_registers debug || true
-      install_missing clang && build_and_test debug-clang
+      debug debug && step "debug: registers" pass_registers debug || true
+      install_missing clang && debug debug-clang
       ;;
     ci-clang) install_missing clang && build_and_test ci-clang ;;
     headless | asan | tsan) build_and_test "$1" ;;
