@@ -160,8 +160,8 @@ run_debug() {
   local scene integrator
   for scene in $(bin/sbcollide list scenes | awk '{print $1}'); do
     for integrator in $(bin/sbcollide list integrators | awk '{print $1}'); do
-      bin/sbcollide simulate --scene "$scene" --integrator "$integrator" --frames 2 >/dev/null ||
-        fail "simulate --scene $scene --integrator $integrator failed"
+      bin/sbcollide simulate --scene "$scene" --integrator "$integrator" --frames 2 >/dev/null || [ $? -eq 2 ] ||
+        fail "simulate --scene $scene --integrator $integrator failed"  # 2: it refuses them together
     done
   done
 }
