@@ -42,6 +42,7 @@ void StepController::begin_frame(const FrameConditions& c, const StepBound& boun
   spent_ = 0;
   most_ = budget_.of(c.particles);
   work_of_substep_ = work::substep + double(c.moving) + work::penalty_pair * double(c.penalty_pairs);
+  work_of_bound_ = work::bound * double(c.moving);
   for (RecentMaximum* m : {&hysteresis_.implicit_volume_rate, &hysteresis_.explicit_rate, &hysteresis_.volume_change})
     m->advance(c.seconds);
   plan_.substeps = plan_.needed = 0;
