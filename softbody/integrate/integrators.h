@@ -37,6 +37,7 @@ struct Integrator {
   int scratch = 0;               // copies of a field over all particles that it needs
   bool implicit = false;         // solves with the matrices of implicit/matrix.h
   bool automatic = false;        // chooses another integrator for each frame, see StepController
+  bool choosable = false;        // may be chosen for a frame: one explicit, one with an implicit volume, one implicit
   bool implicit_volume = false;  // forces that depend on the volume do not bound its steps
   bool by_damping = false;       // is stable only if every oscillation is damped enough
   bool staggered = false;        // its velocities belong to the middle of the last substep
@@ -52,6 +53,8 @@ struct Integrator {
 std::span<const Integrator> integrators();
 /// Returns nullptr if there is no such integrator.
 const Integrator* find_integrator(std::string_view key);
+/// Returns the choosable integrator that takes all forces, or those that depend on the volume, implicitly, or none.
+const Integrator& choosable_integrator(bool implicit, bool implicit_volume);
 std::string integrator_keys();
 
 inline constexpr std::string_view default_integrator = "auto";
