@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "softbody/integrate/force_stage.h"
+#include "softbody/integrate/implicit/steps.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/state/kernels.h"
 
@@ -100,6 +101,22 @@ void Motion::project(const Batch& b, Quantity x0, Quantity d, float h) {
 }
 
 void Motion::pull(const Batch& b, float h) { forces_.kick(step_of(b, h)); }
+
+void Motion::solve_implicit(const Worker& worker, const Batch& b, Quantity mean, Quantity rest, float h) {
+  const State& state = parts_.state;
+  PenaltyContact& penalty = parts_.penalty;
+  parts_.implicit.advance(worker.index(),
+                          {.batch = b,
+                           .x = field(state.x),
+                           .v = field(state.v),
+                           .gravity = gravity_,
+                           .near_solids = parts_.solids.near(b),
+                           .features = parts_.solids.find_feature_rows(b, h),
+                           .penalty = penalty,
+                           .ends = penalty.ends_of(b),
+                           .is_moving = [&state](BodyId body) { return state.body(body).moves(); }},
+                          {field(array(mean)), field(array(rest)), parts_.solids.sums(b)}, double(h));
+}
 
 void Motion::kick(const Batch& b, float h) {
   state_kernels(b.width).kick(used(b), step_of(b, h).kick_arguments(), f(b), v(b));
