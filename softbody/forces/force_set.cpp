@@ -15,7 +15,7 @@ LaneBodies<float> lanes_of(const ForceBatch& b) {
 
 /// takes(Name<F>{}): whether a force of the plan is added.
 template <class Takes>
-void ForceSet::add_if(const ForceBatch& b, Takes takes) const {
+void ForceSet::add_if(const ForceBatch& b, Takes takes) {
   const ForceKernels& kernels = force_kernels(b.batch.width);
   const LaneBodies<float> bodies = lanes_of(b);
   const Moving motion{field(b.state.v, b.batch.base)};
@@ -24,19 +24,19 @@ void ForceSet::add_if(const ForceBatch& b, Takes takes) const {
     if constexpr (HasElements<F>)
       kernels.add[index_of<F>](bodies, motion);
     else
-      std::get<const F&>(objects_).add(b);
+      std::get<F&>(objects_).add(b);
   });
 }
 
-void ForceSet::add(const ForceBatch& b) const {
+void ForceSet::add(const ForceBatch& b) {
   add_if(b, [](auto) { return true; });
 }
 
-void ForceSet::add_unprojected(const ForceBatch& b) const {
+void ForceSet::add_unprojected(const ForceBatch& b) {
   add_if(b, []<class F>(Name<F>) { return is_unprojected<F>(); });
 }
 
-void ForceSet::advance(const ForceBatch& b, const Advance& how, LaneVolumes& volumes) const {
+void ForceSet::advance(const ForceBatch& b, const Advance& how, LaneVolumes& volumes) {
   add_if(b, []<class F>(Name<F>) {
     return coordinate_of<F>() != Coordinate::length && coordinate_of<F>() != Coordinate::volume && !Kicks<F>;
   });
@@ -61,10 +61,10 @@ void ForceSet::project(const ForceBatch& b, Field<const float> x0, Field<float> 
     });
 }
 
-void ForceSet::kick(const ForceBatch& b) const {
+void ForceSet::kick(const ForceBatch& b) {
   for_each_force(Forces{}, [&]<class F>(Name<F>) {
     if constexpr (Kicks<F>)
-      if (taken_[index_of<F>]) std::get<const F&>(objects_).kick(b);
+      if (taken_[index_of<F>]) std::get<F&>(objects_).kick(b);
   });
 }
 

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 namespace softbody {
-void Hand::add(const ForceBatch& b) const {
+void Hand::add(const ForceBatch& b) {
   if (!holds(b.state, b.batch)) return;
   const BodyField v = b.state.field_of(grab_->body, b.state.v);
   const BodyField f{b.f, std::size_t(b.state.body(grab_->body).lane), std::size_t(b.batch.width)};
@@ -21,7 +21,7 @@ void Hand::add(const ForceBatch& b) const {
   for (int i = 0; i < 3; ++i) f.add(grab_->corners[std::size_t(i)], grab_->weights[i] * exerted_);
 }
 
-void Hand::kick(const ForceBatch& b) const {
+void Hand::kick(const ForceBatch& b) {
   if (!holds(b.state, b.batch)) return;
   const BodyField v = b.state.field_of(grab_->body, b.state.v);
   glm::dvec3 velocity(0.0);

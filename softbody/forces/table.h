@@ -76,7 +76,7 @@ constexpr std::optional<Coordinate> coordinate_of() {
 
 /// True if the force changes velocities, in steps that are not made of forces alone.
 template <class F>
-concept Kicks = requires(const F& force, const ForceBatch& batch) {
+concept Kicks = requires(F& force, const ForceBatch& batch) {
   force.kick(batch);
 };
 

@@ -25,7 +25,7 @@ constexpr Quantity scratch(int i) { return {3 + i}; }
 /// What a Motion acts on. All of these must outlive it.
 struct MotionParts {
   State& state;
-  const Hand& hand;
+  Hand& hand;
   PenaltyContact& penalty;
   SolidContact& solids;
   ContactPass& contacts;
