@@ -37,17 +37,18 @@ void Motion::begin_frame(const Integrator& integrator, const glm::dvec3& gravity
 
 void Motion::begin_substeps(const Integrator& integrator, float h) {
   h_ = h;
-  parts_.penalty.damper_limit =
-      integrator.implicit ? std::numeric_limits<float>::infinity() : PenaltyContact::max_damped / h;
-  parts_.penalty.sums_impacts = !integrator.implicit;
+  penalty_step_ = {h, integrator.implicit ? std::numeric_limits<float>::infinity() : PenaltyContact::max_damped / h,
+                   !integrator.implicit};
 }
 
 void Motion::show(const Batch& b) { parts_.penalty.gather(b, field(parts_.state.x), field(parts_.state.v)); }
 
 void Motion::contact_forces(const Worker& worker, float h) {
   PenaltyContact& penalty = parts_.penalty;
-  if (penalty.pairs.empty()) return;
-  penalty.evaluate(worker.part(penalty.pairs.size()), h);
+  if (penalty.pairs().empty()) return;
+  PenaltyContact::Substep step = penalty_step_;
+  step.seconds = h;
+  penalty.evaluate(worker.part(penalty.pairs().size()), step);
   worker.barrier();
 }
 

@@ -95,6 +95,7 @@ class Motion {
   std::vector<VectorArray> own_forces_;  // of each thread, room for those on a batch: they stay in the cache; 0
   glm::dvec3 gravity_{0.0};
   float h_ = 0;
+  PenaltyContact::Substep penalty_step_{};
 };
 
 }  // namespace softbody

@@ -18,7 +18,7 @@ constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a mome
 }  // namespace
 
 std::size_t SolverState::bytes() const {
-  return bodies.bytes() + penalty_pairs.bytes() + bytes_of(pushes) + rebounds.bytes() + surface.bytes();
+  return bodies.bytes() + penalty.pairs.bytes() + bytes_of(pushes) + rebounds.bytes() + surface.bytes();
 }
 
 Solver::Solver(const Scene& scene, const Crew& crew)
@@ -75,7 +75,7 @@ std::size_t Solver::take_moving_batches() {
 
 /// Notes what contacts of vertices, the hand and forces from outside may push or join in this frame.
 void Solver::mark_touched() {
-  for (const auto* bodies : {&penalty_.pairs.body_a, &penalty_.pairs.body_b})
+  for (const auto* bodies : {&penalty_.pairs().body_a, &penalty_.pairs().body_b})
     for (const BodyId body : *bodies) join(body);
   if (hand_.grab()) mark_pushed(hand_.grab()->body);
   for (const Batch* b : crew_.moving())
@@ -102,7 +102,7 @@ StepBound Solver::begin_frame(double seconds) {
       {.seconds = seconds,
        .particles = state_.particle_count(),
        .moving = particles,
-       .penalty_pairs = penalty_.pairs.size(),
+       .penalty_pairs = penalty_.pairs().size(),
        .near_solids = std::ranges::any_of(moving, [&](const Batch* b) { return !solids_.near(*b).empty(); }),
        .surface_contact = contacts_.has_surfaces(),
        .surfaces_touch =
@@ -115,13 +115,6 @@ StepBound Solver::begin_frame(double seconds) {
   motion_.begin_frame(*steps_.plan().integrator, gravity(), crew_);
   mark_touched();
   return bound;
-}
-
-/// Returns what the pairs of the frame hold at its start or after the last substep, in J.
-double Solver::penalty_energy() {
-  if (penalty_.pairs.empty()) return 0;
-  crew_.run([&](const Worker& worker) { penalty_.measure(worker.part(penalty_.pairs.size())); });
-  return penalty_.energy();
 }
 
 FrameResult Solver::advance(double seconds, const AfterSubstep& after_substep) {
@@ -283,7 +276,7 @@ void Solver::run(int count, float h, bool first, const AfterSubstep& after_subst
 }
 
 void Solver::finish_frame(double seconds, Field<float> places) {
-  penalty_.layer.grow(seconds);  // with time, not frames
+  penalty_.end_frame(seconds);
   const std::span<const Batch> batches = state_.batches();
   crew_.for_each(batches.size(), [&](std::size_t i) {
     if (batches[i].any_moves()) finish(batches[i], seconds);
@@ -316,14 +309,13 @@ void Solver::write_positions(Field<float> to) const {
 }
 
 SolverState Solver::save() const {
-  return {state_.saved(),     penalty_.layer, penalty_.pairs, solids_.pushes(), rebounds_, contacts_.surfaces().save(),
-          steps_.hysteresis()};
+  return {state_.saved(), penalty_.memory(),           solids_.pushes(),
+          rebounds_,      contacts_.surfaces().save(), steps_.hysteresis()};
 }
 
 void Solver::restore(const SolverState& saved) {
   state_.restore(saved.bodies);
-  penalty_.layer = saved.layer;
-  penalty_.pairs = saved.penalty_pairs;
+  penalty_.restore(saved.penalty);
   solids_.begin_frame();
   solids_.set_pushes(saved.pushes);
   rebounds_ = saved.rebounds;

@@ -28,8 +28,7 @@ struct FrameResult {
 /// Everything that the solver remembers from one frame to the next.
 struct SolverState {
   State bodies;
-  ContactLayer layer;
-  PenaltyPairs penalty_pairs;
+  PenaltyContact::Memory penalty;
   std::vector<SolidPush> pushes;
   Rebounds rebounds;
   SurfaceContact::State surface;
@@ -71,7 +70,7 @@ class Solver {
     penalty_.find(detected, state_, seconds, crew_.workers());
   }
   /// Bodies may come closer than the tolerance from now on: the layer of penalty contact grows anew, from nothing.
-  void let_bodies_closer() { penalty_.layer = {}; }
+  void let_bodies_closer() { penalty_.reset_layer(); }
 
   /// Advances by `seconds`, or by less if the budget of work is spent, or if there are too many candidates of surface
   /// contact on the way. If there are at the start, throws std::length_error; then nothing has moved. Unless substeps
@@ -105,7 +104,8 @@ class Solver {
   glm::dvec3 gravity() const;
   void mark_pushed(BodyId body) { pushed_[state_.body(body).batch] |= 1u << state_.body(body).lane; }
   void join(BodyId body);
-  double penalty_energy();
+  /// Returns what the pairs of the frame hold at its start or after the last substep, in J.
+  double penalty_energy() { return penalty_.stored_energy(crew_.workers(), crew_.active()); }
   void finish(const Batch& batch, double seconds);
   std::size_t take_moving_batches();
   void mark_touched();

@@ -42,7 +42,7 @@ StepBound StepBounds::measure(const Integrator& integrator) const {
 StepBound StepBounds::measure(const Batch& b, const Integrator& integrator) const {
   const BodyModel& p = *b.model;
   const ForceBound force = bound_of(b, field(state_.x, b.base), integrator.projects);
-  const double contact = penalty_.pairs.empty()
+  const double contact = penalty_.pairs().empty()
                              ? 0
                              : PenaltyLaw<double>::stiffness_bound(p.material[contact::stiffness]) / p.particle_mass;
   // What XPBD does not project acts as in semi-implicit Euler.

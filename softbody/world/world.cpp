@@ -222,7 +222,7 @@ void World::step(const std::function<void()>& after_substep) {
   const bool whole = done.seconds == s.frame_time;
   s.report.solve_ms = ms_since(start) - looking_ms;
   s.detect();
-  const bool penalty_grows = penalty && s.solver.penalty_contact().layer.grows();  // nobody falls asleep meanwhile
+  const bool penalty_grows = penalty && s.solver.penalty_contact().layer().grows();  // nobody falls asleep meanwhile
   if (s.plan.has(Stage::sleep) && whole && !penalty_grows)
     settle(s.scene.sleep, s.solver.state(), touching.vertex_body, touching.result.contacts,
            s.solver.surface_contact().candidates().interactions());

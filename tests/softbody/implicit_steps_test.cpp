@@ -8,6 +8,7 @@
 
 #include "softbody/integrate/implicit/contact_search.h"
 #include "tests/softbody/implicit_rig.h"
+#include "tests/support/world_test_access.h"
 
 namespace softbody::test {
 namespace {
@@ -156,7 +157,7 @@ TEST(FindPlanes, AsksForWhatTheLawOfContactAsksFor) {
 struct PairRig : BatchRig {
   PairRig() {
     start(1, {0, -1, 0});
-    penalty.layer.thickness = 0.1f;
+    PenaltyTestAccess::layer(penalty).thickness = 0.1f;
     for (const BodyId other : {BodyId(1), BodyId(2)}) {
       x.set(other, 0, x.at(3 + 5, 1) + glm::dvec3(0.01, -0.05, 0));
       v.set(other, 0, {0.5, 0.25, 0});
@@ -170,12 +171,12 @@ struct PairRig : BatchRig {
                        .stiffness = 100,
                        .friction = 0.5f,
                        .damped_mass = 1};
-      ends.push_back({std::uint32_t(penalty.pairs.size()), 0});
-      penalty.pairs.push_back(pair);
+      ends.push_back({std::uint32_t(penalty.pairs().size()), 0});
+      PenaltyTestAccess::pairs(penalty).push_back(pair);
     }
-    penalty.group(x.x.size(), {});
+    PenaltyTestAccess::group(penalty, x.x.size());
     penalty.gather(x.field(), v.field());
-    penalty.evaluate({0, 2}, float(h));
+    penalty.evaluate({0, 2}, {float(h)});
   }
   std::vector<PenaltyEnd> ends;
 };
@@ -191,7 +192,7 @@ TEST(FindPenaltyPairs, LinearisesThemAboutTheFirstVelocities) {
     EXPECT_EQ(s.at, 5 * implicit_lanes + 1);
     EXPECT_LT(glm::distance(s.partner, partner), 1e-9);
     EXPECT_LT(glm::distance(s.start_separation, own - partner), 1e-9);
-    const glm::dvec3 force(rig.penalty.force[i]);
+    const glm::dvec3 force = rig.penalty.force({std::uint32_t(i), 0});
     ASSERT_GT(force.y, 1) << "N";
     EXPECT_LT(glm::distance(s.force, force), 1e-9);
     // Where the particle goes on as at the start, the damper pulls no more than it does already.

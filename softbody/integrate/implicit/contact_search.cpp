@@ -85,20 +85,24 @@ LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, I
   work.penalty_pairs.clear();
   const auto velocity = [&](std::size_t slot) { return glm::dvec3(read(b.v, slot)); };
   for (const PenaltyEnd& end : b.ends) {
-    const PenaltyPair pair = b.penalty.pairs[end.pair];
+    const PenaltyPairs& pairs = b.penalty.pairs();
+    const std::uint32_t i = end.pair;
     const auto [slot, other_slot] =
-        end.at_b ? std::pair(pair.slot_b, pair.slot_a) : std::pair(pair.slot_a, pair.slot_b);
+        end.at_b ? std::pair(pairs.slot_b[i], pairs.slot_a[i]) : std::pair(pairs.slot_a[i], pairs.slot_b[i]);
     const std::size_t in_batch = slot - b.batch.base, lane = in_batch % std::size_t(b.batch.width) - b.first_lane;
     if (lane >= implicit_lanes || !moving[lane]) continue;
     const std::size_t at = in_batch / std::size_t(b.batch.width) * implicit_lanes + lane;
-    const PenaltyContact::Slopes slopes = b.penalty.slopes(pair, b.x, b.v, float(h));
+    const PenaltyContact::Slopes slopes = b.penalty.slopes(i, b.x, b.v, float(h));
     if (slopes.spring <= 0) continue;
-    LinearPenaltyPair s{.end = end, .at = at, .normal = double(end.sign()) * glm::dvec3(pair.normal), .slopes = slopes};
-    s.force = double(end.sign()) * glm::dvec3(b.penalty.force[end.pair]);
-    s.friction = double(pair.friction);
-    if (b.is_moving(end.at_b ? pair.body_a : pair.body_b)) s.partner = h * velocity(other_slot), s.share = 0.5;
+    LinearPenaltyPair s{.end = end,
+                        .at = at,
+                        .normal = double(end.sign()) * glm::dvec3(read(field(pairs.normal), i)),
+                        .slopes = slopes};
+    s.force = b.penalty.force(end);
+    s.friction = double(pairs.friction[i]);
+    if (b.is_moving(end.at_b ? pairs.body_a[i] : pairs.body_b[i])) s.partner = h * velocity(other_slot), s.share = 0.5;
     s.start_separation = h * velocity(slot) - s.partner;
-    s.max_work = b.penalty.max_work(pair, b.x, glm::length(s.partner));
+    s.max_work = b.penalty.max_work(i, b.x, glm::length(s.partner));
     work.penalty_pairs.push_back(s);
     in_contact.set(lane);
   }

@@ -36,8 +36,9 @@ void write_end(const ImplicitWork& work, LaneMask moving, double h, const Implic
   }
 }
 
-void add_impulses(const ImplicitStep& step, const ImplicitWork& work, const ImplicitBatch& b,
-                  const ImplicitResult& result) {
+/// Adds what solids have done to the bodies in the step.
+void add_solid_impulses(const ImplicitStep& step, const ImplicitWork& work, const ImplicitBatch& b,
+                        const ImplicitResult& result) {
   const BodyField sum{result.solids.impulse, b.first_lane, 1};
   for (const PlaneContact& c : work.planes) {
     const std::size_t own = c.point.lane(), lane = b.first_lane + own;
@@ -52,17 +53,20 @@ void add_impulses(const ImplicitStep& step, const ImplicitWork& work, const Impl
     result.solids.returned[lane] += float(law::bounce_energy(step.h * push, before, after, c.restitution));
     result.solids.energy[lane] += float(push * c.out());
   }
+}
+
+/// Adds what the penalty pairs with restitution have done in a step of h.
+void add_pair_impacts(const ImplicitWork& work, const ImplicitBatch& b, double h) {
   if (!b.penalty.bounces()) return;
   for (const LinearPenaltyPair& s : work.penalty_pairs) {
-    const PenaltyPair pair = b.penalty.pairs[s.end.pair];
-    if (pair.restitution <= 0) continue;
+    if (b.penalty.pairs().restitution[s.end.pair] <= 0) continue;
     const glm::dvec3 moved = read(work.end_x, s.at) - read(work.x, s.at);
     const double push = glm::dot(s.force_after(moved), s.normal);
-    const double before = glm::dot(s.start_separation, s.normal) / step.h;
-    const double after = glm::dot(read(work.end_v, s.at) - s.partner / step.h, s.normal);
-    const double impulse = s.share * step.h * push;
+    const double before = glm::dot(s.start_separation, s.normal) / h;
+    const double after = glm::dot(read(work.end_v, s.at) - s.partner / h, s.normal);
+    const double impulse = s.share * h * push;
     const glm::dvec3 apart = double(s.end.sign()) * (moved - s.partner);
-    const double stored = b.penalty.energy(pair, b.x, apart) - b.penalty.energy(pair, b.x);
+    const double stored = b.penalty.energy(s.end.pair, b.x, apart) - b.penalty.energy(s.end.pair, b.x);
     b.penalty.add_impact(s.end, impulse, law::bounce_energy(impulse, before, after, 1.0) - s.share * stored);
   }
 }
@@ -104,7 +108,8 @@ void ImplicitSteps::advance_part(ImplicitWork& work, const ImplicitBatch& b, con
     if (open.any()) open &= ~attempt.advance(step, work, open);
   assert(open.none());
   write_end(work, moving, h, b, result);
-  add_impulses(step, work, b, result);
+  add_solid_impulses(step, work, b, result);
+  add_pair_impacts(work, b, h);
 }
 
 double ImplicitSteps::take_work() {
