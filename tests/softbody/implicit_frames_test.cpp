@@ -40,9 +40,9 @@ TEST(ImplicitFrames, TakeARigidMotionAlong) {
   constexpr double nearly = 0.01;  // how near the frame's spin comes to the body's
   const Flight f;
   const ImplicitFrames frames = f.frames();
-  Lanes x = f.x, v = f.v, frame_displacement(x.size()), a(x.size());
-  frames.enter(x, v, frame_displacement);
-  frames.accelerations(x, v, a);
+  ImplicitStart start;
+  frames.enter(f.x, f.v, start);
+  const Lanes &x = start.x, &v = start.v;
   Lanes end_x = x, end_v = v;
   frames.leave(end_x, end_v);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -50,16 +50,16 @@ TEST(ImplicitFrames, TakeARigidMotionAlong) {
                      inwards = glm::cross(f.spin, round);
     EXPECT_LT(glm::distance(at(x, i, 2), out), 1e-12);
     EXPECT_LT(glm::length(at(v, i, 2)), nearly * glm::length(round));
-    EXPECT_LT(glm::distance(at(a, i, 2), -inwards), nearly * glm::length(inwards));
+    EXPECT_LT(glm::distance(at(start.a, i, 2), -inwards), nearly * glm::length(inwards));
     const glm::dvec3 turned = rotation(f.h * f.spin) * out, place = frames.leave(2, out);
     EXPECT_LT(glm::distance(place, turned), nearly * f.h * glm::length(round));
     EXPECT_LT(glm::distance(at(end_x, i, 2), f.centre + f.h * f.velocity + f.fall + place), 1e-12);
     EXPECT_LT(glm::distance(at(end_v, i, 2), f.velocity + f.h * f.gravity + frames.leave(2, round)), 1e-12);
     // In the frame it is so far from where it was in the world.
-    EXPECT_NEAR(glm::length(at(frame_displacement, i, 2)), glm::distance(at(end_x, i, 2), at(f.x, i, 2)), 1e-12);
+    EXPECT_NEAR(glm::length(at(start.frame_displacement, i, 2)), glm::distance(at(end_x, i, 2), at(f.x, i, 2)), 1e-12);
     EXPECT_EQ(at(x, i, 5), at(f.x, i, 5));
-    EXPECT_EQ(at(a, i, 5), f.gravity);
-    EXPECT_EQ(at(frame_displacement, i, 5), glm::dvec3(0.0));
+    EXPECT_EQ(at(start.a, i, 5), f.gravity);
+    EXPECT_EQ(at(start.frame_displacement, i, 5), glm::dvec3(0.0));
     EXPECT_EQ(at(end_x, i, 5), at(f.x, i, 5));
   }
 }
@@ -67,13 +67,13 @@ TEST(ImplicitFrames, TakeARigidMotionAlong) {
 TEST(ImplicitFrames, TurnDirectionsAndForcesAlike) {
   const Flight f;
   const ImplicitFrames frames = f.frames();
-  Lanes x = f.x, v = f.v, frame_displacement(x.size());
-  frames.enter(x, v, frame_displacement);
+  ImplicitStart start;
+  frames.enter(f.x, f.v, start);
   const glm::dvec3 normal = glm::normalize(glm::dvec3(1, 2, -1));
-  Lanes end_x = x, end_v = v;
+  Lanes end_x = start.x, end_v = start.v;
   frames.leave(end_x, end_v);
   const glm::dvec3 moved = at(end_x, 3, 2) - at(f.x, 3, 2);
-  EXPECT_NEAR(glm::dot(at(frame_displacement, 3, 2), frames.enter(2, normal)), glm::dot(moved, normal), 1e-12);
+  EXPECT_NEAR(glm::dot(at(start.frame_displacement, 3, 2), frames.enter(2, normal)), glm::dot(moved, normal), 1e-12);
   EXPECT_LT(glm::distance(frames.leave(2, frames.enter(2, normal)), normal), 1e-12);
 }
 
@@ -117,40 +117,40 @@ struct Moving : ImplicitRig {
   double kinetic = 0.5 * model->material[Material::mass] * 4;  // J
   Moving() {
     move(1, {2, 0, 0});
-    work.end_x = work.x, work.end_v = work.v;
+    bodies.end_x = bodies.x, bodies.end_v = bodies.v;
   }
 };
 
 TEST(Dissipate, RemovesTheEnergyGain) {
   for (const bool pushed : {false, true}) {
     Moving m;
-    EXPECT_EQ(energy_gain(*m.model, m.work, 1, glm::dvec3(0.0), pushed), 0);
+    EXPECT_EQ(energy_gain(*m.model, m.bodies, 1, glm::dvec3(0.0), pushed), 0);
     std::mt19937 random(1);
     glm::dvec3 momentum(0.0);
     double gain = 0;  // J
     const std::size_t n = m.model->mesh.vertices.size();
     for (std::size_t i = 0; i < n; ++i) {
       const glm::dvec3 more = random_vector(random, 1);
-      put(m.work.v, i, 1, at(m.work.v, i, 1) + more);
-      put(m.work.end_v, i, 1, at(m.work.end_v, i, 1) + 1.01 * more);
-      momentum += at(m.work.end_v, i, 1);
-      gain +=
-          m.model->particle_mass / 2 *
-          (glm::dot(at(m.work.end_v, i, 1), at(m.work.end_v, i, 1)) - glm::dot(at(m.work.v, i, 1), at(m.work.v, i, 1)));
+      put(m.bodies.v, i, 1, at(m.bodies.v, i, 1) + more);
+      put(m.bodies.end_v, i, 1, at(m.bodies.end_v, i, 1) + 1.01 * more);
+      momentum += at(m.bodies.end_v, i, 1);
+      gain += m.model->particle_mass / 2 *
+              (glm::dot(at(m.bodies.end_v, i, 1), at(m.bodies.end_v, i, 1)) -
+               glm::dot(at(m.bodies.v, i, 1), at(m.bodies.v, i, 1)));
     }
-    const double undue = energy_gain(*m.model, m.work, 1, glm::dvec3(0.0), pushed);
+    const double undue = energy_gain(*m.model, m.bodies, 1, glm::dvec3(0.0), pushed);
     EXPECT_NEAR(undue, gain, 1e-9) << "J";
-    EXPECT_TRUE(dissipate(*m.model, m.work, 1, undue, pushed));
-    EXPECT_EQ(energy_gain(*m.model, m.work, 1, glm::dvec3(0.0), pushed), 0);
+    EXPECT_TRUE(dissipate(*m.model, m.bodies, 1, undue, pushed));
+    EXPECT_EQ(energy_gain(*m.model, m.bodies, 1, glm::dvec3(0.0), pushed), 0);
     glm::dvec3 left(0.0);
-    for (std::size_t i = 0; i < n; ++i) left += at(m.work.end_v, i, 1);
+    for (std::size_t i = 0; i < n; ++i) left += at(m.bodies.end_v, i, 1);
     if (!pushed) {
       EXPECT_LT(glm::distance(left, momentum), 1e-9);
     }
-    const Lanes before = m.work.end_v;
-    EXPECT_FALSE(dissipate(*m.model, m.work, 1, 2 * m.kinetic, pushed));
-    EXPECT_FALSE(dissipate(*m.model, m.work, 1, std::numeric_limits<double>::infinity(), pushed));
-    EXPECT_EQ(m.work.end_v, before);
+    const Lanes before = m.bodies.end_v;
+    EXPECT_FALSE(dissipate(*m.model, m.bodies, 1, 2 * m.kinetic, pushed));
+    EXPECT_FALSE(dissipate(*m.model, m.bodies, 1, std::numeric_limits<double>::infinity(), pushed));
+    EXPECT_EQ(m.bodies.end_v, before);
   }
 }
 
@@ -159,14 +159,14 @@ TEST(SatisfiesMomentumBalance, ComparesMomentumWithTheForces) {
   constexpr double h = 0.01;
   const glm::dvec3 gravity(0, -9.81, 0), by_plane(30, 200, -10), by_pair(0, 0, 150);  // N
   Moving m;
-  m.work.planes = {plane(3, 1, {0, 1, 0}, 0, by_plane), plane(3, 2, {0, 1, 0}, 0, {1e3, 1e3, 1e3})};
-  m.work.penalty_pairs = {penalty_pair(5, 1, {0, 0, 1}, by_pair), penalty_pair(5, 2, {0, 0, 1}, {0, 0, 1e3})};
+  m.bodies.planes = {plane(3, 1, {0, 1, 0}, 0, by_plane), plane(3, 2, {0, 1, 0}, 0, {1e3, 1e3, 1e3})};
+  m.bodies.penalty_pairs = {penalty_pair(5, 1, {0, 0, 1}, by_pair), penalty_pair(5, 2, {0, 0, 1}, {0, 0, 1e3})};
   const glm::dvec3 given = h * (by_plane + by_pair);
   const double tenth = 0.1 * (glm::length(given) + h * m.model->material[Material::mass] * glm::length(gravity));
   const auto ends_with = [&](const glm::dvec3& momentum) {  // kg m/s, more than it started with
     for (std::size_t i = 0; i < m.model->mesh.vertices.size(); ++i)
-      put(m.work.end_v, i, 1, at(m.work.v, i, 1) + momentum / m.model->material[Material::mass]);
-    return satisfies_momentum_balance(*m.model, m.work, 1, h, gravity);
+      put(m.bodies.end_v, i, 1, at(m.bodies.v, i, 1) + momentum / m.model->material[Material::mass]);
+    return satisfies_momentum_balance(*m.model, m.bodies, 1, h, gravity);
   };
   const glm::dvec3 due = given + h * m.model->material[Material::mass] * gravity;
   for (const glm::dvec3& way : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})
@@ -182,16 +182,16 @@ TEST(ClearPlanes, LeavesNoParticleBehind) {
   constexpr double h = 0.01;
   Moving m;
   const glm::dvec3 slanting = glm::normalize(glm::dvec3(2, -1, 0));
-  m.work.planes = {plane(3, 1, {0, 1, 0}, 0.02), plane(3, 1, slanting, 0.025), plane(4, 1, {0, 1, 0}, -0.001)};
-  const Lanes before_x = m.work.end_x, before_v = m.work.end_v;
-  EXPECT_TRUE(behind_planes(m.work)[1]);
-  EXPECT_FALSE(behind_planes(m.work)[2]);
-  clear_planes(m.work, mask({1}), h);
-  const glm::dvec3 moved = at(m.work.end_x, 3, 1) - at(before_x, 3, 1);
+  m.bodies.planes = {plane(3, 1, {0, 1, 0}, 0.02), plane(3, 1, slanting, 0.025), plane(4, 1, {0, 1, 0}, -0.001)};
+  const Lanes before_x = m.bodies.end_x, before_v = m.bodies.end_v;
+  EXPECT_TRUE(behind_planes(m.bodies)[1]);
+  EXPECT_FALSE(behind_planes(m.bodies)[2]);
+  clear_planes(m.bodies, mask({1}), h);
+  const glm::dvec3 moved = at(m.bodies.end_x, 3, 1) - at(before_x, 3, 1);
   EXPECT_NEAR(moved.y, 0.02, 1e-6) << "m: no farther than it needs";
   EXPECT_NEAR(glm::dot(moved, slanting), 0.025, 1e-6) << "m";
-  EXPECT_LT(glm::distance(at(m.work.end_v, 3, 1) - at(before_v, 3, 1), moved / h), 1e-9);
-  EXPECT_EQ(at(m.work.end_x, 4, 1), at(before_x, 4, 1));
+  EXPECT_LT(glm::distance(at(m.bodies.end_v, 3, 1) - at(before_v, 3, 1), moved / h), 1e-9);
+  EXPECT_EQ(at(m.bodies.end_x, 4, 1), at(before_x, 4, 1));
 }
 
 }  // namespace

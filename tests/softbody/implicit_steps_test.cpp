@@ -63,8 +63,8 @@ struct BatchRig {
     return sum;
   }
   /// The start as attempts see it.
-  ImplicitWork work() const {
-    ImplicitWork w(*model, implicit_kernels());
+  ImplicitBodies bodies() const {
+    ImplicitBodies w(*model);
     for (std::size_t i = 0; i < particles(); ++i)
       for (std::size_t lane = 0; lane < implicit_lanes; ++lane) {
         put(w.x, i, lane, x.at(3 + i, int(lane)));
@@ -111,14 +111,14 @@ TEST(FindPlanes, TakesPointsOfFacesAndEdgesOnce) {
   rig.features = {row(2, {4, 5, 6}, {0.25f, 0, 0.75f}), row(2, {6, 4, 7}, {0.7500001f, 0.2499999f, 0}),
                   row(2, {4, 5, 6}, {0.25f, 0.25f, 0.5f}), row(1, {4, 5, 6}, {0.25f, 0, 0.75f}),
                   row(3, {4, 5, 6}, {0.25f, 0, 0.75f})};
-  ImplicitWork work = rig.work();
+  ImplicitBodies bodies = rig.bodies();
   const LaneMask moving = mask({1, 2});
-  const ImplicitFrames frames(work.x, work.v, moving, rig.h, rig.gravity);
-  find_planes(rig.batch(), frames, moving, rig.h, work);
-  std::erase_if(work.planes, [](const PlaneContact& c) { return c.point.weight[0] == 1; });
-  ASSERT_EQ(work.planes.size(), 3u) << "one in lane 1, and two in lane 2";
+  const ImplicitFrames frames(bodies.x, bodies.v, moving, rig.h, rig.gravity);
+  find_planes(rig.batch(), frames, bodies);
+  std::erase_if(bodies.planes, [](const PlaneContact& c) { return c.point.weight[0] == 1; });
+  ASSERT_EQ(bodies.planes.size(), 3u) << "one in lane 1, and two in lane 2";
   for (std::size_t i = 0; i < 3; ++i) {
-    const PlaneContact& c = work.planes[i];
+    const PlaneContact& c = bodies.planes[i];
     EXPECT_EQ(c.point.lane(), i == 0 ? 1u : 2u);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(c.point.at[k], (4 + k) * implicit_lanes + c.point.lane());
     EXPECT_EQ(c.point.weight[2], i == 2 ? 0.5 : 0.75);
@@ -136,13 +136,13 @@ TEST(FindPlanes, AsksForWhatTheLawOfContactAsksFor) {
   rig.set_ground(1, 0.01);
   rig.set_ground(2, -0.02);
   rig.set_ground(3, 0.01);
-  ImplicitWork work = rig.work();
+  ImplicitBodies bodies = rig.bodies();
   const LaneMask moving = mask({0, 1, 2});
-  const ImplicitFrames frames(work.x, work.v, moving, rig.h, rig.gravity);
-  EXPECT_EQ(find_planes(rig.batch(), frames, moving, rig.h, work), mask({1, 2}));
-  EXPECT_EQ(work.planes.size(), 3 * rig.particles()) << "none of lanes that do not move";
+  const ImplicitFrames frames(bodies.x, bodies.v, moving, rig.h, rig.gravity);
+  EXPECT_EQ(find_planes(rig.batch(), frames, bodies), mask({1, 2}));
+  EXPECT_EQ(bodies.planes.size(), 3 * rig.particles()) << "none of lanes that do not move";
   double least_gap[] = {1, 1, 1, 1}, most_out[] = {0, 0, 0, 0};
-  for (const PlaneContact& c : work.planes) {
+  for (const PlaneContact& c : bodies.planes) {
     EXPECT_EQ(c.normal, glm::dvec3(0, 1, 0));
     EXPECT_EQ(c.force, glm::dvec3(0.0));
     least_gap[c.point.lane()] = std::min(least_gap[c.point.lane()], -c.min_displacement);
@@ -183,11 +183,11 @@ struct PairRig : BatchRig {
 
 TEST(FindPenaltyPairs, LinearisesThemAboutTheFirstVelocities) {
   PairRig rig;
-  ImplicitWork work = rig.work();
-  EXPECT_EQ(find_penalty_pairs(rig.batch(rig.ends), mask({1, 2}), rig.h, work), mask({1}));
-  ASSERT_EQ(work.penalty_pairs.size(), 2u);
+  ImplicitBodies bodies = rig.bodies();
+  EXPECT_EQ(find_penalty_pairs(rig.batch(rig.ends), mask({1, 2}), rig.h, bodies), mask({1}));
+  ASSERT_EQ(bodies.penalty_pairs.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
-    const LinearPenaltyPair& s = work.penalty_pairs[i];
+    const LinearPenaltyPair& s = bodies.penalty_pairs[i];
     const glm::dvec3 partner = i == 0 ? rig.h * glm::dvec3(0.5, 0.25, 0) : glm::dvec3(0.0), own = {0, -rig.h, 0};
     EXPECT_EQ(s.at, 5 * implicit_lanes + 1);
     EXPECT_LT(glm::distance(s.partner, partner), 1e-9);
@@ -204,10 +204,10 @@ TEST(FindPenaltyPairs, LinearisesThemAboutTheFirstVelocities) {
 
 TEST(FindPenaltyPairs, LeavesOutBodiesThatDoNotMove) {
   PairRig rig;
-  ImplicitWork work = rig.work();
-  work.penalty_pairs.resize(1);
-  EXPECT_EQ(find_penalty_pairs(rig.batch(rig.ends), mask({0}), rig.h, work), LaneMask());
-  EXPECT_TRUE(work.penalty_pairs.empty());
+  ImplicitBodies bodies = rig.bodies();
+  bodies.penalty_pairs.resize(1);
+  EXPECT_EQ(find_penalty_pairs(rig.batch(rig.ends), mask({0}), rig.h, bodies), LaneMask());
+  EXPECT_TRUE(bodies.penalty_pairs.empty());
 }
 
 TEST(ImplicitSteps, TakeABatchToItsEnd) {

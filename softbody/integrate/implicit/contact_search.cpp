@@ -46,33 +46,37 @@ bool is_same(const PlaneContact& a, const PlaneContact& b) {
 
 }  // namespace
 
-LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, LaneMask moving, double h,
-                     ImplicitWork& work) {
+LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, ImplicitBodies& bodies) {
   LaneMask in_contact;
-  work.planes.clear();
+  bodies.planes.clear();
   const auto add_plane = [&](const PlaneContact& c) {
-    const glm::dvec3 meant = c.point.mean(
-        [&](std::size_t at) { return frames.free_displacement(c.point.lane(), read(work.x, at), read(work.v, at)); });
+    const glm::dvec3 meant = c.point.mean([&](std::size_t at) {
+      return frames.free_displacement(c.point.lane(), read(bodies.x, at), read(bodies.v, at));
+    });
     if (glm::dot(meant, c.normal) < c.min_displacement) in_contact.set(c.point.lane());
-    work.planes.push_back(c);
+    bodies.planes.push_back(c);
   };
   for (std::size_t lane = 0; lane < implicit_lanes; ++lane) {
-    if (!moving[lane]) continue;
+    if (!frames.active()[lane]) continue;
     const std::size_t own = b.first_lane + lane;  // in the batch
     for (const SolidArguments& s : b.near_solids) {
       if (!(s.near >> own & 1u)) continue;
-      for (std::size_t at = lane; at < work.x.size() / 3; at += implicit_lanes) {
-        const SurfaceAt<double> surface = surface_from(s, own, read(work.x, at));
+      for (std::size_t at = lane; at < bodies.x.size() / 3; at += implicit_lanes) {
+        const SurfaceAt<double> surface = surface_from(s, own, read(bodies.x, at));
         const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
-        add_plane({{{at}}, double(s.friction), double(s.restitution), normal, law::min_move(surface.distance, h)});
+        add_plane({{{at}},
+                   double(s.friction),
+                   double(s.restitution),
+                   normal,
+                   law::min_move(surface.distance, frames.step())});
       }
     }
-    const std::size_t first = work.planes.size();
+    const std::size_t first = bodies.planes.size();
     for (const ContactRow& row : b.features) {
       if (row.slot[0] % std::size_t(b.batch.width) != own) continue;
       const PlaneContact c{point_of(row, b.batch.width, lane), double(row.friction), double(row.restitution),
-                           glm::dvec3(row.normal), double(row.target) * h};
-      if (std::ranges::none_of(std::span(work.planes).subspan(first),
+                           glm::dvec3(row.normal), double(row.target) * frames.step()};
+      if (std::ranges::none_of(std::span(bodies.planes).subspan(first),
                                [&](const PlaneContact& other) { return is_same(c, other); }))
         add_plane(c);
     }
@@ -80,9 +84,9 @@ LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, LaneM
   return in_contact;
 }
 
-LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, ImplicitWork& work) {
+LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, ImplicitBodies& bodies) {
   LaneMask in_contact;
-  work.penalty_pairs.clear();
+  bodies.penalty_pairs.clear();
   const auto velocity = [&](std::size_t slot) { return glm::dvec3(read(b.v, slot)); };
   for (const PenaltyEnd& end : b.ends) {
     const PenaltyPairs& pairs = b.penalty.pairs();
@@ -103,7 +107,7 @@ LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, I
     if (b.is_moving(end.at_b ? pairs.body_a[i] : pairs.body_b[i])) s.partner = h * velocity(other_slot), s.share = 0.5;
     s.start_separation = h * velocity(slot) - s.partner;
     s.max_work = b.penalty.max_work(i, b.x, glm::length(s.partner));
-    work.penalty_pairs.push_back(s);
+    bodies.penalty_pairs.push_back(s);
     in_contact.set(lane);
   }
   return in_contact;

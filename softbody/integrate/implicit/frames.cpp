@@ -40,13 +40,17 @@ void ImplicitFrames::for_each(Lanes& x, Lanes& v, const Change& change) const {
   }
 }
 
-void ImplicitFrames::enter(Lanes& x, Lanes& v, Lanes& frame_displacement) const {
-  std::fill(frame_displacement.begin(), frame_displacement.end(), 0.0);
-  for_each(x, v, [&](const Frame& f, glm::dvec3& place, glm::dvec3& velocity, std::size_t at) {
+void ImplicitFrames::enter(const Lanes& x, const Lanes& v, ImplicitStart& start) const {
+  for (std::size_t l = 0; l < implicit_lanes; ++l) start.moves[l] = active_[l] ? 1.0f : 0.0f;
+  start.x = x, start.v = v;
+  start.a.resize(x.size());
+  start.frame_displacement.assign(x.size(), 0.0);
+  for_each(start.x, start.v, [&](const Frame& f, glm::dvec3& place, glm::dvec3& velocity, std::size_t at) {
     place -= f.body.centre;
     velocity -= f.body.velocity + glm::cross(f.spin, place);
-    write(frame_displacement, at, place - glm::transpose(f.turned) * (place - h_ * f.body.velocity - fall_));
+    write(start.frame_displacement, at, place - glm::transpose(f.turned) * (place - h_ * f.body.velocity - fall_));
   });
+  accelerations(start.x, start.v, start.a);
 }
 
 PlaneContact ImplicitFrames::enter(const PlaneContact& contact) const {

@@ -27,9 +27,8 @@ class ImplicitFrames {
   /// Returns the rigid motion, in the world, that the body of a lane with a frame has at the start.
   const RigidMotion& start(std::size_t lane) const { return frames_[lane].body; }
 
-  /// Transforms positions and velocities of the start into the frames. Sets frame_displacement to how far (m) the frame
-  /// moves each particle along.
-  void enter(Lanes& x, Lanes& v, Lanes& frame_displacement) const;
+  /// Transforms positions and velocities of the start into the frames, for the lanes that have one of their own.
+  void enter(const Lanes& x, const Lanes& v, ImplicitStart& start) const;
   // Rotate directions and contacts from the world into a frame, and directions back.
   glm::dvec3 enter(std::size_t lane, const glm::dvec3& v) const { return glm::transpose(frames_[lane].turned) * v; }
   glm::dvec3 leave(std::size_t lane, const glm::dvec3& v) const { return frames_[lane].turned * v; }

@@ -29,8 +29,9 @@ ImplicitSolver::ImplicitSolver(const BodyModel& p, const ImplicitKernels& kernel
 
 /// Starts where the frame leads: what is stiff ends there but for little, and what is soft is there after one step.
 void ImplicitSolver::predict(const ImplicitProblem& p) {
-  for (std::size_t i = 0; i < 3 * stride_; ++i) target_[i] = (*p.x)[i] + p.h * (*p.v)[i] + p.h * p.h * (*p.a)[i];
-  x_ = *p.x;
+  const ImplicitStart& s = p.start;
+  for (std::size_t i = 0; i < 3 * stride_; ++i) target_[i] = s.x[i] + p.h * s.v[i] + p.h * p.h * s.a[i];
+  x_ = s.x;
   stop_at_planes(p);
   max_step_.fill(0);  // by a radius and the way to the target: the gradient is not usable farther out
   for (std::size_t i = 0; i < 3 * stride_; ++i)
@@ -68,12 +69,12 @@ void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
 void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g) {
   std::fill(g.begin(), g.end(), 0.0);
   forces_.add({p.model, implicit_lanes, field(x), field(g)}, held_,
-              {1 / p.h, field(*p.x), field(*p.frame_displacement), 1 / p.frame_time});
+              {1 / p.h, field(p.start.x), field(p.start.frame_displacement), 1 / p.frame_time});
   add_contact_forces(p, x, g);
   const double inertia = p.model.particle_mass / (p.h * p.h);
   for (std::size_t i = 0; i < 3 * stride_; i += implicit_lanes)
     for (std::size_t l = 0; l < implicit_lanes; ++l)
-      g[i + l] = double(p.moves[l]) * (inertia * (x[i + l] - target_[i + l]) - g[i + l]);
+      g[i + l] = double(p.start.moves[l]) * (inertia * (x[i + l] - target_[i + l]) - g[i + l]);
 }
 
 void ImplicitSolver::add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f) {

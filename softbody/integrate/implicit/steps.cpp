@@ -17,30 +17,30 @@ LaneMask moving_lanes(const ImplicitBatch& b) {
   return moving;
 }
 
-void read_start(const ImplicitBatch& b, ImplicitWork& work) {
-  for (std::size_t at = 0; at < work.x.size() / 3; ++at) {
+void read_start(const ImplicitBatch& b, ImplicitBodies& bodies) {
+  for (std::size_t at = 0; at < bodies.x.size() / 3; ++at) {
     const bool taken = b.first_lane + at % implicit_lanes < std::size_t(b.batch.used);
-    write(work.x, at, taken ? glm::dvec3(read(b.x, b.slot(at))) : glm::dvec3(0.0));
-    write(work.v, at, taken ? glm::dvec3(read(b.v, b.slot(at))) : glm::dvec3(0.0));
+    write(bodies.x, at, taken ? glm::dvec3(read(b.x, b.slot(at))) : glm::dvec3(0.0));
+    write(bodies.v, at, taken ? glm::dvec3(read(b.v, b.slot(at))) : glm::dvec3(0.0));
   }
 }
 
-void write_end(const ImplicitWork& work, LaneMask moving, double h, const ImplicitBatch& b,
+void write_end(const ImplicitBodies& bodies, LaneMask moving, double h, const ImplicitBatch& b,
                const ImplicitResult& result) {
   const BodyField mean{result.mean, 0, 1}, rest{result.rest, 0, 1};
-  for (std::size_t at = 0; at < work.x.size() / 3; ++at) {
+  for (std::size_t at = 0; at < bodies.x.size() / 3; ++at) {
     if (!moving[at % implicit_lanes]) continue;
-    const glm::dvec3 mean_v = (read(work.end_x, at) - read(work.x, at)) / h;
+    const glm::dvec3 mean_v = (read(bodies.end_x, at) - read(bodies.x, at)) / h;
     mean.set(b.slot(at), mean_v);
-    rest.set(b.slot(at), read(work.end_v, at) - mean_v);
+    rest.set(b.slot(at), read(bodies.end_v, at) - mean_v);
   }
 }
 
 /// Adds what solids have done to the bodies in the step.
-void add_solid_impulses(const ImplicitStep& step, const ImplicitWork& work, const ImplicitBatch& b,
+void add_solid_impulses(const ImplicitStep& step, const ImplicitBodies& bodies, const ImplicitBatch& b,
                         const ImplicitResult& result) {
   const BodyField sum{result.solids.impulse, b.first_lane, 1};
-  for (const PlaneContact& c : work.planes) {
+  for (const PlaneContact& c : bodies.planes) {
     const std::size_t own = c.point.lane(), lane = b.first_lane + own;
     const double push = glm::dot(c.force, c.normal);
     if (push == 0) continue;
@@ -48,22 +48,22 @@ void add_solid_impulses(const ImplicitStep& step, const ImplicitWork& work, cons
     // At the end of the step: until then the spin takes the point along its circle.
     const auto of_point = [&](const Lanes& v) { return c.point.mean([&](std::size_t at) { return read(v, at); }); };
     const glm::dvec3 whole = step.frames.start(own).velocity;
-    const double before = glm::dot(whole + step.frames.leave(own, of_point(work.v) - whole), c.normal);
-    const double after = glm::dot(of_point(work.end_v), c.normal);
+    const double before = glm::dot(whole + step.frames.leave(own, of_point(bodies.v) - whole), c.normal);
+    const double after = glm::dot(of_point(bodies.end_v), c.normal);
     result.solids.returned[lane] += float(law::bounce_energy(step.h * push, before, after, c.restitution));
     result.solids.energy[lane] += float(push * c.out());
   }
 }
 
 /// Adds what the penalty pairs with restitution have done in a step of h.
-void add_pair_impacts(const ImplicitWork& work, const ImplicitBatch& b, double h) {
+void add_pair_impacts(const ImplicitBodies& bodies, const ImplicitBatch& b, double h) {
   if (!b.penalty.bounces()) return;
-  for (const LinearPenaltyPair& s : work.penalty_pairs) {
+  for (const LinearPenaltyPair& s : bodies.penalty_pairs) {
     if (b.penalty.pairs().restitution[s.end.pair] <= 0) continue;
-    const glm::dvec3 moved = read(work.end_x, s.at) - read(work.x, s.at);
+    const glm::dvec3 moved = read(bodies.end_x, s.at) - read(bodies.x, s.at);
     const double push = glm::dot(s.force_after(moved), s.normal);
     const double before = glm::dot(s.start_separation, s.normal) / h;
-    const double after = glm::dot(read(work.end_v, s.at) - s.partner / h, s.normal);
+    const double after = glm::dot(read(bodies.end_v, s.at) - s.partner / h, s.normal);
     const double impulse = s.share * h * push;
     const glm::dvec3 apart = double(s.end.sign()) * (moved - s.partner);
     const double stored = b.penalty.energy(s.end.pair, b.x, apart) - b.penalty.energy(s.end.pair, b.x);
@@ -91,25 +91,28 @@ void ImplicitSteps::advance(int thread, ImplicitBatch batch, const ImplicitResul
     advance_part(found->second, batch, result, h);
 }
 
-void ImplicitSteps::advance_part(ImplicitWork& work, const ImplicitBatch& b, const ImplicitResult& result, double h) {
+void ImplicitSteps::advance_part(Work& work, const ImplicitBatch& b, const ImplicitResult& result, double h) {
   const LaneMask moving = moving_lanes(b);
   if (moving.none()) return;
-  read_start(b, work);
+  ImplicitBodies& bodies = work.bodies;
+  read_start(b, bodies);
   const BodyModel& model = *b.batch.model;
   ImplicitStep step{model,
                     matrices_.at(model, h),
                     matrices_.at(model, implicit_stage * h),
                     h,
                     b.gravity,
-                    ImplicitFrames(work.x, work.v, moving, h, b.gravity)};
-  step.in_contact = find_planes(b, step.frames, moving, h, work) | find_penalty_pairs(b, moving, h, work);
+                    ImplicitFrames(bodies.x, bodies.v, moving, h, b.gravity),
+                    work.solver,
+                    work.start};
+  step.in_contact = find_planes(b, step.frames, bodies) | find_penalty_pairs(b, moving, h, bodies);
   LaneMask open = moving;
   for (const ImplicitAttempt& attempt : implicit_attempts)
-    if (open.any()) open &= ~attempt.advance(step, work, open);
+    if (open.any()) open &= ~attempt.advance(step, bodies, open);
   assert(open.none());
-  write_end(work, moving, h, b, result);
-  add_solid_impulses(step, work, b, result);
-  add_pair_impacts(work, b, h);
+  write_end(bodies, moving, h, b, result);
+  add_solid_impulses(step, bodies, b, result);
+  add_pair_impacts(bodies, b, h);
 }
 
 double ImplicitSteps::take_work() {

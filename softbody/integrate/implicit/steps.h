@@ -11,7 +11,7 @@
 #include "softbody/contact/solid_law.h"
 #include "softbody/forces/penalty_contact.h"
 #include "softbody/integrate/implicit/matrices.h"
-#include "softbody/integrate/implicit/work.h"
+#include "softbody/integrate/implicit/solver.h"
 
 namespace softbody {
 
@@ -56,11 +56,18 @@ class ImplicitSteps {
   double take_work();
 
  private:
-  void advance_part(ImplicitWork& work, const ImplicitBatch& part, const ImplicitResult& result, double h);
+  /// What a thread computes with while it takes steps of one body model.
+  struct Work {
+    Work(const BodyModel& model, const ImplicitKernels& kernels) : solver(model, kernels), bodies(model) {}
+    ImplicitSolver solver;
+    ImplicitBodies bodies;
+    ImplicitStart start;
+  };
+  void advance_part(Work& work, const ImplicitBatch& part, const ImplicitResult& result, double h);
 
   const ImplicitKernels& kernels_;
   ImplicitMatrices matrices_;
-  std::vector<std::map<std::shared_ptr<const BodyModel>, ImplicitWork>> work_;  // of each thread
+  std::vector<std::map<std::shared_ptr<const BodyModel>, Work>> work_;  // of each thread
 };
 
 }  // namespace softbody
