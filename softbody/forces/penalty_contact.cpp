@@ -244,15 +244,15 @@ void PenaltyContact::take_impacts(Rebounds& rebounds) {
 }
 
 void PenaltyContact::remove(BodyId body, Index first, Index count) {
-  PenaltyPairs kept;
-  for (std::size_t i = 0; i < pairs().size(); ++i) {
-    PenaltyPair p = pairs()[i];
-    if (p.body_a == body || p.body_b == body) continue;
-    for (BodyId* id : {&p.body_a, &p.body_b}) *id -= *id > body;
-    for (Index* vertex : {&p.contact.a, &p.contact.b}) *vertex -= *vertex > first ? count : 0;
-    kept.push_back(p);
-  }
-  memory_.pairs = std::move(kept);
+  PenaltyPairs& pairs = memory_.pairs;
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (pairs.body_a[i] != body && pairs.body_b[i] != body) kept.push_back(i);
+  pairs.keep(kept);
+  for (auto* bodies : {&pairs.body_a, &pairs.body_b})
+    for (BodyId& id : *bodies) id -= id > body;
+  for (collide::Contact& c : pairs.contact)
+    for (Index* vertex : {&c.a, &c.b}) *vertex -= *vertex > first ? count : 0;
 }
 
 PenaltyContact::Slopes PenaltyContact::slopes(std::size_t i, Field<const float> x, Field<const float> v,

@@ -8,7 +8,7 @@
 
 #include "softbody/integrate/implicit/contact_search.h"
 #include "tests/softbody/implicit_rig.h"
-#include "tests/support/world_test_access.h"
+#include "tests/support/penalty_test_access.h"
 
 namespace softbody::test {
 namespace {
@@ -172,7 +172,7 @@ struct PairRig : BatchRig {
                        .friction = 0.5f,
                        .damped_mass = 1};
       ends.push_back({std::uint32_t(penalty.pairs().size()), 0});
-      PenaltyTestAccess::pairs(penalty).push_back(pair);
+      PenaltyTestAccess::add(penalty, pair);
     }
     PenaltyTestAccess::group(penalty, x.x.size());
     penalty.gather(x.field(), v.field());

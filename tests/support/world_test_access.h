@@ -2,20 +2,9 @@
 // A world's solver and its parts, for tests and benchmarks of the solver.
 
 #include "softbody/world/world_parts.h"
+#include "tests/support/penalty_test_access.h"
 
 namespace softbody {
-
-/// The pairs of penalty contact, for tests that make some by hand.
-struct PenaltyTestAccess {
-  static PenaltyPairs& pairs(PenaltyContact& penalty) { return penalty.memory_.pairs; }
-  static ContactLayer& layer(PenaltyContact& penalty) { return penalty.memory_.layer; }
-  /// Finds the particles that the pairs join by their slots, which are below `slots`.
-  static void group(PenaltyContact& penalty, std::size_t slots) { penalty.group(slots, {}); }
-  /// Hands the friction springs of the pairs `before` on to the same contacts; both ascend.
-  static void carry_over(PenaltyContact& penalty, const PenaltyPairs& before) {
-    penalty.carry_over({0, penalty.pairs().size()}, before.contact, before.stretch);
-  }
-};
 
 struct WorldTestAccess {
   static const Solver& solver(const World& world) { return world.parts_->solver; }
