@@ -20,13 +20,14 @@ softbody/model: collide/core collide/surface softbody/mesh softbody/contact soft
 softbody/state: softbody/mesh softbody/model
 softbody/contact: collide/core collide/surface softbody/mesh softbody/state softbody/model
 softbody/forces: collide/core softbody/mesh softbody/state softbody/model softbody/contact
-softbody/scene: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces
-softbody/integrate/implicit: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces
-softbody/integrate: collide/core collide/surface softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate/implicit
-softbody/integrate/methods: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
-softbody/world: collide collide/core softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
+softbody/mechanics: collide/core softbody/mesh softbody/state softbody/model softbody/contact softbody/forces
+softbody/scene: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/mechanics
+softbody/integrate/implicit: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/mechanics
+softbody/integrate: collide/core collide/surface softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/mechanics softbody/scene softbody/integrate/implicit
+softbody/integrate/methods: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/mechanics softbody/scene softbody/integrate softbody/integrate/implicit
+softbody/world: collide collide/core softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/mechanics softbody/scene softbody/integrate softbody/integrate/implicit
 softbody/api/sbcollide:
-softbody/api: collide/api collide/api/sbcollide collide/core softbody/api/sbcollide softbody/mesh softbody/model softbody/forces softbody/scene softbody/world
+softbody/api: collide/api collide/api/sbcollide collide/core softbody/api/sbcollide softbody/mesh softbody/model softbody/forces softbody/mechanics softbody/scene softbody/world
 engine:
 engine/render: engine
 app/base: collide softbody engine
@@ -56,8 +57,8 @@ mesh/points mesh/polygon mesh/surface
 state/best_rotation state/body state/energy_ledger state/lane_math state/lanes state/simd
 model/key model/material model/body_model model/scene_error
 contact/contacts contact/keys contact/law contact/solid contact/solid_surface
-forces/body_measures forces/bound forces/coordinates forces/gas forces/grab forces/material_keys
-forces/shape_matching forces/springs
+forces/coordinates forces/gas forces/grab forces/shape_matching forces/springs
+mechanics/body_measures mechanics/bound mechanics/material_keys
 scene/scene scene/scene_keys scene/scene_write scene/toml_table scene/toml_text
 integrate/integrators integrate/work integrate/plan
 world/bodies_in_motion world/energy_watch world/measures world/body_model_set world/snapshot world/world

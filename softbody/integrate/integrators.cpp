@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "softbody/forces/bound.h"
 #include "softbody/integrate/integrator_steps.h"
+#include "softbody/mechanics/bound.h"
 
 namespace softbody {
 namespace {

@@ -30,7 +30,7 @@ struct Integrator {
   /// Advances all bodies by one substep. All threads call it at once; `worker` says what the calling one does.
   void (*advance)(Motion& motion, const Worker& worker, const Substep& substep);
   /// Returns 0.8 times the largest stable step in s, for the sums of stiffness/mass (1/s^2) and damping/mass (1/s) at
-  /// one particle; infinity if every step is stable. See stable_step() in forces/bound.h.
+  /// one particle; infinity if every step is stable. See stable_step() in mechanics/bound.h.
   double (*stable_step)(double k_m, double c_m);
   int substeps_per_step = 1;     // that the method makes of each step asked for, and of a frame at least
   int step_lengths = 8;          // in use between a length and its double, unless steps are fixed

@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "softbody/forces/force_set.h"
 #include "softbody/integrate/contact_pass.h"
 #include "softbody/integrate/crew.h"
 #include "softbody/integrate/plan.h"
+#include "softbody/mechanics/force_set.h"
 #include "softbody/state/state.h"
 
 namespace softbody {

@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "softbody/forces/body_measures.h"
 #include "softbody/integrate/force_stage.h"
 #include "softbody/integrate/implicit/steps.h"
+#include "softbody/mechanics/body_measures.h"
 
 namespace softbody {
 namespace {

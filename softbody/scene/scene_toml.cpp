@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/material_keys.h"
+#include "softbody/mechanics/material_keys.h"
 #include "softbody/mesh/file_mesh.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/scene/scene_keys.h"

@@ -3,8 +3,9 @@
 #include <mutex>
 #include <utility>
 
-#include "softbody/forces/equilibrium.h"
 #include "softbody/forces/model_forces.h"
+#include "softbody/mechanics/body_material.h"
+#include "softbody/mechanics/equilibrium.h"
 
 namespace softbody {
 namespace {

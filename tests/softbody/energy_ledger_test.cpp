@@ -11,8 +11,8 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "softbody/forces/deformation.h"
-#include "softbody/forces/equilibrium.h"
+#include "softbody/mechanics/deformation.h"
+#include "softbody/mechanics/equilibrium.h"
 #include "softbody/state/state.h"
 #include "softbody/world/energy_watch.h"
 #include "tests/softbody/surface_rig.h"

@@ -1,6 +1,6 @@
 // The starting shape, in which springs and gas are in balance.
 
-#include "softbody/forces/equilibrium.h"
+#include "softbody/mechanics/equilibrium.h"
 
 #include <gtest/gtest.h>
 

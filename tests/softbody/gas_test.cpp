@@ -5,8 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/kernels/kernels.h"
-#include "softbody/forces/visit.h"
+#include "softbody/mechanics/kernels.h"
+#include "softbody/mechanics/visit.h"
 #include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
 

@@ -3,10 +3,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/equilibrium.h"
 #include "softbody/integrate/implicit/attempts.h"
 #include "softbody/integrate/implicit/balance.h"
 #include "softbody/integrate/implicit/matrices.h"
+#include "softbody/mechanics/equilibrium.h"
 #include "softbody/state/rigid_motion.h"
 #include "tests/softbody/helpers.h"
 

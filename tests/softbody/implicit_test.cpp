@@ -6,9 +6,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/equilibrium.h"
 #include "softbody/integrate/implicit/matrix.h"
 #include "softbody/integrate/implicit/solver.h"
+#include "softbody/mechanics/equilibrium.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_test_access.h"
 

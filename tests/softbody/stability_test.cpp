@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/equilibrium.h"
+#include "softbody/mechanics/equilibrium.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

@@ -7,8 +7,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/deformation.h"
-#include "softbody/forces/force_set.h"
+#include "softbody/mechanics/deformation.h"
+#include "softbody/mechanics/force_set.h"
 #include "softbody/state/rigid_motion.h"
 
 namespace softbody {

@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "softbody/forces/equilibrium.h"
-#include "softbody/forces/visit.h"
+#include "softbody/mechanics/equilibrium.h"
+#include "softbody/mechanics/visit.h"
 #include "softbody/model/scene_error.h"
 
 namespace softbody {

@@ -14,11 +14,11 @@
 
 #include <utility>
 
-#include "softbody/forces/kernels/kernels.h"
 #include "softbody/integrate/implicit/contact_forces.h"
 #include "softbody/integrate/implicit/kernels.h"
 #include "softbody/integrate/implicit/minimiser.h"
 #include "softbody/integrate/implicit/problem.h"
+#include "softbody/mechanics/kernels.h"
 #include "softbody/state/lanes.h"
 
 namespace softbody {

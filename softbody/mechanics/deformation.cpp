@@ -1,8 +1,8 @@
-#include "softbody/forces/deformation.h"
+#include "softbody/mechanics/deformation.h"
 
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/visit.h"
+#include "softbody/mechanics/visit.h"
 
 namespace softbody {
 namespace {

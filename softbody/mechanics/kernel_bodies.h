@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <span>
 
-#include "softbody/forces/kernels/kernel_types.h"
 #include "softbody/forces/spring_law.h"
+#include "softbody/mechanics/kernel_types.h"
 #include "softbody/state/lane_math.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -2,7 +2,7 @@
 // The elements of the forces inside one body, in double: at(element, law) is called for each, of offsets
 // at(element, place, law).
 
-#include "softbody/forces/kernels/kernel_bodies.h"
+#include "softbody/mechanics/kernel_bodies.h"
 
 namespace softbody {
 

@@ -1,7 +1,7 @@
 #pragma once
 // The forces that a plan takes.
 
-#include "softbody/forces/kernels/kernels.h"
+#include "softbody/mechanics/kernels.h"
 
 namespace softbody {
 

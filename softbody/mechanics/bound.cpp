@@ -1,4 +1,4 @@
-#include "softbody/forces/bound.h"
+#include "softbody/mechanics/bound.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/visit.h"
+#include "softbody/mechanics/visit.h"
 
 namespace softbody {
 namespace {
@@ -87,24 +87,24 @@ double pair_bound(std::size_t particles, std::span<const WeightedPair> pairs) {
   return std::max(first.bound, largest_eigenvalue(laplacian, start(Eigen::Index(particles), true)).bound);
 }
 
-void ModelForces::set_bounds(std::size_t particles) {
+void set_bounds(ModelForces& all, std::size_t particles) {
   std::vector<WeightedPair> stiffness, damping;
   for_each_force(Forces{}, [&]<class F>(Name<F>) {
     if constexpr (HasElements<F>) {
-      const auto& own = of<F>();
+      const auto& own = all.of<F>();
       if (!own) return;
       if constexpr (F::coordinate == Coordinate::length)
         for (const auto& law : own->template elements<double>()) {
           stiffness.push_back({law.i, law.j, law.stiffness});
           damping.push_back({law.i, law.j, law.damping});
         }
-      if constexpr (F::coordinate == Coordinate::volume) pressure += own->scale();
-      if constexpr (F::coordinate == Coordinate::offset) offset_stiffness += own->stiffness / 2;
-      if constexpr (F::coordinate == Coordinate::path) path_damping += own->damping / 2;
+      if constexpr (F::coordinate == Coordinate::volume) all.pressure += own->scale();
+      if constexpr (F::coordinate == Coordinate::offset) all.offset_stiffness += own->stiffness / 2;
+      if constexpr (F::coordinate == Coordinate::path) all.path_damping += own->damping / 2;
     }
   });
-  pair_stiffness = pair_bound(particles, stiffness) / 2;
-  pair_damping = pair_bound(particles, damping) / 2;
+  all.pair_stiffness = pair_bound(particles, stiffness) / 2;
+  all.pair_damping = pair_bound(particles, damping) / 2;
 }
 
 double damping_bound(const BodyModel& p) { return p.forces->pair_damping + p.forces->path_damping; }

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "softbody/forces/kernels/kernel_types.h"
+#include "softbody/mechanics/kernel_types.h"
 
 namespace softbody {
 

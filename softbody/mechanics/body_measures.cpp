@@ -1,11 +1,11 @@
-#include "softbody/forces/body_measures.h"
+#include "softbody/mechanics/body_measures.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/kernels/kernels.h"
+#include "softbody/mechanics/kernels.h"
 #include "softbody/state/state.h"
 
 namespace softbody {

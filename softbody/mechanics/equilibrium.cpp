@@ -1,11 +1,12 @@
-#include "softbody/forces/equilibrium.h"
+#include "softbody/mechanics/equilibrium.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "softbody/forces/deformation.h"
 #include "softbody/forces/gas.h"
-#include "softbody/forces/visit.h"
+#include "softbody/mechanics/body_material.h"
+#include "softbody/mechanics/deformation.h"
+#include "softbody/mechanics/visit.h"
 #include "softbody/model/scene_error.h"
 
 namespace softbody {

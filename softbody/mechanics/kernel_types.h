@@ -3,8 +3,8 @@
 
 #include <tuple>
 
-#include "softbody/forces/bound.h"
 #include "softbody/forces/model_forces.h"
+#include "softbody/mechanics/bound.h"
 
 namespace softbody {
 

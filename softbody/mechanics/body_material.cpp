@@ -1,7 +1,8 @@
-#include "softbody/forces/model_forces.h"
+#include "softbody/mechanics/body_material.h"
 
-#include "softbody/forces/bound.h"
-#include "softbody/forces/deformation.h"
+#include "softbody/forces/model_forces.h"
+#include "softbody/mechanics/bound.h"
+#include "softbody/mechanics/deformation.h"
 
 namespace softbody {
 namespace {
@@ -16,7 +17,7 @@ void give_material(BodyModel& p, const MeshSource& source, const Material& mater
     if constexpr (requires { F::adapt(p.material, p.mesh); }) F::adapt(p.material, p.mesh);
     if constexpr (HasElements<F>) forces->of<F>() = F::make(p, source);
   });
-  forces->set_bounds(p.mesh.vertices.size());
+  set_bounds(*forces, p.mesh.vertices.size());
   p.forces = forces;
   p.start_energy = stored_energy(p, p.start);
 }

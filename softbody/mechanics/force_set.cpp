@@ -1,4 +1,4 @@
-#include "softbody/forces/force_set.h"
+#include "softbody/mechanics/force_set.h"
 
 #include <algorithm>
 #include <cmath>
