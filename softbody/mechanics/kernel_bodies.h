@@ -167,7 +167,7 @@ struct AddForces {
       store(b.f, i, load<V>(b.f, i) - V(static_cast<Real>(law.damping)) * load<V>(motion.v, i));
     } else if constexpr (std::is_same_v<Motion, SinceStart>) {
       const Vec<V> rate = V(motion.inverse_h) * (load<V>(b.x, i) - load<V>(motion.x, i)) +
-                          V(motion.inverse_frame_time) * load<V>(motion.frame, i);
+                          V(motion.inverse_carry_time) * load<V>(motion.carried, i);
       store(b.f, i, load<V>(b.f, i) - V(law.damping) * rate);
     }
   }

@@ -34,7 +34,7 @@ inline LinearPenaltyPair penalty_pair(std::size_t particle, std::size_t lane, co
   return {.at = particle * implicit_lanes + lane, .normal = normal, .slopes = {}, .force = force};
 }
 
-/// The balls start and end at rest in balance, at their frames' origins, until they are moved.
+/// The balls start and end at rest in balance, at their axes' origins, until they are moved.
 struct ImplicitRig {
   explicit ImplicitRig(double stiffness = 1e4, double step = 0.01, double damping_ratio = 0.1)
       : model(make_body_model({}, gas_ball(stiffness, damping_ratio))), h(step) {
@@ -65,7 +65,7 @@ struct ImplicitRig {
             matrices.at(*model, implicit_stage * h),
             h,
             gravity,
-            ImplicitFrames(bodies.x, bodies.v, moving, h, gravity),
+            MovingAxes(bodies.x, bodies.v, moving, h, gravity),
             solver,
             local,
             in_contact};
@@ -84,7 +84,7 @@ struct ImplicitRig {
   glm::dvec3 gravity{0.0};
   ImplicitMatrices matrices;
   ImplicitBodies bodies{*model};
-  ImplicitSolver solver{*model, implicit_kernels()};
+  QuasiNewton solver{*model, implicit_kernels()};
   ImplicitStart local;
 };
 

@@ -1,6 +1,6 @@
 // What the implicit solver is made of: the minimiser, and the search for the forces of solids.
 
-#include "softbody/integrate/implicit/solver.h"
+#include "softbody/integrate/implicit/quasi_newton.h"
 
 #include <gtest/gtest.h>
 

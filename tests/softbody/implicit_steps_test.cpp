@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "softbody/integrate/implicit/contact_search.h"
+#include "softbody/integrate/implicit/step_contacts.h"
 #include "tests/softbody/implicit_rig.h"
 #include "tests/support/penalty_test_access.h"
 
@@ -113,8 +113,8 @@ TEST(FindPlanes, TakesPointsOfFacesAndEdgesOnce) {
                   row(3, {4, 5, 6}, {0.25f, 0, 0.75f})};
   ImplicitBodies bodies = rig.bodies();
   const LaneMask moving = mask({1, 2});
-  const ImplicitFrames frames(bodies.x, bodies.v, moving, rig.h, rig.gravity);
-  find_planes(rig.batch(), frames, bodies);
+  const MovingAxes axes(bodies.x, bodies.v, moving, rig.h, rig.gravity);
+  find_planes(rig.batch(), axes, bodies);
   std::erase_if(bodies.planes, [](const PlaneContact& c) { return c.point.weight[0] == 1; });
   ASSERT_EQ(bodies.planes.size(), 3u) << "one in lane 1, and two in lane 2";
   for (std::size_t i = 0; i < 3; ++i) {
@@ -138,8 +138,8 @@ TEST(FindPlanes, AsksForWhatTheLawOfContactAsksFor) {
   rig.set_ground(3, 0.01);
   ImplicitBodies bodies = rig.bodies();
   const LaneMask moving = mask({0, 1, 2});
-  const ImplicitFrames frames(bodies.x, bodies.v, moving, rig.h, rig.gravity);
-  EXPECT_EQ(find_planes(rig.batch(), frames, bodies), mask({1, 2}));
+  const MovingAxes axes(bodies.x, bodies.v, moving, rig.h, rig.gravity);
+  EXPECT_EQ(find_planes(rig.batch(), axes, bodies), mask({1, 2}));
   EXPECT_EQ(bodies.planes.size(), 3 * rig.particles()) << "none of lanes that do not move";
   double least_gap[] = {1, 1, 1, 1}, most_out[] = {0, 0, 0, 0};
   for (const PlaneContact& c : bodies.planes) {

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/integrate/implicit/matrix.h"
-#include "softbody/integrate/implicit/solver.h"
+#include "softbody/integrate/implicit/quasi_newton.h"
 #include "softbody/mechanics/equilibrium.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_test_access.h"
@@ -122,11 +122,11 @@ TEST(ImplicitMatrix, IsToBeHadOfHardlyAnyMass) {
 }
 
 /// Between planes that leave it no place there are no contact forces to be found.
-TEST(ImplicitSolver, IsDoneWithACrushedBodySoon) {
+TEST(QuasiNewton, IsDoneWithACrushedBodySoon) {
   const auto p = make_body_model({}, gas_ball());
   const double h = 1.0 / 60, r = p->radius;
   const ImplicitMatrix matrix(*p, h);
-  ImplicitSolver solver(*p, implicit_kernels());
+  QuasiNewton solver(*p, implicit_kernels());
   const std::size_t n = p->mesh.vertices.size(), max_contacts = 300;
   const Lanes none(3 * n * implicit_lanes);
   ImplicitStart start{none, none, none, none, {1}};

@@ -28,7 +28,7 @@ double move_rigidly(const ImplicitStep& step, ImplicitBodies& bodies, std::size_
   const double h = step.h;
   const std::size_t particles = step.model.mesh.vertices.size();
   const LaneView x{bodies.x, lane}, v{bodies.v, lane};
-  const RigidMotion& m = step.frames.start(lane);
+  const RigidMotion& m = step.axes.start(lane);
   const glm::dmat3 turned = rotation(share * h * turning);
   const glm::dvec3 spin = share * (turned * m.spin_of(glm::transpose(turned) * m.momentum));
   const auto aside = [&](std::size_t i) { return turned * (x(i) - m.centre) - (x(i) - m.centre); };
@@ -53,7 +53,7 @@ double move_rigidly(const ImplicitStep& step, ImplicitBodies& bodies, std::size_
 }
 
 void move_without_gain(const ImplicitStep& step, ImplicitBodies& bodies, std::size_t lane) {
-  const RigidMotion& m = step.frames.start(lane);
+  const RigidMotion& m = step.axes.start(lane);
   if (move_rigidly(step, bodies, lane, m.spin, 1) <= 0) return;
   // A body that spins fast about its long axis has far more energy where its spin takes it, at the same momentum. About
   // that momentum itself it can turn without gaining any.
@@ -72,11 +72,11 @@ Lanes mean_velocities(const ImplicitStep& step, const Lanes& x, double h) {
   return v;
 }
 
-/// Takes a solved end back into the world, for the lanes that have a frame of their own.
-void finish(const ImplicitFrames& frames, Lanes x, Lanes v, ImplicitBodies& bodies) {
-  frames.leave(x, v);
+/// Takes a solved end back into the world, for the lanes that have axes of their own.
+void finish(const MovingAxes& axes, Lanes x, Lanes v, ImplicitBodies& bodies) {
+  axes.leave(x, v);
   for (std::size_t i = 0; i < x.size(); ++i)
-    if (frames.active()[i % implicit_lanes]) bodies.end_x[i] = x[i], bodies.end_v[i] = v[i];
+    if (axes.active()[i % implicit_lanes]) bodies.end_x[i] = x[i], bodies.end_v[i] = v[i];
 }
 
 }  // namespace
@@ -86,15 +86,15 @@ LaneMask second_order_step(const ImplicitStep& step, ImplicitBodies& bodies, Lan
   if (solved.none()) return solved;
   const double h = step.h, stage = implicit_stage * h;
   const double second = 1 / (2 * implicit_stage);  // the second stage's share in what else acts
-  ImplicitFrames frames = step.frames.subset(solved);
-  frames.set_fall(h * h / 2 * step.gravity);
+  MovingAxes axes = step.axes.subset(solved);
+  axes.set_fall(h * h / 2 * step.gravity);
   ImplicitStart& start = step.start;
-  frames.enter(bodies.x, bodies.v, start);
+  axes.enter(bodies.x, bodies.v, start);
   const ImplicitProblem problem{step.model, step.stage_matrix, stage, start, h};
   const Lanes middle = step.solver.solve(problem), middle_v = mean_velocities(step, middle, stage);
   solved &= step.solver.converged();
   Lanes a(middle.size());
-  frames.accelerations(middle, middle_v, a);
+  axes.accelerations(middle, middle_v, a);
   for (std::size_t i = 0; i < middle.size(); ++i) {
     start.x[i] += (1 - implicit_stage) * h * middle_v[i];
     start.v[i] += (1 - implicit_stage) / implicit_stage * (middle_v[i] - start.v[i]);
@@ -102,8 +102,8 @@ LaneMask second_order_step(const ImplicitStep& step, ImplicitBodies& bodies, Lan
   }
   const Lanes end = step.solver.solve(problem);
   solved &= step.solver.converged();
-  finish(frames, end, mean_velocities(step, end, stage), bodies);
-  restore_momentum(step, bodies, frames.active());
+  finish(axes, end, mean_velocities(step, end, stage), bodies);
+  restore_momentum(step, bodies, axes.active());
   solved &= ~behind_planes(bodies);
   for (std::size_t l = 0; l < implicit_lanes; ++l)
     if (solved[l]) solved[l] = energy_gain(step.model, bodies, l, step.gravity, false) <= 0;
@@ -111,22 +111,22 @@ LaneMask second_order_step(const ImplicitStep& step, ImplicitBodies& bodies, Lan
 }
 
 LaneMask first_order_step(const ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried) {
-  const ImplicitFrames frames = step.frames.subset(tried);
-  frames.enter(bodies.x, bodies.v, step.start);
+  const MovingAxes axes = step.axes.subset(tried);
+  axes.enter(bodies.x, bodies.v, step.start);
   std::vector<PlaneContact> planes;
   std::vector<LinearPenaltyPair> pairs;
   for (const PlaneContact& c : bodies.planes)
-    if (tried[c.point.lane()]) planes.push_back(frames.enter(c));
+    if (tried[c.point.lane()]) planes.push_back(axes.enter(c));
   for (const LinearPenaltyPair& s : bodies.penalty_pairs)
-    if (tried[s.at % implicit_lanes]) pairs.push_back(frames.enter(s));
+    if (tried[s.at % implicit_lanes]) pairs.push_back(axes.enter(s));
   const Lanes end = step.solver.solve({step.model, step.matrix, step.h, step.start, step.h, planes, pairs});
-  finish(frames, end, mean_velocities(step, end, step.h), bodies);
+  finish(axes, end, mean_velocities(step, end, step.h), bodies);
   LaneMask pushed;  // by solids
   auto solved_plane = planes.begin();
   for (PlaneContact& c : bodies.planes) {
     const std::size_t lane = c.point.lane();
     if (!tried[lane]) continue;
-    c.force = frames.leave(lane, solved_plane++->force);
+    c.force = axes.leave(lane, solved_plane++->force);
     if (c.force != glm::dvec3(0.0)) pushed.set(lane);
   }
   restore_momentum(step, bodies, tried & ~pushed);

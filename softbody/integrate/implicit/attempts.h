@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "softbody/integrate/implicit/frames.h"
 #include "softbody/integrate/implicit/matrix.h"
-#include "softbody/integrate/implicit/solver.h"
+#include "softbody/integrate/implicit/moving_axes.h"
+#include "softbody/integrate/implicit/quasi_newton.h"
 
 namespace softbody {
 
@@ -20,14 +20,14 @@ struct ImplicitStep {
   const ImplicitMatrix &matrix, &stage_matrix;  // for steps of h, and of implicit_stage h
   double h;                                     // s
   glm::dvec3 gravity;                           // m/s^2
-  ImplicitFrames frames;                        // of the lanes that move
-  ImplicitSolver& solver;
+  MovingAxes axes;                              // of the lanes that move
+  QuasiNewton& solver;
   ImplicitStart& start;   // memory for that of a solve
   LaneMask in_contact{};  // lanes whose bodies touch something at the start
 };
 
 /// Takes a step of second order, in two stages, in those of the lanes that touch nothing. Springs, gas and dampers
-/// enter by Alexander's method, what else acts in a frame by the explicit one that goes with it (Ascher, Ruuth and
+/// enter by Alexander's method, what else acts in moving axes by the explicit one that goes with it (Ascher, Ruuth and
 /// Spiteri 1997, "Implicit-explicit Runge-Kutta methods", (2,2,2)). Refuses lanes whose solve does not converge, that
 /// end behind a plane, or that gain energy.
 LaneMask second_order_step(const ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried);

@@ -63,7 +63,7 @@ void restore_momentum(const ImplicitStep& step, ImplicitBodies& bodies, LaneMask
   for (std::size_t l = 0; l < implicit_lanes; ++l) {
     if (!which[l]) continue;
     const LaneView end_x{bodies.end_x, l};
-    const RigidMotion &before = step.frames.start(l), after = rigid_motion(n, end_x, LaneView{bodies.end_v, l});
+    const RigidMotion &before = step.axes.start(l), after = rigid_motion(n, end_x, LaneView{bodies.end_v, l});
     glm::dvec3 total(0.0), torque(0.0);
     for (const LinearPenaltyPair& s : bodies.penalty_pairs) {
       if (s.at % implicit_lanes != l) continue;

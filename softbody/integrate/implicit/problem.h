@@ -89,27 +89,27 @@ struct ImplicitBodies {
   std::vector<LinearPenaltyPair> penalty_pairs;  // ... these in any order
 };
 
-/// The start of a step in the frames of the lanes (implicit/frames.h).
+/// The start of a step in the axes of the lanes (implicit/moving_axes.h).
 struct ImplicitStart {
-  Lanes x, v;                // m and m/s
-  Lanes a;                   // m/s^2, what acts beside the forces
-  Lanes frame_displacement;  // m, what particles move without leaving their places here
+  Lanes x, v;     // m and m/s
+  Lanes a;        // m/s^2, what acts beside the forces
+  Lanes carried;  // m, how far the axes carry particles that keep their places in them
   std::array<float, implicit_lanes> moves{};
 };
 
-/// What is solved in one step, in the frames of the lanes.
+/// What is solved in one step, in the axes of the lanes.
 struct ImplicitProblem {
   const BodyModel& model;
   const ImplicitMatrix& matrix;
   double h;  // s
   const ImplicitStart& start;
-  double frame_time;                 // s, in which particles move by start.frame_displacement
+  double carry_time;                 // s, in which the axes do so
   std::span<PlaneContact> planes{};  // ordered by lanes; their forces are filled in
   std::span<const LinearPenaltyPair> penalty_pairs{};
 
   /// Returns the displacement (m) in this step of a particle whose position is now in `now`.
   glm::dvec3 displacement(const Lanes& now, std::size_t at) const {
-    return read(now, at) - read(start.x, at) + read(start.frame_displacement, at);
+    return read(now, at) - read(start.x, at) + read(start.carried, at);
   }
   glm::dvec3 displacement(const Lanes& now, const BodyPoint& point) const {
     return point.mean([&](std::size_t at) { return displacement(now, at); });

@@ -6,7 +6,7 @@
 
 #include "softbody/contact/law.h"
 #include "softbody/integrate/implicit/attempts.h"
-#include "softbody/integrate/implicit/contact_search.h"
+#include "softbody/integrate/implicit/step_contacts.h"
 
 namespace softbody {
 namespace {
@@ -47,8 +47,8 @@ void add_solid_impulses(const ImplicitStep& step, const ImplicitBodies& bodies, 
     sum.add(own, step.h * push * c.normal);
     // At the end of the step: until then the spin takes the point along its circle.
     const auto of_point = [&](const Lanes& v) { return c.point.mean([&](std::size_t at) { return read(v, at); }); };
-    const glm::dvec3 whole = step.frames.start(own).velocity;
-    const double before = glm::dot(whole + step.frames.leave(own, of_point(bodies.v) - whole), c.normal);
+    const glm::dvec3 whole = step.axes.start(own).velocity;
+    const double before = glm::dot(whole + step.axes.leave(own, of_point(bodies.v) - whole), c.normal);
     const double after = glm::dot(of_point(bodies.end_v), c.normal);
     result.solids.returned[lane] += float(law::bounce_energy(step.h * push, before, after, c.restitution));
     result.solids.energy[lane] += float(push * c.out());
@@ -102,10 +102,10 @@ void ImplicitSteps::advance_part(Work& work, const ImplicitBatch& b, const Impli
                     matrices_.at(model, implicit_stage * h),
                     h,
                     b.gravity,
-                    ImplicitFrames(bodies.x, bodies.v, moving, h, b.gravity),
+                    MovingAxes(bodies.x, bodies.v, moving, h, b.gravity),
                     work.solver,
                     work.start};
-  step.in_contact = find_planes(b, step.frames, bodies) | find_penalty_pairs(b, moving, h, bodies);
+  step.in_contact = find_planes(b, step.axes, bodies) | find_penalty_pairs(b, moving, h, bodies);
   LaneMask open = moving;
   for (const ImplicitAttempt& attempt : implicit_attempts)
     if (open.any()) open &= ~attempt.advance(step, bodies, open);

@@ -11,7 +11,7 @@
 #include "softbody/contact/solid_law.h"
 #include "softbody/forces/penalty_contact.h"
 #include "softbody/integrate/implicit/matrices.h"
-#include "softbody/integrate/implicit/solver.h"
+#include "softbody/integrate/implicit/quasi_newton.h"
 
 namespace softbody {
 
@@ -52,14 +52,14 @@ class ImplicitSteps {
   /// Takes a step of h, which must be prepared, of all lanes of a batch. Threads may take steps of different batches at
   /// the same time.
   void advance(int thread, ImplicitBatch batch, const ImplicitResult& result, double h);
-  /// Returns the work of all threads since the last call, see ImplicitSolver::take_work().
+  /// Returns the work of all threads since the last call, see QuasiNewton::take_work().
   double take_work();
 
  private:
   /// What a thread computes with while it takes steps of one body model.
   struct Work {
     Work(const BodyModel& model, const ImplicitKernels& kernels) : solver(model, kernels), bodies(model) {}
-    ImplicitSolver solver;
+    QuasiNewton solver;
     ImplicitBodies bodies;
     ImplicitStart start;
   };

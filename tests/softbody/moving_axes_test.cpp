@@ -1,4 +1,4 @@
-// What implicit steps are made of beside the solver: the bodies' frames, and the checks and corrections of a solve.
+// What implicit steps are made of beside the solver: the bodies' axes, and the checks and corrections of a solve.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace softbody::test {
 namespace {
 
-/// Four particles in lane 2 that fly and spin as one, the same in lane 5, which has the world's frame.
+/// Four particles in lane 2 that fly and spin as one, the same in lane 5, which has the world's axes.
 struct Flight {
   static constexpr double h = 0.1;
   const glm::dvec3 velocity{1, -2, 3}, spin{0.5, 4, -6}, gravity{0, -9.81, 0}, fall = h * h / 2 * gravity;
@@ -29,52 +29,52 @@ struct Flight {
       }
   }
   glm::dvec3 middle() const { return (places[0] + places[1] + places[2] + places[3]) / 4.0; }
-  ImplicitFrames frames() const {
-    ImplicitFrames made(x, v, mask({2}), h, gravity);
+  MovingAxes axes() const {
+    MovingAxes made(x, v, mask({2}), h, gravity);
     made.set_fall(fall);
     return made;
   }
 };
 
-TEST(ImplicitFrames, TakeARigidMotionAlong) {
-  constexpr double nearly = 0.01;  // how near the frame's spin comes to the body's
+TEST(MovingAxes, TakeARigidMotionAlong) {
+  constexpr double nearly = 0.01;  // how near the axes' spin comes to the body's
   const Flight f;
-  const ImplicitFrames frames = f.frames();
+  const MovingAxes axes = f.axes();
   ImplicitStart start;
-  frames.enter(f.x, f.v, start);
+  axes.enter(f.x, f.v, start);
   const Lanes &x = start.x, &v = start.v;
   Lanes end_x = x, end_v = v;
-  frames.leave(end_x, end_v);
+  axes.leave(end_x, end_v);
   for (std::size_t i = 0; i < 4; ++i) {
     const glm::dvec3 out = f.places[i] - f.middle(), round = glm::cross(f.spin, out),
                      inwards = glm::cross(f.spin, round);
     EXPECT_LT(glm::distance(at(x, i, 2), out), 1e-12);
     EXPECT_LT(glm::length(at(v, i, 2)), nearly * glm::length(round));
     EXPECT_LT(glm::distance(at(start.a, i, 2), -inwards), nearly * glm::length(inwards));
-    const glm::dvec3 turned = rotation(f.h * f.spin) * out, place = frames.leave(2, out);
+    const glm::dvec3 turned = rotation(f.h * f.spin) * out, place = axes.leave(2, out);
     EXPECT_LT(glm::distance(place, turned), nearly * f.h * glm::length(round));
     EXPECT_LT(glm::distance(at(end_x, i, 2), f.centre + f.h * f.velocity + f.fall + place), 1e-12);
-    EXPECT_LT(glm::distance(at(end_v, i, 2), f.velocity + f.h * f.gravity + frames.leave(2, round)), 1e-12);
-    // In the frame it is so far from where it was in the world.
-    EXPECT_NEAR(glm::length(at(start.frame_displacement, i, 2)), glm::distance(at(end_x, i, 2), at(f.x, i, 2)), 1e-12);
+    EXPECT_LT(glm::distance(at(end_v, i, 2), f.velocity + f.h * f.gravity + axes.leave(2, round)), 1e-12);
+    // In the axes it is so far from where it was in the world.
+    EXPECT_NEAR(glm::length(at(start.carried, i, 2)), glm::distance(at(end_x, i, 2), at(f.x, i, 2)), 1e-12);
     EXPECT_EQ(at(x, i, 5), at(f.x, i, 5));
     EXPECT_EQ(at(start.a, i, 5), f.gravity);
-    EXPECT_EQ(at(start.frame_displacement, i, 5), glm::dvec3(0.0));
+    EXPECT_EQ(at(start.carried, i, 5), glm::dvec3(0.0));
     EXPECT_EQ(at(end_x, i, 5), at(f.x, i, 5));
   }
 }
 
-TEST(ImplicitFrames, TurnDirectionsAndForcesAlike) {
+TEST(MovingAxes, TurnDirectionsAndForcesAlike) {
   const Flight f;
-  const ImplicitFrames frames = f.frames();
+  const MovingAxes axes = f.axes();
   ImplicitStart start;
-  frames.enter(f.x, f.v, start);
+  axes.enter(f.x, f.v, start);
   const glm::dvec3 normal = glm::normalize(glm::dvec3(1, 2, -1));
   Lanes end_x = start.x, end_v = start.v;
-  frames.leave(end_x, end_v);
+  axes.leave(end_x, end_v);
   const glm::dvec3 moved = at(end_x, 3, 2) - at(f.x, 3, 2);
-  EXPECT_NEAR(glm::dot(at(start.frame_displacement, 3, 2), frames.enter(2, normal)), glm::dot(moved, normal), 1e-12);
-  EXPECT_LT(glm::distance(frames.leave(2, frames.enter(2, normal)), normal), 1e-12);
+  EXPECT_NEAR(glm::dot(at(start.carried, 3, 2), axes.enter(2, normal)), glm::dot(moved, normal), 1e-12);
+  EXPECT_LT(glm::distance(axes.leave(2, axes.enter(2, normal)), normal), 1e-12);
 }
 
 TEST(Rotation, IsTheOneOfItsVector) {
@@ -87,29 +87,29 @@ TEST(Rotation, IsTheOneOfItsVector) {
   }
 }
 
-TEST(ImplicitFrames, TurnPenaltyPairs) {
+TEST(MovingAxes, TurnPenaltyPairs) {
   const Flight f;
-  const ImplicitFrames frames = f.frames();
+  const MovingAxes axes = f.axes();
   LinearPenaltyPair pair{.at = 2, .normal = glm::normalize(glm::dvec3(1, 2, -1)), .slopes = {}, .force = {3, 5, -4}};
   pair.slopes.spring = 10, pair.slopes.damper = 2, pair.slopes.across_spring = 7, pair.slopes.across_damper = 1;
   pair.friction = 0.5, pair.partner = {0.1, 0.2, 0.3}, pair.start_separation = {-0.1, 0.2, 0.1};
-  const LinearPenaltyPair turned = frames.enter(pair);
+  const LinearPenaltyPair turned = axes.enter(pair);
   const glm::dvec3 moved(0.2, -0.1, 0.05);
   ASSERT_GT(glm::length(pair.force_after(moved)), 1);
-  EXPECT_LT(glm::distance(frames.leave(2, turned.force_after(frames.enter(2, moved))), pair.force_after(moved)), 1e-10);
+  EXPECT_LT(glm::distance(axes.leave(2, turned.force_after(axes.enter(2, moved))), pair.force_after(moved)), 1e-10);
 }
 
 /// Along an axis to which all is near, what swings looks like a fast spin.
-TEST(ImplicitFrames, DoNotFollowATremor) {
+TEST(MovingAxes, DoNotFollowATremor) {
   Lanes x(3 * 4 * implicit_lanes), v = x;
   const double thin = 1e-3;
   for (std::size_t i = 0; i < 4; ++i) {
     put(x, i, 0, {double(i) - 1.5, i % 2 ? thin : -thin, i < 2 ? thin : -thin});
     put(v, i, 0, glm::cross(glm::dvec3(50, 0, 2), at(x, i, 0)));
   }
-  const ImplicitFrames frames(x, v, mask({0}), 1e-3, glm::dvec3(0.0));
+  const MovingAxes axes(x, v, mask({0}), 1e-3, glm::dvec3(0.0));
   const glm::dvec3 up(0, 1, 0);  // from the centre
-  EXPECT_LT(glm::distance((frames.leave(0, up) - up) / 1e-3, glm::cross(glm::dvec3(0, 0, 2), up)), 0.1);
+  EXPECT_LT(glm::distance((axes.leave(0, up) - up) / 1e-3, glm::cross(glm::dvec3(0, 0, 2), up)), 0.1);
 }
 
 /// A ball in lane 1 whose particles all move with 2 m/s.

@@ -1,4 +1,4 @@
-#include "softbody/integrate/implicit/contact_search.h"
+#include "softbody/integrate/implicit/step_contacts.h"
 
 #include <algorithm>
 #include <cassert>
@@ -12,7 +12,7 @@
 namespace softbody {
 namespace {
 
-/// Returns the surface of a solid as seen from x, in the frame of the body in a lane.
+/// Returns the surface of a solid as seen from x, in the coordinates of the body in a lane.
 SurfaceAt<double> surface_from(const SolidArguments& s, std::size_t lane, const glm::dvec3& x) {
   const glm::dvec3 from = x - glm::dvec3(s.place[lane]);
   const body::Vec<double> d{from.x, from.y, from.z};
@@ -46,36 +46,32 @@ bool is_same(const PlaneContact& a, const PlaneContact& b) {
 
 }  // namespace
 
-LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, ImplicitBodies& bodies) {
+LaneMask find_planes(const ImplicitBatch& b, const MovingAxes& axes, ImplicitBodies& bodies) {
   LaneMask in_contact;
   bodies.planes.clear();
   const auto add_plane = [&](const PlaneContact& c) {
-    const glm::dvec3 meant = c.point.mean([&](std::size_t at) {
-      return frames.free_displacement(c.point.lane(), read(bodies.x, at), read(bodies.v, at));
-    });
+    const glm::dvec3 meant = c.point.mean(
+        [&](std::size_t at) { return axes.free_displacement(c.point.lane(), read(bodies.x, at), read(bodies.v, at)); });
     if (glm::dot(meant, c.normal) < c.min_displacement) in_contact.set(c.point.lane());
     bodies.planes.push_back(c);
   };
   for (std::size_t lane = 0; lane < implicit_lanes; ++lane) {
-    if (!frames.active()[lane]) continue;
+    if (!axes.active()[lane]) continue;
     const std::size_t own = b.first_lane + lane;  // in the batch
     for (const SolidArguments& s : b.near_solids) {
       if (!(s.near >> own & 1u)) continue;
       for (std::size_t at = lane; at < bodies.x.size() / 3; at += implicit_lanes) {
         const SurfaceAt<double> surface = surface_from(s, own, read(bodies.x, at));
         const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
-        add_plane({{{at}},
-                   double(s.friction),
-                   double(s.restitution),
-                   normal,
-                   law::min_move(surface.distance, frames.step())});
+        add_plane(
+            {{{at}}, double(s.friction), double(s.restitution), normal, law::min_move(surface.distance, axes.step())});
       }
     }
     const std::size_t first = bodies.planes.size();
     for (const ContactRow& row : b.features) {
       if (row.slot[0] % std::size_t(b.batch.width) != own) continue;
       const PlaneContact c{point_of(row, b.batch.width, lane), double(row.friction), double(row.restitution),
-                           glm::dvec3(row.normal), double(row.target) * frames.step()};
+                           glm::dvec3(row.normal), double(row.target) * axes.step()};
       if (std::ranges::none_of(std::span(bodies.planes).subspan(first),
                                [&](const PlaneContact& other) { return is_same(c, other); }))
         add_plane(c);
