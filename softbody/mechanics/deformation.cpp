@@ -14,7 +14,7 @@ struct SumElastic {
   const Shape& x;
   double& sum;
   void operator()(Length c, const auto& law) const { sum += stored_at(law, glm::distance(x[c.i], x[c.j])); }
-  void operator()(Offset c, const body::Vec<double>& place, const auto& law) const {
+  void operator()(Offset c, const simd::Vec<double>& place, const auto& law) const {
     const glm::dvec3 away = x[c.i] - glm::dvec3(place.x, place.y, place.z);
     sum += law.stiffness / 2 * glm::dot(away, away);
   }

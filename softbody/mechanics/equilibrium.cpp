@@ -26,7 +26,7 @@ class Relaxation {
     for (auto& component : f_) std::fill(component.begin(), component.end(), 0.0);
     const LaneBodies<double> alone{model_, 1, field(x_), field(f_)};
     const Still still;
-    visit_all(model_, alone.x, body::AddForces<double, one_lane, Still>{alone, still});
+    visit_all(model_, alone.x, simd::AddForces<double, one_lane, Still>{alone, still});
   }
 
   double largest_force() const {

@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace softbody {
 namespace HWY_NAMESPACE {
-namespace body {
+namespace simd {
 
 /// m^2: its inverse is finite, and times a pull of 0 it is 0.
 template <class Real>
@@ -151,7 +151,7 @@ struct AddForces {
 
   HWY_INLINE void operator()(Volume, const auto& law) const {
     Real volume[lanes]{}, gauge[lanes]{};
-    body::volume<V, width>(b.model.mesh.triangles, b.x, volume);
+    simd::volume<V, width>(b.model.mesh.triangles, b.x, volume);
     for (int l = 0; l < std::min(b.used, lanes_of<V>); ++l) gauge[l] = static_cast<Real>(-law.pull(double(volume[l])));
     push_faces<V, width>(b.model.mesh.triangles, b.x, gauge, b.f);
   }
@@ -357,7 +357,7 @@ struct Project {
     double square[lanes]{}, largest[lanes]{};
     std::fill_n(unit, lanes, 1.0f);
     for (std::size_t at = 0; at < size; at += width) store(p.scratch, at, Vec<V>{});
-    body::volume<V, width>(b.model.mesh.triangles, b.x, volume);
+    simd::volume<V, width>(b.model.mesh.triangles, b.x, volume);
     push_faces<V, width>(b.model.mesh.triangles, b.x, unit, p.scratch);
     for (const float* gradient : {p.scratch.x, p.scratch.y, p.scratch.z})
       for (std::size_t at = 0; at < size; at += width)
@@ -468,7 +468,7 @@ struct AddStored {
   HWY_INLINE void operator()(Path, const auto&) const {}  // only damps
 };
 
-}  // namespace body
+}  // namespace simd
 }  // namespace HWY_NAMESPACE
 }  // namespace softbody
 HWY_AFTER_NAMESPACE();

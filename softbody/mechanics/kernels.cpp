@@ -11,7 +11,7 @@ namespace softbody {
 namespace HWY_NAMESPACE {
 namespace {
 
-using namespace body;
+using namespace simd;
 
 /// The kernels of one width: each run of lanes on its own.
 template <int width>

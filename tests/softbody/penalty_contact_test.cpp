@@ -292,7 +292,7 @@ struct RandomPairs {
     collide::Workers workers(threads);
     return penalty.stored_energy(workers, threads);
   }
-  body::Vec<double> way(std::size_t i, const LaneField& field) const {
+  simd::Vec<double> way(std::size_t i, const LaneField& field) const {
     const auto at = [&](std::uint32_t slot) { return glm::dvec3(read(field.field(), slot)); };
     const glm::dvec3 d = at(penalty.pairs().slot_a[i]) - at(penalty.pairs().slot_b[i]);
     return {d.x, d.y, d.z};
@@ -313,7 +313,7 @@ TEST_P(PairsInLanes, FollowTheLaw) {
   int behind = 0, apart = 0, sticking = 0, sliding = 0;
   double stored = 0;
   for (std::size_t i = 0; i < RandomPairs::count; ++i) {
-    using Vector = body::Vec<double>;
+    using Vector = simd::Vec<double>;
     const PenaltyPair p = pair_of(before, i);
     const auto vector = [](const glm::vec3& a) { return Vector{a.x, a.y, a.z}; };
     const Vector d = pairs.way(i, pairs.x) + vector(p.offset), n = vector(p.normal);

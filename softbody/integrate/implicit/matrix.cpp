@@ -91,7 +91,7 @@ struct Assemble {
       }
   }
 
-  void operator()(Offset c, const body::Vec<double>&, const auto& law) const { add_to_diagonal(c.i, law.stiffness); }
+  void operator()(Offset c, const simd::Vec<double>&, const auto& law) const { add_to_diagonal(c.i, law.stiffness); }
   void operator()(Path c, const auto& law) const { add_to_diagonal(c.i, law.damping / h); }
   void add_to_diagonal(Index i, double value) const {
     for (int axis = 0; axis < (rotates ? 3 : 1); ++axis) {

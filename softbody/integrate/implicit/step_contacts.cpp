@@ -15,8 +15,8 @@ namespace {
 /// Returns the surface of a solid as seen from x, in the coordinates of the body in a lane.
 SurfaceAt<double> surface_from(const SolidArguments& s, std::size_t lane, const glm::dvec3& x) {
   const glm::dvec3 from = x - glm::dvec3(s.place[lane]);
-  const body::Vec<double> d{from.x, from.y, from.z};
-  return body::surface_at(s.shape, d);
+  const simd::Vec<double> d{from.x, from.y, from.z};
+  return simd::surface_at(s.shape, d);
 }
 
 /// Returns the point that a row keeps off a solid, in a lane of a step.
