@@ -8,18 +8,18 @@ namespace softbody {
 namespace {
 
 /// Sets everything that depends on the material, except the starting shape.
-void give_material(BodyModel& p, const MeshSource& source, const Material& material) {
-  p.material = material;
-  if (!material.given(Material::thickness)) p.material[Material::thickness] = 0.01 * p.radius;
-  p.particle_mass = material[Material::mass] / double(p.mesh.vertices.size());
+void give_material(BodyModel& model, const MeshSource& source, const Material& material) {
+  model.material = material;
+  if (!material.given(Material::thickness)) model.material[Material::thickness] = 0.01 * model.radius;
+  model.particle_mass = material[Material::mass] / double(model.mesh.vertices.size());
   auto forces = std::make_shared<ModelForces>();
   for_each_force(Forces{}, [&]<class F>(Name<F>) {
-    if constexpr (requires { F::adapt(p.material, p.mesh); }) F::adapt(p.material, p.mesh);
-    if constexpr (HasElements<F>) forces->of<F>() = F::make(p, source);
+    if constexpr (requires { F::adapt(model.material, model.mesh); }) F::adapt(model.material, model.mesh);
+    if constexpr (HasElements<F>) forces->of<F>() = F::make(model, source);
   });
-  set_bounds(*forces, p.mesh.vertices.size());
-  p.forces = forces;
-  p.start_energy = stored_energy(p, p.start);
+  set_bounds(*forces, model.mesh.vertices.size());
+  model.forces = forces;
+  model.start_energy = stored_energy(model, model.start);
 }
 
 }  // namespace

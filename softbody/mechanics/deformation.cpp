@@ -22,37 +22,37 @@ struct SumElastic {
 
 }  // namespace
 
-double elastic_energy(const BodyModel& p, const Shape& x) {
+double elastic_energy(const BodyModel& model, const Shape& x) {
   std::array<std::vector<double>, 3> component;
   for (int k = 0; k < 3; ++k)
     for (const glm::dvec3& place : x) component[std::size_t(k)].push_back(place[k]);
   double sum = 0;
   visit_forces<Coordinate::length, Coordinate::offset>(
-      p, {component[0].data(), component[1].data(), component[2].data()}, SumElastic{x, sum});
+      model, {component[0].data(), component[1].data(), component[2].data()}, SumElastic{x, sum});
   return sum;
 }
 
-StoredEnergy stored_energy(const BodyModel& p, const Shape& x) {
-  StoredEnergy energy{.elastic = elastic_energy(p, x)};
-  if (p.forces->pressure <= 0) return energy;
+StoredEnergy stored_energy(const BodyModel& model, const Shape& x) {
+  StoredEnergy energy{.elastic = elastic_energy(model, x)};
+  if (model.forces->pressure <= 0) return energy;
   visit_forces<Coordinate::volume>(
-      p, {}, [&, v = enclosed_volume(p, x)](Volume, const auto& law) { energy.gas += law.stored(v); });
+      model, {}, [&, v = enclosed_volume(model, x)](Volume, const auto& law) { energy.gas += law.stored(v); });
   return energy;
 }
 
-StoredEnergy stored_energy_change(const BodyModel& p, const Shape& from, const Shape& to) {
-  StoredEnergy change{.elastic = elastic_energy(p, to) - elastic_energy(p, from)};
-  if (p.forces->pressure <= 0) return change;
-  const double before = enclosed_volume(p, from), after = enclosed_volume(p, to);
-  visit_forces<Coordinate::volume>(p, {},
+StoredEnergy stored_energy_change(const BodyModel& model, const Shape& from, const Shape& to) {
+  StoredEnergy change{.elastic = elastic_energy(model, to) - elastic_energy(model, from)};
+  if (model.forces->pressure <= 0) return change;
+  const double before = enclosed_volume(model, from), after = enclosed_volume(model, to);
+  visit_forces<Coordinate::volume>(model, {},
                                    [&](Volume, const auto& law) { change.gas += law.stored_change(before, after); });
   return change;
 }
 
-double enclosed_volume(const BodyModel& p, const Shape& x) {
+double enclosed_volume(const BodyModel& model, const Shape& x) {
   const glm::dvec3 from = x.front();  // any point will do; a near one loses no digits
   double six = 0;
-  for (const auto& [a, b, c] : p.mesh.triangles) six += glm::dot(x[a] - from, glm::cross(x[b] - from, x[c] - from));
+  for (const auto& [a, b, c] : model.mesh.triangles) six += glm::dot(x[a] - from, glm::cross(x[b] - from, x[c] - from));
   return six / 6;
 }
 

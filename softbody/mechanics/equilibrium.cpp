@@ -15,7 +15,7 @@ namespace {
 /// One body by itself, in double precision.
 class Relaxation {
  public:
-  Relaxation(const BodyModel& p, const std::vector<glm::dvec3>& from) : model_(p), size_(from.size()) {
+  Relaxation(const BodyModel& model, const std::vector<glm::dvec3>& from) : model_(model), size_(from.size()) {
     for (auto* field : {&x_, &v_, &f_})
       for (auto& component : *field) component.assign(size_, 0.0);
     for (std::size_t i = 0; i < from.size(); ++i)

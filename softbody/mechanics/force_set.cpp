@@ -69,23 +69,23 @@ void ForceSet::kick(const ForceBatch& b) {
 }
 
 ForceBound bound_of(const Batch& b, Field<const float> x, bool projects) {
-  const BodyModel& p = *b.model;
+  const BodyModel& model = *b.model;
   if (projects) {
-    const double unprojected = p.forces->offset_stiffness / p.particle_mass;
+    const double unprojected = model.forces->offset_stiffness / model.particle_mass;
     return {unprojected, unprojected};
   }
-  const double springs = stiffness_per_mass(p, {});
-  ForceBound bound{springs, springs, damping_bound(p) / p.particle_mass};
-  if (p.forces->pressure <= 0) return bound;
+  const double springs = stiffness_per_mass(model, {});
+  ForceBound bound{springs, springs, damping_bound(model) / model.particle_mass};
+  if (model.forces->pressure <= 0) return bound;
   VectorArray area;
   for (auto& component : area) component.resize(b.values());
   SurfaceShape shapes[lanes];
-  force_kernels(b.width).measure_surfaces({p, b.used, x, field(area)}, shapes);
+  force_kernels(b.width).measure_surfaces({model, b.used, x, field(area)}, shapes);
   for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
     if (b.moves[l] <= 0) continue;
-    bound.stiffness = std::max(bound.stiffness, stiffness_per_mass(p, shapes[l]));
-    bound.implicit_volume = std::max(bound.implicit_volume, stiffness_per_mass(p, shapes[l], Volumes::implicit_));
-    bound.volume_change = std::max(bound.volume_change, std::abs(shapes[l].volume / p.start_volume - 1));
+    bound.stiffness = std::max(bound.stiffness, stiffness_per_mass(model, shapes[l]));
+    bound.implicit_volume = std::max(bound.implicit_volume, stiffness_per_mass(model, shapes[l], Volumes::implicit_));
+    bound.volume_change = std::max(bound.volume_change, std::abs(shapes[l].volume / model.start_volume - 1));
   }
   return bound;
 }

@@ -83,14 +83,14 @@ struct World::Parts : WorldValues {
   void set_integrator();
   void wake_near(BodyId body);
   void update_plan();
-  void check_capacity(const BodyModel& p, std::size_t number) const;
+  void check_capacity(const BodyModel& model, std::size_t number) const;
   void check_sizes(const BodyModelSet& all, const IntegratorChoice& wanted) const;
   void bodies_added(std::size_t number);  // by hand
   Dropper dropper() const;                // the scene's, or one over its first body
   void drop(const Dropper& dropper);
   BodyId spawn(BodySource source);
-  bool is_clear(const BodyModel& p, const glm::dvec3& position) const;
-  double clear_height(const BodyModel& p, const glm::dvec3& position) const;
+  bool is_clear(const BodyModel& model, const glm::dvec3& position) const;
+  double clear_height(const BodyModel& model, const glm::dvec3& position) const;
 
   decltype(Options::check_work) check_work;
   double frame_time;                                // s

@@ -18,10 +18,10 @@ constexpr int max_iterations = 40, iterations_of_round = 12;
 
 }  // namespace
 
-QuasiNewton::QuasiNewton(const BodyModel& p, const ImplicitKernels& kernels)
+QuasiNewton::QuasiNewton(const BodyModel& model, const ImplicitKernels& kernels)
     : kernels_(kernels),
       forces_(implicit_force_kernels()),
-      particles_(p.mesh.vertices.size()),
+      particles_(model.mesh.vertices.size()),
       stride_(particles_ * implicit_lanes),
       minimiser_(particles_, kernels) {
   for (Lanes* v : {&target_, &x_, &push_, &scratch_}) v->resize(3 * stride_);
