@@ -151,20 +151,21 @@ FrameResult Solver::take_substeps(double seconds, StepBound bound, const AfterSu
     take(1);
     series.trusted = std::min(series.trusted, 1 + StepBounds::trusted_substeps(bounds_.fastest(), series.h()));
   }
-  try {
-    for (;;) {
-      // One implicit step can be a large part of the work that there may be.
-      while (series.taken < series.trusted && (series.taken == 0 || steps_.may_go_on()))
-        take(integrator.implicit ? 1 : series.trusted - series.taken);
-      if (!(series.left_after() > 0 && steps_.may_go_on())) break;
-      if (!steps_.fixed()) {
-        bound = bounds_.measure(steps_.bounds_of());
-        steps_.spend(steps_.work_of_bound());
-      }
-      series = plan_series(series.left_after(), bound);
-      done.needed = std::min(done.needed, steps_.plan().needed);
+  for (;;) {
+    // One implicit step can be a large part of the work that there may be.
+    while (series.taken < series.trusted && (series.taken == 0 || steps_.may_go_on()))
+      take(integrator.implicit ? 1 : series.trusted - series.taken);
+    if (!(series.left_after() > 0 && steps_.may_go_on())) break;
+    if (!steps_.fixed()) {
+      bound = bounds_.measure(steps_.bounds_of());
+      steps_.spend(steps_.work_of_bound());
     }
-  } catch (const std::length_error&) {  // too many candidates; the next frame has them at its start
+    try {
+      series = plan_series(series.left_after(), bound);
+    } catch (const std::length_error&) {
+      break;  // too many candidates; the next frame has them at its start
+    }
+    done.needed = std::min(done.needed, steps_.plan().needed);
   }
   done.seconds = seconds - series.left_after();
   for (const Batch* b : crew_.moving()) pushed_[b->index] |= solids_.pushed(*b);
@@ -191,17 +192,17 @@ Solver::Series Solver::plan_series(double left, StepBound& bound) {
 /// Returns how many substeps of a series may be taken before it is looked again whether they are short enough.
 /// fastest: see StepBound. surfaces_decide: how fast the candidates come closer decides the count.
 int Solver::trusted_substeps(const Series& s, double fastest, bool surfaces_decide) const {
-  int count = int(steps_.fixed() ? s.substeps
-                                 : std::clamp(double(StepBounds::trusted_substeps(fastest, s.h())), 1.0, s.substeps));
-  if (!contacts_.surfaces().candidates().empty()) count = std::min(count, steps_.fixed() || surfaces_decide ? 1 : 4);
-  return contacts_.has_surfaces() ? std::min(count, contacts_.trusted_substeps(s.left, s.h())) : count;
+  const bool fixed = steps_.fixed();
+  double count = fixed ? s.substeps : std::clamp(double(StepBounds::trusted_substeps(fastest, s.h())), 1.0, s.substeps);
+  if (!contacts_.surfaces().candidates().empty()) count = std::min(count, fixed || surfaces_decide ? 1.0 : 4.0);
+  return contacts_.has_surfaces() ? std::min(int(count), contacts_.trusted_substeps(s.left, s.h())) : int(count);
 }
 
 /// Books the work of `count` substeps that have been run, in J and as a part of the frame's budget.
 void Solver::count_work(int count) {
   const bool implicit = steps_.plan().integrator->implicit;
-  const SurfaceContact& surface = contacts_.surfaces();
-  state_.ledger.book(WorkBy::surfaces, contacts_.surfaces().take_work(rebounds_));
+  SurfaceContact& surface = contacts_.surfaces();
+  state_.ledger.book(WorkBy::surfaces, surface.take_work(rebounds_));
   steps_.spend(count * ((implicit ? 0 : steps_.work_of_substep()) +
                         (surface.candidates().empty() ? 0 : work::surface * surface.work_of_substep())));
   steps_.spend(work::implicit * implicit_->take_work());
@@ -210,10 +211,9 @@ void Solver::count_work(int count) {
 /// Returns how far (s) velocities stand behind positions in fixed substeps of h: 0 if these are too long to be stable.
 /// Then they conserve no energy, and the plain one is not to grow.
 double Solver::stable_staggering(float h) const {
-  const Integrator& integrator = *steps_.plan().integrator;
-  if (!integrator.staggered) return 0;
-  return (1 - integrator.reserve()) * double(h) * stable_rate(bounds_.measure(integrator), integrator) > 1 ? 0
-                                                                                                           : double(h);
+  const Integrator& i = *steps_.plan().integrator;
+  if (!i.staggered) return 0;
+  return (1 - i.reserve()) * double(h) * stable_rate(bounds_.measure(i), i) > 1 ? 0 : double(h);
 }
 
 /// Sets which energy the coming substeps conserve, by how far (s) velocities stand behind positions in them, and books
