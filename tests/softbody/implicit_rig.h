@@ -59,16 +59,10 @@ struct ImplicitRig {
   }
   /// Returns the step of the lanes that move.
   ImplicitStep step(LaneMask moving, LaneMask in_contact = {}) {
-    for (const double length : {h, implicit_stage * h}) matrices.prepare(model, length);
-    return {*model,
-            matrices.at(*model, h),
-            matrices.at(*model, implicit_stage * h),
-            h,
-            gravity,
-            MovingAxes(bodies.x, bodies.v, moving, h, gravity),
-            solver,
-            local,
-            in_contact};
+    for (const double length : {h, implicit_stage * h}) matrices.prepare(*model, length);
+    return {*model, matrices.at(h), matrices.at(implicit_stage * h),
+            h,      gravity,        MovingAxes(bodies.x, bodies.v, moving, h, gravity),
+            solver, local,          in_contact};
   }
   RigidMotion start(std::size_t lane) const {
     return rigid_motion(particles(), LaneView{bodies.x, lane}, LaneView{bodies.v, lane});

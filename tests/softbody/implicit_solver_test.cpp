@@ -95,17 +95,17 @@ TEST(Minimiser, StaysWhereALaneIsLost) {
 /// A ball in lane 0 that has been moved by `by`, with a plane that asks for `min_displacement` at its particle 3.
 struct Pressed : ImplicitRig {
   explicit Pressed(double min_displacement, const glm::dvec3& by = glm::dvec3(0.0)) {
-    matrices.prepare(model, h);
+    matrices.prepare(*model, h);
     bodies.planes = {plane(3, 0, {0, 1, 0}, min_displacement)};
     for (std::size_t i = 0; i < particles(); ++i) put(bodies.end_x, i, 0, at(bodies.x, i, 0) + by);
   }
   ImplicitProblem problem() {
     const Lanes none(bodies.x.size());
     local = {bodies.x, bodies.v, none, none};
-    return {*model, matrices.at(*model, h), h, local, h, bodies.planes};
+    return {*model, matrices.at(h), h, local, h, bodies.planes};
   }
   /// m, how far the particle moves under its contact's force.
-  glm::dvec3 response() { return matrices.at(*model, h).compliance(3, 3) * bodies.planes[0].force; }
+  glm::dvec3 response() { return matrices.at(h).compliance(3, 3) * bodies.planes[0].force; }
   double update() {
     changes.assign(bodies.x.size(), 0.0);
     return contact.update(problem(), bodies.planes, bodies.end_x, glm::dmat3(1.0), changes);
@@ -154,7 +154,7 @@ TEST(ContactForces, OfSpringsCorrectWhatIsLeft) {
   Pressed p(0.01);
   p.bodies.planes[0].force = {0, 3, 0};
   p.bodies.planes[0].friction = 0.5;
-  const double k = p.matrices.at(*p.model, p.h).contact_stiffness();
+  const double k = p.matrices.at(p.h).contact_stiffness();
   const glm::dvec3 moved(1, 0.002, 0);
   p.contact.start(false);
   EXPECT_EQ(p.contact.force(p.problem(), p.bodies.planes[0], moved), p.bodies.planes[0].force);

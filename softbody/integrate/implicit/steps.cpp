@@ -74,37 +74,36 @@ void add_pair_impacts(const ImplicitBodies& bodies, const ImplicitBatch& b, doub
 }  // namespace
 
 void ImplicitSteps::retain(const std::function<bool(const BodyModel&)>& in_use) {
-  matrices_.retain(in_use);
-  for (auto& of_thread : work_) std::erase_if(of_thread, [&](const auto& entry) { return !in_use(*entry.first); });
+  std::erase_if(models_, [&](const auto& entry) { return !in_use(*entry.first); });
 }
 
 void ImplicitSteps::prepare(const std::shared_ptr<const BodyModel>& model, double h, int threads) {
-  if (work_.size() < std::size_t(threads)) work_.resize(std::size_t(threads));
-  for (std::size_t t = 0; t < std::size_t(threads); ++t) work_[t].try_emplace(model, *model, kernels_);
-  for (const double length : {h, implicit_stage * h}) matrices_.prepare(model, length);
+  auto& [matrices, work] = models_[model];
+  while (work.size() < std::size_t(threads)) work.emplace_back(*model, kernels_);
+  for (const double length : {h, implicit_stage * h}) matrices.prepare(*model, length);
 }
 
 void ImplicitSteps::advance(int thread, ImplicitBatch batch, const ImplicitResult& result, double h) {
-  const auto found = work_[std::size_t(thread)].find(batch.batch.model);
-  assert(found != work_[std::size_t(thread)].end());
+  const auto found = models_.find(batch.batch.model);
+  assert(found != models_.end());
   for (; batch.first_lane < std::size_t(batch.batch.used); batch.first_lane += implicit_lanes)
-    advance_part(found->second, batch, result, h);
+    advance_part(found->second, thread, batch, result, h);
 }
 
-void ImplicitSteps::advance_part(Work& work, const ImplicitBatch& b, const ImplicitResult& result, double h) {
+void ImplicitSteps::advance_part(OfModel& own, int thread, const ImplicitBatch& b, const ImplicitResult& result,
+                                 double h) {
   const LaneMask moving = moving_lanes(b);
   if (moving.none()) return;
-  ImplicitBodies& bodies = work.bodies;
+  auto& [solver, bodies, start] = own.work[std::size_t(thread)];
   read_start(b, bodies);
-  const BodyModel& model = *b.batch.model;
-  ImplicitStep step{model,
-                    matrices_.at(model, h),
-                    matrices_.at(model, implicit_stage * h),
+  ImplicitStep step{*b.batch.model,
+                    own.matrices.at(h),
+                    own.matrices.at(implicit_stage * h),
                     h,
                     b.gravity,
                     MovingAxes(bodies.x, bodies.v, moving, h, b.gravity),
-                    work.solver,
-                    work.start};
+                    solver,
+                    start};
   step.in_contact = find_planes(b, step.axes, bodies) | find_penalty_pairs(b, moving, h, bodies);
   LaneMask open = moving;
   for (const ImplicitAttempt& attempt : implicit_attempts)
@@ -117,8 +116,8 @@ void ImplicitSteps::advance_part(Work& work, const ImplicitBatch& b, const Impli
 
 double ImplicitSteps::take_work() {
   double sum = 0;
-  for (auto& of_thread : work_)
-    for (auto& [model, work] : of_thread) sum += work.solver.take_work();
+  for (auto& [model, own] : models_)
+    for (Work& work : own.work) sum += work.solver.take_work();
   return sum;
 }
 

@@ -63,11 +63,14 @@ class ImplicitSteps {
     ImplicitBodies bodies;
     ImplicitStart start;
   };
-  void advance_part(Work& work, const ImplicitBatch& part, const ImplicitResult& result, double h);
+  struct OfModel {
+    ImplicitMatrices matrices;
+    std::vector<Work> work;  // of each thread
+  };
+  static void advance_part(OfModel& own, int thread, const ImplicitBatch& part, const ImplicitResult& result, double h);
 
   const ImplicitKernels& kernels_;
-  ImplicitMatrices matrices_;
-  std::vector<std::map<std::shared_ptr<const BodyModel>, Work>> work_;  // of each thread
+  std::map<std::shared_ptr<const BodyModel>, OfModel> models_;
 };
 
 }  // namespace softbody
