@@ -4,8 +4,7 @@
 #include <utility>
 
 #include "softbody/forces/model_forces.h"
-#include "softbody/mechanics/body_material.h"
-#include "softbody/mechanics/equilibrium.h"
+#include "softbody/mechanics/make_body_model.h"
 
 namespace softbody {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "softbody/mechanics/bound.h"
-#include "softbody/mechanics/equilibrium.h"
+#include "softbody/mechanics/make_body_model.h"
 #include "softbody/world/body_model_set.h"
 #include "tests/softbody/helpers.h"
 #include "tests/softbody/obj_lines.h"

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "softbody/mechanics/deformation.h"
-#include "softbody/mechanics/equilibrium.h"
+#include "softbody/mechanics/make_body_model.h"
 #include "softbody/state/state.h"
 #include "softbody/world/energy_watch.h"
 #include "tests/softbody/surface_rig.h"

@@ -6,8 +6,8 @@
 
 #include "softbody/contact/keys.h"
 #include "softbody/forces/model_forces.h"
-#include "softbody/mechanics/body_material.h"
 #include "softbody/mechanics/bound.h"
+#include "softbody/mechanics/make_body_model.h"
 #include "softbody/state/lanes.h"
 #include "softbody/world/measures.h"
 #include "tests/solids.h"

@@ -6,7 +6,7 @@
 #include "softbody/integrate/implicit/attempts.h"
 #include "softbody/integrate/implicit/balance.h"
 #include "softbody/integrate/implicit/matrices.h"
-#include "softbody/mechanics/equilibrium.h"
+#include "softbody/mechanics/make_body_model.h"
 #include "softbody/state/rigid_motion.h"
 #include "tests/softbody/helpers.h"
 

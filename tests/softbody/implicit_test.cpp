@@ -8,7 +8,7 @@
 
 #include "softbody/integrate/implicit/matrix.h"
 #include "softbody/integrate/implicit/quasi_newton.h"
-#include "softbody/mechanics/equilibrium.h"
+#include "softbody/mechanics/make_body_model.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_test_access.h"
 

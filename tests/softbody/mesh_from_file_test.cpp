@@ -10,7 +10,7 @@
 #include "softbody/forces/shape_matching.h"
 #include "softbody/integrate/force_stage.h"
 #include "softbody/mechanics/deformation.h"
-#include "softbody/mechanics/equilibrium.h"
+#include "softbody/mechanics/make_body_model.h"
 #include "softbody/mesh/file_mesh.h"
 #include "tests/softbody/helpers.h"
 #include "tests/softbody/obj_lines.h"

@@ -8,7 +8,7 @@
 
 #include "softbody/forces/shape_matching.h"
 #include "softbody/mechanics/deformation.h"
-#include "softbody/mechanics/equilibrium.h"
+#include "softbody/mechanics/make_body_model.h"
 #include "softbody/state/best_rotation.h"
 #include "tests/softbody/helpers.h"
 

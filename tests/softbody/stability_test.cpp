@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/mechanics/equilibrium.h"
+#include "softbody/mechanics/make_body_model.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

@@ -14,7 +14,7 @@
 namespace softbody {
 namespace {
 
-std::vector<glm::dvec3> places(const BodyModel& model, const LaneView& x) {
+std::vector<glm::dvec3> shape_of(const BodyModel& model, const LaneView& x) {
   std::vector<glm::dvec3> list;
   for (std::size_t i = 0; i < model.mesh.vertices.size(); ++i) list.push_back(x(i));
   return list;
@@ -110,7 +110,7 @@ double energy_gain(const BodyModel& model, const ImplicitBodies& bodies, std::si
     fallen += model.particle_mass * glm::dot(gravity, end_x(i) - x(i));
     before_mean += v(i) / double(n), after_mean += end_v(i) / double(n);
   }
-  const std::vector<glm::dvec3> start = places(model, x), end = places(model, end_x);
+  const std::vector<glm::dvec3> start = shape_of(model, x), end = shape_of(model, end_x);
   const double before = kinetic_energy(model, v), after = kinetic_energy(model, end_v),
                elastic = elastic_energy(model, start);
   const StoredEnergy stored = stored_energy_change(model, start, end);

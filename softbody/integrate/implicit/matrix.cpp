@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "softbody/mechanics/equilibrium.h"
+#include "softbody/mechanics/make_body_model.h"
 #include "softbody/mechanics/visit.h"
 #include "softbody/model/scene_error.h"
 
