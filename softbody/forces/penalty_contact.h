@@ -9,6 +9,7 @@
 // the pairs; and each adds their forces to the particles of its batches, in the order of the pairs.
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <span>
 #include <utility>
@@ -91,6 +92,7 @@ class PenaltyContact {
   void gather(const Batch& batch, Field<const float> x, Field<const float> v) { gather(particles_of(batch), x, v); }
   /// Evaluates the forces of the pairs in `part` on the gathered particles, and lets their friction springs slip.
   void evaluate(collide::Part part, const Substep& step) {
+    assert(part.end <= pairs().size() && pairs().size() <= force_.size());  // after find()
     penalty_kernels().evaluate(part, memory_.pairs, motion_.data(),
                                {layer().thickness, step.damper_limit, step.seconds,
                                 step.sums_impacts && bounces() ? impulse_.data() : nullptr, returned_.data()},

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <string_view>
 
 #include "softbody/integrate/implicit/matrix.h"
 #include "softbody/integrate/implicit/moving_axes.h"
@@ -26,6 +25,9 @@ struct ImplicitStep {
   LaneMask in_contact{};  // lanes whose bodies touch something at the start
 };
 
+// An attempt sets the end of the lanes `tried` (bodies.end_x and end_v) and leaves the other lanes as they are. It
+// returns the lanes that it has solved; the end of the rest is not to be used.
+
 /// Takes a step of second order, in two stages, in those of the lanes that touch nothing. Springs, gas and dampers
 /// enter by Alexander's method, what else acts in moving axes by the explicit one that goes with it (Ascher, Ruuth and
 /// Spiteri 1997, "Implicit-explicit Runge-Kutta methods", (2,2,2)). Refuses lanes whose solve does not converge, that
@@ -41,19 +43,7 @@ LaneMask first_order_step(const ImplicitStep& step, ImplicitBodies& bodies, Lane
 /// velocities are lost. Refuses no lane.
 LaneMask rigid_fallback_step(const ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried);
 
-/// A way to take a step.
-struct ImplicitAttempt {
-  std::string_view name;
-  /// Sets the end of the lanes `tried` (bodies.end_x and end_v) and leaves the other lanes as they are. Returns the
-  /// lanes that it has solved; the end of the rest is not to be used.
-  LaneMask (*advance)(const ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried);
-};
-
 /// Each is made in the lanes that those before it have left open. The last one solves all of them.
-inline constexpr std::array implicit_attempts{
-    ImplicitAttempt{"second order, in free flight", second_order_step},
-    ImplicitAttempt{"first order, with contact", first_order_step},
-    ImplicitAttempt{"rigid motion", rigid_fallback_step},
-};
+inline constexpr std::array implicit_attempts{second_order_step, first_order_step, rigid_fallback_step};
 
 }  // namespace softbody

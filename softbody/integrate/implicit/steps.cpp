@@ -106,8 +106,8 @@ void ImplicitSteps::advance_part(OfModel& own, int thread, const ImplicitBatch& 
                     start};
   step.in_contact = find_planes(b, step.axes, bodies) | find_penalty_pairs(b, moving, h, bodies);
   LaneMask open = moving;
-  for (const ImplicitAttempt& attempt : implicit_attempts)
-    if (open.any()) open &= ~attempt.advance(step, bodies, open);
+  for (const auto attempt : implicit_attempts)
+    if (open.any()) open &= ~attempt(step, bodies, open);
   assert(open.none());
   write_end(bodies, moving, h, b, result);
   add_solid_impulses(step, bodies, b, result);
