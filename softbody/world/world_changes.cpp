@@ -43,7 +43,7 @@ void World::Parts::bodies_added(std::size_t number) {
 double World::Parts::clear_height(const BodyModel& model, const glm::dvec3& position) const {
   double height = position.y;
   const double clear = 1.3 * model.radius + settings.tolerance;
-  const collide::Frame now = particles.frame();
+  const collide::Frame now = particles.input();
   for (Index i = 0; i < now.x.size(); ++i)
     if (glm::length(glm::dvec2(now.x[i] - position.x, now.z[i] - position.z)) < clear)
       height = std::max(height, now.y[i] + clear);
@@ -80,7 +80,7 @@ bool World::Parts::is_clear(const BodyModel& model, const glm::dvec3& position) 
     lo = glm::min(lo, v), hi = glm::max(hi, v);
   }
   const glm::vec3 low(position + lo - double(settings.tolerance)), high(position + hi + double(settings.tolerance));
-  const collide::Frame now = particles.frame();
+  const collide::Frame now = particles.input();
   for (Index i = 0; i < now.x.size(); ++i) {
     const glm::vec3 v(now.x[i], now.y[i], now.z[i]);
     if (glm::all(glm::lessThan(low, v)) && glm::all(glm::lessThan(v, high))) return false;
@@ -147,7 +147,7 @@ BodyId World::add(const BodySource& source) {
 
 /// Wakes the bodies near this one: they may rest on it, even if the detector reports no contact.
 void World::Parts::wake_near(BodyId body) {
-  const auto box = [&](BodyId b) { return collide::measure_bounds(collide::vertices_of(particles.frame(), b)).box; };
+  const auto box = [&](BodyId b) { return collide::measure_bounds(collide::vertices_of(particles.input(), b)).box; };
   const collide::Aabb own = box(body);
   const float wake_distance = std::max(settings.tolerance, 0.25f * float(solver.state().model(body).mean_edge));
   for (BodyId b = 0; b < particles.bodies.count(); ++b)

@@ -10,13 +10,13 @@
 
 namespace softbody {
 
-/// Positions that the solver writes and detectors read.
+/// Positions that the solver writes, and which are an input of detectors.
 struct Coordinates : Points {
   Field<float> resized(std::size_t size) {
     x.resize(size), y.resize(size), z.resize(size);
     return {x.data(), y.data(), z.data()};
   }
-  collide::Frame frame(const collide::Bodies& bodies) const { return {x, y, z, &bodies}; }
+  collide::Frame input(const collide::Bodies& bodies) const { return {x, y, z, &bodies}; }
 };
 
 struct Detection {
@@ -34,7 +34,7 @@ struct DetectedMeshes : Detection {
     vertex_body.resize(vertex_body.size() + shape->vertex_count(), bodies.count());
     bodies.add(shape);
   }
-  collide::Frame frame() const { return positions.frame(bodies); }
+  collide::Frame input() const { return positions.input(bodies); }
 };
 
 /// What decides how a world goes on, beside its solver's state.
