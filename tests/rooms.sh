@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# model/body_model.cpp still makes the data of the forces. The public headers include no other header of the project.
+# The public headers include no other header of the project.
 allowed="
 collide/api/sbcollide:
 collide/core: collide/api/sbcollide
@@ -16,17 +16,18 @@ collide/oracle: collide/core collide/surface
 collide: collide/core collide/methods collide/exact
 collide/api: collide/api/sbcollide collide/core collide
 softbody/mesh: collide/core collide/surface collide/oracle
-softbody/model: collide/core collide/surface softbody/mesh softbody/contact softbody/forces
+softbody/model: collide/surface softbody/mesh
 softbody/state: softbody/mesh softbody/model
 softbody/contact: collide/core collide/surface softbody/mesh softbody/state softbody/model
 softbody/forces: collide/core softbody/mesh softbody/state softbody/model softbody/contact
-softbody/scene: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces
-softbody/integrate/implicit: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces
-softbody/integrate: collide/core collide/surface softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate/implicit
-softbody/integrate/methods: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
-softbody/world: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
+softbody/mechanics: softbody/state softbody/model softbody/contact softbody/forces
+softbody/scene: collide softbody/mesh softbody/model softbody/contact softbody/mechanics
+softbody/integrate/implicit: softbody/state softbody/model softbody/contact softbody/forces softbody/mechanics
+softbody/integrate: collide/core softbody/state softbody/contact softbody/forces softbody/mechanics softbody/scene softbody/integrate/implicit
+softbody/integrate/methods: softbody/integrate
+softbody/world: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/mechanics softbody/scene softbody/integrate
 softbody/api/sbcollide:
-softbody/api: collide/api collide/api/sbcollide collide/core softbody/api/sbcollide softbody/mesh softbody/model softbody/forces softbody/scene softbody/world
+softbody/api: collide/api softbody/api/sbcollide softbody/mesh softbody/model softbody/mechanics softbody/scene softbody/world
 engine:
 engine/render: engine
 app/base: collide softbody engine
@@ -51,13 +52,13 @@ app: app/base app/files app/cli app/report app/window collide softbody engine
 
 # They include only each other of softbody, so that no change of the solver reaches app.
 public="
-mesh/coarse_mesh mesh/embedding mesh/file_mesh mesh/limits mesh/mesh mesh/mesh_import mesh/mesh_source
+mesh/coarse_mesh mesh/embedding mesh/file_mesh mesh/mesh mesh/mesh_import mesh/mesh_source
 mesh/points mesh/polygon mesh/surface
-state/best_rotation state/body state/energy_ledger state/lane_math state/lanes state/simd
+state/best_rotation state/body state/energy_ledger state/lanes
 model/key model/material model/body_model model/scene_error
-contact/contacts contact/keys contact/law contact/solid contact/solid_surface
-forces/body_measures forces/bound forces/coordinates forces/gas forces/grab forces/material_keys
-forces/shape_matching forces/springs
+contact/contacts contact/keys contact/solid contact/solid_surface
+forces/coordinates forces/gas forces/grab forces/shape_matching forces/springs
+mechanics/body_measures mechanics/bound mechanics/material_keys
 scene/scene scene/scene_keys scene/scene_write scene/toml_table scene/toml_text
 integrate/integrators integrate/work integrate/plan
 world/bodies_in_motion world/energy_watch world/measures world/body_model_set world/snapshot world/world

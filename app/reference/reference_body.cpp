@@ -8,8 +8,8 @@
 
 #include "app/reference/body_shape.h"
 #include "softbody/contact/solid_surface.h"
-#include "softbody/forces/bound.h"
 #include "softbody/forces/gas.h"
+#include "softbody/mechanics/bound.h"
 
 namespace app::reference {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "collide/api/guarded.h"
 #include "softbody/api/scene_impl.h"
-#include "softbody/forces/material_keys.h"
+#include "softbody/mechanics/material_keys.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/mesh/surface.h"
 #include "softbody/scene/scene_keys.h"

@@ -12,7 +12,7 @@ namespace softbody {
 namespace HWY_NAMESPACE {
 namespace {
 
-using namespace body;
+using namespace simd;
 
 /// Whether respond() may act in any lane, told without a root or a quotient where that is possible.
 template <class V, class Shape>

@@ -29,7 +29,7 @@ inline constexpr double impact_speed = 0.5;  // m/s
 /// turn into an overlap; an overlap (a negative gap) becomes smaller, by `most` at most.
 template <class V, class T>
 HWY_INLINE V min_change(V gap, T per_metre, T most) {
-  return body::select(gap > V(0), -gap * per_metre, body::smaller(-T(push_share) * per_metre * gap, V(most)));
+  return simd::select(gap > V(0), -gap * per_metre, simd::smaller(-T(push_share) * per_metre * gap, V(most)));
 }
 
 /// Returns how far (m) two sides have to separate in a step of h, at least; negative: they may approach.
@@ -61,8 +61,8 @@ T damper(T force, T rebound_speed) {
 /// Returns `drag`, shortened to `limit` where it is longer (Coulomb's cone): to nothing where the limit is 0.
 template <class Vector, class V>
 HWY_INLINE Vector within_cone(const Vector& drag, V limit) {
-  const V size = body::square_root(dot(drag, drag));
-  return (body::smaller(limit, size) / body::select(size > V(0), size, V(1))) * drag;
+  const V size = simd::square_root(dot(drag, drag));
+  return (simd::smaller(limit, size) / simd::select(size > V(0), size, V(1))) * drag;
 }
 
 /// Returns the coefficient of friction between two materials.

@@ -216,7 +216,7 @@ void SolidContact::add_particle_rows(BodyId body, float travel, std::vector<Cont
     for (Index v = 0; v < b.particles(); ++v) {
       const auto slot = std::uint32_t(state_.slot(body, v));
       const glm::vec3 at = read(field(std::as_const(state_.x)), slot) - place;
-      const SurfaceAt<float> surface = body::surface_at(s.shape, body::Vec<float>{at.x, at.y, at.z});
+      const SurfaceAt<float> surface = simd::surface_at(s.shape, simd::Vec<float>{at.x, at.y, at.z});
       if (surface.distance > travel) continue;
       ContactRow& row = rows.emplace_back();
       row.slot.fill(slot);

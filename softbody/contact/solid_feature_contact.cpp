@@ -65,11 +65,11 @@ std::optional<glm::vec3> outward_normal(const SolidFeature& f, const ClosestPoin
 std::optional<SurfaceAt<float>> gap_of(const SolidFeature& f, const ClosestPoints& m, const SolidShape<float>& shape,
                                        const glm::vec3& place) {
   const glm::vec3 at = m.point - place;
-  const body::Vec<float> d{at.x, at.y, at.z};
+  const simd::Vec<float> d{at.x, at.y, at.z};
   const auto* box = std::get_if<BoxShape<float>>(&shape);
-  if (!box) return body::surface_at(shape, d);
+  if (!box) return simd::surface_at(shape, d);
   constexpr float rounding = 1e-6f;  // m
-  const bool inside = body::surface_at(*box, d).distance + box->radius <= rounding;
+  const bool inside = simd::surface_at(*box, d).distance + box->radius <= rounding;
   if (const auto n = outward_normal(f, m, *box)) {
     const float apart = glm::dot(m.apart, *n);
     if (apart >= 0 || (inside && glm::dot(*n, at) >= 0))

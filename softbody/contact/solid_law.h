@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace softbody {
 namespace HWY_NAMESPACE {
-namespace body {
+namespace simd {
 
 /// Acts on the velocity of a point: after the step it is not below the surface, the change of normal velocity acts as
 /// an impulse, and friction takes at most `friction` times it from the tangential velocity. An impact is as fast as
@@ -32,7 +32,7 @@ HWY_INLINE V respond(const SolidArguments& s, V moves, V gap, Vec<V> n, Vec<V> b
   return change;
 }
 
-}  // namespace body
+}  // namespace simd
 }  // namespace HWY_NAMESPACE
 }  // namespace softbody
 HWY_AFTER_NAMESPACE();

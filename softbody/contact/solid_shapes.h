@@ -20,10 +20,10 @@ namespace HWY_NAMESPACE {
 template <class V>
 struct SurfaceAt {
   V distance;           // m, negative inside
-  body::Vec<V> normal;  // unit, out of the solid
+  simd::Vec<V> normal;  // unit, out of the solid
 };
 
-namespace body {
+namespace simd {
 
 /// Of a sphere; at its very centre out is up.
 template <class Real, class V>
@@ -76,7 +76,7 @@ HWY_INLINE SurfaceAt<V> surface_at(const SolidShape<Real>& shape, Vec<V> d) {
   return std::visit([d](const auto& one) { return surface_at(one, d); }, shape);
 }
 
-}  // namespace body
+}  // namespace simd
 }  // namespace HWY_NAMESPACE
 }  // namespace softbody
 HWY_AFTER_NAMESPACE();

@@ -14,7 +14,7 @@ SolidSurface surface_at(const Solid& solid, const glm::dvec3& point) {
       [&](const auto& one) {
         const auto [shape, place] = placed<double>(one, 0, point);
         const glm::dvec3 d = point - place;
-        const SurfaceAt<double> s = body::surface_at(shape, body::Vec<double>{d.x, d.y, d.z});
+        const SurfaceAt<double> s = simd::surface_at(shape, simd::Vec<double>{d.x, d.y, d.z});
         return SolidSurface{s.distance, {s.normal.x, s.normal.y, s.normal.z}};
       },
       solid.shape);

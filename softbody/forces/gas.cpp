@@ -24,10 +24,10 @@ double Gas::stored_change(double from, double to) const {
   return ambient_energy(to) - ambient_energy(from) - by_gas;
 }
 
-std::optional<Gas> GasPressure::make(const BodyModel& p, const MeshSource&) {
-  const double in = p.material[inside], out = p.material[outside];
-  if (!p.mesh.closed || (in <= 0 && out <= 0)) return {};
-  const double volume = softbody::volume(p.mesh.vertices, p.mesh.triangles);
+std::optional<Gas> GasPressure::make(const BodyModel& model, const MeshSource&) {
+  const double in = model.material[inside], out = model.material[outside];
+  if (!model.mesh.closed || (in <= 0 && out <= 0)) return {};
+  const double volume = softbody::volume(model.mesh.vertices, model.mesh.triangles);
   return Gas{.amount = in * volume, .ambient = out, .rest_volume = volume};
 }
 

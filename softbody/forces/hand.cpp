@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 namespace softbody {
-void Hand::add(const ForceBatch& b) const {
+void Hand::add(const ForceBatch& b) {
   if (!holds(b.state, b.batch)) return;
   const BodyField v = b.state.field_of(grab_->body, b.state.v);
   const BodyField f{b.f, std::size_t(b.state.body(grab_->body).lane), std::size_t(b.batch.width)};
@@ -21,7 +21,7 @@ void Hand::add(const ForceBatch& b) const {
   for (int i = 0; i < 3; ++i) f.add(grab_->corners[std::size_t(i)], grab_->weights[i] * exerted_);
 }
 
-void Hand::kick(const ForceBatch& b) const {
+void Hand::kick(const ForceBatch& b) {
   if (!holds(b.state, b.batch)) return;
   const BodyField v = b.state.field_of(grab_->body, b.state.v);
   glm::dvec3 velocity(0.0);
@@ -52,9 +52,9 @@ glm::dvec3 Hand::point(State& state) const {
 /// On the point, which everything else would let go at `velocity` after the step.
 glm::dvec3 Hand::force(const ForceBatch& b, const glm::dvec3& velocity) const {
   assert(b.h > 0);
-  const BodyModel& p = *b.batch.model;
-  const double rate = 2 * std::numbers::pi * grab_->frequency, mass = p.material[Material::mass];  // 1/s, kg
-  const double point_mass = p.particle_mass / glm::dot(grab_->weights, grab_->weights);
+  const BodyModel& model = *b.batch.model;
+  const double rate = 2 * std::numbers::pi * grab_->frequency, mass = model.material[Material::mass];  // 1/s, kg
+  const double point_mass = model.particle_mass / glm::dot(grab_->weights, grab_->weights);
   return pull(mass * rate * rate, 2 * grab_->damping_ratio * mass * rate, point_mass, b.h,
               grab_->target - point(b.state), velocity);
 }

@@ -16,9 +16,9 @@ class Hand {
   static constexpr bool internal = false;
   static const char* why_not(const ForceFacts& facts) { return facts.held ? nullptr : "nobody holds a body"; }
   /// Adds its force to those on the body of the batch that it holds, which must be complete but for gravity.
-  void add(const ForceBatch& batch) const;
+  void add(const ForceBatch& batch);
   /// Adds its impulse in the step to the velocities of that body, which must hold what all else does in it.
-  void kick(const ForceBatch& batch) const;
+  void kick(const ForceBatch& batch);
 
   /// Notes where the point is that the hand holds. Call it before a substep ...
   void note_point(State& state);
@@ -41,8 +41,8 @@ class Hand {
   glm::dvec3 force(const ForceBatch& batch, const glm::dvec3& velocity) const;
 
   std::optional<Grab> grab_;
-  glm::dvec3 noted_point_{0.0};      // m
-  mutable glm::dvec3 exerted_{0.0};  // N, last since then: add() and kick() note it on the held body's thread
+  glm::dvec3 noted_point_{0.0};  // m
+  glm::dvec3 exerted_{0.0};      // N, last since then: add() and kick() note it on the held body's thread
 };
 
 }  // namespace softbody

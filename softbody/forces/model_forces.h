@@ -34,8 +34,6 @@ struct ModelForces {
   auto& of() {
     return std::get<index_of<F>>(data);
   }
-  /// Works out the bounds from the data.
-  void set_bounds(std::size_t particles);
 };
 
 /// Returns what a force needs of a model; nullptr if it does not act on its bodies.
@@ -54,13 +52,5 @@ inline Jet volume_pull(const BodyModel& model, double v) {
   });
   return sum;
 }
-
-/// Returns a body model whose starting shape is the mesh itself, whether or not that is in equilibrium.
-std::shared_ptr<BodyModel> make_unbalanced_body_model(const MeshSource& mesh, const Material& material);
-
-/// Returns a body model of the same mesh with another material. It keeps the starting shape, which is in equilibrium
-/// only for the material that it was found for. `source`: the source of the model's mesh.
-std::shared_ptr<const BodyModel> with_material(const BodyModel& model, const MeshSource& source,
-                                               const Material& material);
 
 }  // namespace softbody

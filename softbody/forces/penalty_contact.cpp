@@ -14,19 +14,17 @@
 #include "softbody/forces/penalty_law.h"
 
 namespace softbody {
-namespace {
+
+/// Returns the law of a pair whose dampers have no limit.
+template <class Real>
+auto PenaltyContact::law_of(std::size_t i) const {
+  return PenaltyLaw<Real>{Real(pairs().stiffness[i]), Real(layer().thickness), Real(pairs().friction[i])};
+}
 
 /// Returns the way from b to a, in m.
-glm::vec3 between(const PenaltyPair& p, Field<const float> x) {
-  return read(x, p.slot_a) - read(x, p.slot_b) + p.offset;
+glm::vec3 PenaltyContact::between(std::size_t i, Field<const float> x) const {
+  return read(x, pairs().slot_a[i]) - read(x, pairs().slot_b[i]) + read(field(pairs().offset), i);
 }
-
-template <class Real>
-PenaltyLaw<Real> law_of(const PenaltyContact& c, const PenaltyPair& p) {
-  return {Real(p.stiffness), Real(c.layer.thickness), Real(p.friction), Real(c.damper_limit * p.damped_mass)};
-}
-
-}  // namespace
 
 /// What one of the threads does that share the search for pairs.
 struct PenaltyContact::Share {
@@ -56,6 +54,8 @@ struct PenaltyContact::Share {
 
 void PenaltyContact::find(const DetectedContacts& detected, const State& state, double seconds,
                           collide::Workers& workers) {
+  ContactLayer& layer = memory_.layer;
+  PenaltyPairs& pairs = memory_.pairs;
   layer.tolerance = detected.tolerance;
   layer.begun = layer.thickness;
   layer.grow(seconds);
@@ -89,6 +89,7 @@ void PenaltyContact::find(const DetectedContacts& detected, const State& state, 
 
 /// Takes the contacts of bodies that move.
 void PenaltyContact::take(const Share& share, const DetectedContacts& detected, const State& state) {
+  PenaltyPairs& pairs = memory_.pairs;
   const auto body = [&](Index vertex) { return detected.vertex_body[vertex]; };
   const auto acts = [&](const collide::Contact& c) {
     return state.body(body(c.a)).moves() || state.body(body(c.b)).moves();
@@ -118,6 +119,7 @@ void PenaltyContact::group(std::size_t slots, std::span<const Batch> batches) {
 /// Each thread finds the particles in its part of the slots: the ends of their pairs stay in order.
 void PenaltyContact::group(const Share& share, std::size_t slots, std::span<const Batch> batches) {
   assert(slots <= std::numeric_limits<std::uint32_t>::max());
+  PenaltyPairs& pairs = memory_.pairs;
   const auto [low, high] = share.part(slots);
   const auto for_each_end = [&, first = low, count = high - low](const auto& use) {
     for (std::uint32_t i = 0; i < pairs.size(); ++i) {
@@ -137,7 +139,7 @@ void PenaltyContact::group(const Share& share, std::size_t slots, std::span<cons
     first_end_.back() = std::uint32_t(all.second);
     motion_.resize(all.first), traits_.resize(all.first);
     ends_.resize(all.second);
-    force.resize(pairs.a.size());
+    force_.resize(pairs.a.size());
     stored_.resize(pairs.a.size() / lanes);
     const bool bounces =
         std::any_of(pairs.restitution.begin(), pairs.restitution.begin() + std::ptrdiff_t(pairs.size()),
@@ -208,21 +210,29 @@ void PenaltyContact::add(const ForceBatch& b) const {
   const auto [begin, end] = particles_of(b.batch);
   if (begin == end) return;
   penalty_kernels().add(std::span(slot_).subspan(begin, end - begin), first_end_.data() + begin, ends_.data(),
-                        force.data(), b.batch.base, b.f);
+                        force_.data(), b.batch.base, b.f);
 }
 
-double PenaltyContact::energy() const { return std::accumulate(stored_.begin(), stored_.end(), 0.0); }
+double PenaltyContact::stored_energy(collide::Workers& workers, int threads) {
+  if (pairs().empty()) return 0;
+  workers.run_together(threads, [&](int thread) {
+    penalty_kernels().measure(collide::part_of(pairs().size(), thread, threads), pairs(), motion_.data(),
+                              layer().thickness, stored_.data());
+  });
+  return std::accumulate(stored_.begin(), stored_.end(), 0.0);
+}
 
 void PenaltyContact::add_impact(PenaltyEnd end, double impulse, double taken) {
-  assert(bounces() && end.pair < pairs.size());
-  const std::size_t at = end.pair + (end.at_b ? pairs.a.size() : 0);
-  const float e = pairs.restitution[end.pair];
+  assert(bounces() && end.pair < pairs().size());
+  const std::size_t at = end.pair + (end.at_b ? pairs().a.size() : 0);
+  const float e = pairs().restitution[end.pair];
   impulse_[at] += float(impulse), returned_[at] += e * e * float(taken);
 }
 
 void PenaltyContact::take_impacts(Rebounds& rebounds) {
   const auto impulses = std::exchange(impulse_, {}), returned = std::exchange(returned_, {});
   if (impulses.empty()) return;
+  const PenaltyPairs& pairs = memory_.pairs;
   const std::size_t b = pairs.a.size();
   assert(impulses.size() == 2 * b);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -234,42 +244,44 @@ void PenaltyContact::take_impacts(Rebounds& rebounds) {
 }
 
 void PenaltyContact::remove(BodyId body, Index first, Index count) {
-  PenaltyPairs kept;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    PenaltyPair p = pairs[i];
-    if (p.body_a == body || p.body_b == body) continue;
-    for (BodyId* id : {&p.body_a, &p.body_b}) *id -= *id > body;
-    for (Index* vertex : {&p.contact.a, &p.contact.b}) *vertex -= *vertex > first ? count : 0;
-    kept.push_back(p);
-  }
-  pairs = std::move(kept);
+  PenaltyPairs& pairs = memory_.pairs;
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (pairs.body_a[i] != body && pairs.body_b[i] != body) kept.push_back(i);
+  pairs.keep(kept);
+  for (auto* bodies : {&pairs.body_a, &pairs.body_b})
+    for (BodyId& id : *bodies) id -= id > body;
+  for (collide::Contact& c : pairs.contact)
+    for (Index* vertex : {&c.a, &c.b}) *vertex -= *vertex > first ? count : 0;
 }
 
-PenaltyContact::Slopes PenaltyContact::slopes(const PenaltyPair& p, Field<const float> x, Field<const float> v,
+PenaltyContact::Slopes PenaltyContact::slopes(std::size_t i, Field<const float> x, Field<const float> v,
                                               float seconds) const {
-  const PenaltyLaw law = law_of<float>(*this, p);
-  const glm::vec3 d = between(p, x);
-  const float s = glm::dot(d, p.normal), u = glm::dot(read(v, p.slot_a) - read(v, p.slot_b), p.normal);
+  const PenaltyLaw law = law_of<float>(i);
+  const glm::vec3 d = between(i, x), normal = read(field(pairs().normal), i);
+  const float s = glm::dot(d, normal), u = glm::dot(read(v, pairs().slot_a[i]) - read(v, pairs().slot_b[i]), normal);
   const float at_rest = law.push_at_rest(s, glm::dot(d, d));
   if (at_rest <= 0) return {};
-  return {law.slope_bound(s, glm::dot(d, d), u), law.damper(at_rest) / seconds, p.stiffness,
+  return {law.slope_bound(s, glm::dot(d, d), u), law.damper(at_rest) / seconds, pairs().stiffness[i],
           law.sticking_damper() / seconds};
 }
 
-double PenaltyContact::energy(const PenaltyPair& p, Field<const float> x, const glm::dvec3& way) const {
-  const glm::dvec3 d = glm::dvec3(between(p, x)) + way, stretch(p.stretch);
-  const double s = glm::dot(d, glm::dvec3(p.normal));
-  const PenaltyLaw law = law_of<double>(*this, p);
+double PenaltyContact::energy(std::size_t i, Field<const float> x, const glm::dvec3& way) const {
+  const glm::dvec3 d = glm::dvec3(between(i, x)) + way, stretch(read(field(pairs().stretch), i));
+  const double s = glm::dot(d, glm::dvec3(read(field(pairs().normal), i)));
+  const PenaltyLaw law = law_of<double>(i);
   return law.stored(s, glm::dot(d, d) - s * s) + law.stored_by_friction(glm::dot(stretch, stretch));
 }
 
-double PenaltyContact::max_work(const PenaltyPair& p, Field<const float> x, double way) const {
-  return PenaltyLaw<double>::approach_limit * energy(p, x) + law_of<double>(*this, p).max_force() * way;
+double PenaltyContact::max_work(std::size_t i, Field<const float> x, double way) const {
+  return PenaltyLaw<double>::approach_limit * energy(i, x) + law_of<double>(i).max_force() * way;
 }
 
+/// Hands the friction springs of the contacts `before` on to the same contacts of a part of the pairs; both ascend.
 void PenaltyContact::carry_over(collide::Part part, std::span<const collide::Contact> before,
                                 const VectorArray& stretch) {
   if (part.begin == part.end) return;
+  PenaltyPairs& pairs = memory_.pairs;
   auto old = std::ranges::lower_bound(before, pairs.contact[part.begin]);
   for (std::size_t i = part.begin; i < part.end; ++i) {
     while (old != before.end() && *old < pairs.contact[i]) ++old;

@@ -9,6 +9,7 @@
 // the pairs; and each adds their forces to the particles of its batches, in the order of the pairs.
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <span>
 #include <utility>
@@ -52,43 +53,57 @@ class PenaltyContact {
   /// more than 2 gamma h = 4 max_damped to omega^2 h^2 + 2 gamma h <= 4, the condition of stable_step(). Of the 4, a
   /// step of 0.8 times the stable length leaves 4 (1 - 0.8^2). So contacts ask for no shorter steps by their damping.
   static constexpr float max_damped = 0.36f;
-  float damper_limit = std::numeric_limits<float>::infinity();  // 1/s, of a damper over the damped mass
-  bool sums_impacts = true;  // evaluate() does; false in implicit steps, which call add_impact()
-  ContactLayer layer;
-  PenaltyPairs pairs;          // their contacts ascend
-  LaneArray<glm::vec4> force;  // on a, of the current substep, N
+
+  /// What holds for all pairs in a substep.
+  struct Substep {
+    float seconds;                                                // of slip, and of what is summed
+    float damper_limit = std::numeric_limits<float>::infinity();  // 1/s, of a damper over the damped mass
+    bool sums_impacts = true;                                     // false in implicit steps, which call add_impact()
+  };
+  /// What is remembered from one frame to the next.
+  struct Memory {
+    ContactLayer layer;
+    PenaltyPairs pairs;  // their contacts ascend
+  };
 
   /// tolerance: m. The contact layer is as thick from the start.
-  explicit PenaltyContact(float tolerance = 0) : layer{tolerance, tolerance, tolerance} {}
+  explicit PenaltyContact(float tolerance = 0) : memory_{{tolerance, tolerance, tolerance}, {}} {}
+
+  const ContactLayer& layer() const { return memory_.layer; }
+  const PenaltyPairs& pairs() const { return memory_.pairs; }
+  const Memory& memory() const { return memory_; }
+  /// Goes on from there with the next find().
+  void restore(const Memory& saved) { memory_ = saved; }
+  /// Lets the contact layer grow anew, from nothing.
+  void reset_layer() { memory_.layer = {}; }
+  /// Ends a frame that took so long, which may be less than find() was told.
+  void end_frame(double seconds) { memory_.layer.grow(seconds); }
 
   /// Takes the contacts for the coming frame of `seconds`, and hands the friction springs of those that were there
-  /// before on to them. The contacts ascend. If the frame is cut short, layer.grow() must follow.
+  /// before on to them. The contacts ascend.
   void find(const DetectedContacts& detected, const State& state, double seconds, collide::Workers& workers);
   /// Forgets all pairs.
-  void clear() { pairs.clear(), impulse_.clear(), returned_.clear(); }
-  /// Finds the particles that the pairs join by their slots, which are below `slots`.
-  void group(std::size_t slots, std::span<const Batch> batches);
+  void clear() { memory_.pairs.clear(), impulse_.clear(), returned_.clear(); }
   /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up.
   void remove(BodyId body, Index first, Index count);
 
   /// Notes where the particles are that have pairs, and how fast: all of them, or those of a batch.
   void gather(Field<const float> x, Field<const float> v) { gather(collide::Part{0, slot_.size()}, x, v); }
   void gather(const Batch& batch, Field<const float> x, Field<const float> v) { gather(particles_of(batch), x, v); }
-  /// Evaluates the forces of the pairs in `part` on the gathered particles, and stretches their friction springs by
-  /// `seconds` of slip.
-  void evaluate(collide::Part part, float seconds) {
-    penalty_kernels().evaluate(part, pairs, motion_.data(),
-                               {layer.thickness, damper_limit, seconds,
-                                sums_impacts && bounces() ? impulse_.data() : nullptr, returned_.data()},
-                               force.data());
+  /// Evaluates the forces of the pairs in `part` on the gathered particles, and lets their friction springs slip.
+  void evaluate(collide::Part part, const Substep& step) {
+    assert(part.end <= pairs().size() && pairs().size() <= force_.size());  // after find()
+    penalty_kernels().evaluate(part, memory_.pairs, motion_.data(),
+                               {layer().thickness, step.damper_limit, step.seconds,
+                                step.sums_impacts && bounces() ? impulse_.data() : nullptr, returned_.data()},
+                               force_.data());
   }
   /// Adds the forces that evaluate() has found.
   void add(const ForceBatch& batch) const;
-  /// Measures what the pairs in `part` store, for energy().
-  void measure(collide::Part part) {
-    penalty_kernels().measure(part, pairs, motion_.data(), layer.thickness, stored_.data());
-  }
-  double energy() const;  // J, of all pairs, measured
+  /// Returns the force (N) that it has found on the particle of an end.
+  glm::dvec3 force(PenaltyEnd end) const { return double(end.sign()) * glm::dvec3(force_[end.pair]); }
+  /// Returns what all pairs store between the gathered particles, in J. So many threads measure it.
+  double stored_energy(collide::Workers& workers, int threads);
   /// Returns true if a pair of the frame has restitution.
   bool bounces() const { return !impulse_.empty(); }
   /// Adds what one end of a pair has done to the motion of the two: an impulse (N s) along n, and the energy (J) that
@@ -99,31 +114,38 @@ class PenaltyContact {
 
   /// Returns the ends of pairs that fall to a batch.
   std::span<const PenaltyEnd> ends_of(const Batch& batch) const;
-  /// Returns what the law stores, in J, when a has moved by `way` (m) along b from x.
-  double energy(const PenaltyPair& pair, Field<const float> x, const glm::dvec3& way = glm::dvec3(0.0)) const;
+  /// Returns what the law stores for a pair, in J, when a has moved by `way` (m) along b from x.
+  double energy(std::size_t pair, Field<const float> x, const glm::dvec3& way = glm::dvec3(0.0)) const;
   /// Returns an upper bound of the work (J) that a pair does on one particle while the other moves by `way` (m).
-  double max_work(const PenaltyPair& pair, Field<const float> x, double way) const;
-  /// Returns upper bounds of how fast the force on a falls with the motion of a in the coming `seconds`, in N/m.
+  double max_work(std::size_t pair, Field<const float> x, double way) const;
+  /// Upper bounds of how fast the force on a falls with the motion of a, in N/m.
   struct Slopes {
     float spring, damper;                // along n
     float across_spring, across_damper;  // while it sticks
   };
-  Slopes slopes(const PenaltyPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
-  /// Hands the friction springs of the contacts `before` on to the same contacts of a part of the pairs; both ascend.
-  void carry_over(collide::Part part, std::span<const collide::Contact> before, const VectorArray& stretch);
+  /// Returns those of the coming `seconds`, in which dampers have no limit.
+  Slopes slopes(std::size_t pair, Field<const float> x, Field<const float> v, float seconds) const;
 
  private:
+  friend struct PenaltyTestAccess;  // for tests that make pairs by hand
   struct Share;
   using Totals = std::pair<std::size_t, std::size_t>;
   /// Those of a batch, in the order of their slots.
   collide::Part particles_of(const Batch& batch) const {
-    return pairs.empty() ? collide::Part{} : of_batch_[batch.index];
+    return pairs().empty() ? collide::Part{} : of_batch_[batch.index];
   }
   void gather(collide::Part particles, Field<const float> x, Field<const float> v);
   void take(const Share& share, const DetectedContacts& detected, const State& state);
   void group(const Share& share, std::size_t slots, std::span<const Batch> batches);
+  void group(std::size_t slots, std::span<const Batch> batches);
   void set_traits(const State& state, const Batch& batch);
+  void carry_over(collide::Part part, std::span<const collide::Contact> before, const VectorArray& stretch);
+  template <class Real>
+  auto law_of(std::size_t pair) const;
+  glm::vec3 between(std::size_t pair, Field<const float> x) const;
 
+  Memory memory_;
+  LaneArray<glm::vec4> force_;  // on a, of the current substep, N
   // Of each particle that has pairs.
   std::vector<std::uint32_t> slot_;             // in the state's arrays; ascend
   std::vector<std::uint32_t> first_end_;        // and one more

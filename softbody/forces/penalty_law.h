@@ -28,7 +28,7 @@ namespace HWY_NAMESPACE {
 /// Of one pair, or of a pair in each lane. V: a float or double, or floats of all lanes.
 template <class V>
 struct PenaltyLaw {
-  using Real = body::Value<V>;
+  using Real = simd::Value<V>;
   V stiffness;                                           // k, N/m
   V thickness;                                           // h, m
   V friction = Real(0);                                  // Coulomb's coefficient
@@ -39,25 +39,25 @@ struct PenaltyLaw {
 
   /// Returns w; nothing acts where it is not positive. d2: |d|^2.
   HWY_INLINE V weight(V s, V d2) const {
-    const V behind = body::smaller(s, V(0));
+    const V behind = simd::smaller(s, V(0));
     return V(1) - (d2 - behind * behind) / (thickness * thickness);
   }
   /// Returns F in N at u = 0.
   HWY_INLINE V push_at_rest(V s, V d2) const {
     const V w = weight(s, d2);
-    return body::select(w > V(0), stiffness * w * body::smaller(thickness - s, thickness), V(0));
+    return simd::select(w > V(0), stiffness * w * simd::smaller(thickness - s, thickness), V(0));
   }
   /// Returns the factor of F at u.
   HWY_INLINE V damping(V u) const { return clamp(V(1) - damper(V(1)) * u, V(0), V(approach_limit)); }
   /// Returns F at u, from that at u = 0.
   HWY_INLINE V push(V at_rest, V u) const {
-    return at_rest + clamp(-body::smaller(damper(at_rest), max_damper) * u, -at_rest, V(approach_limit - 1) * at_rest);
+    return at_rest + clamp(-simd::smaller(damper(at_rest), max_damper) * u, -at_rest, V(approach_limit - 1) * at_rest);
   }
   /// Returns how fast F falls with u between the limits of that if the damper has no limit, in N s/m.
   HWY_INLINE V damper(V push_at_rest) const { return law::damper(push_at_rest, V(rebound_speed)); }
   /// Returns the damper (N s/m) across n of a contact that sticks.
   HWY_INLINE V sticking_damper() const {
-    return body::smaller(V(Real(0.5)) * law::damper(stiffness * thickness, V(rebound_speed)), max_damper);
+    return simd::smaller(V(Real(0.5)) * law::damper(stiffness * thickness, V(rebound_speed)), max_damper);
   }
 
   /// Returns the force (N) on the particle that the other one is d away from, against n. velocity: d's, m/s. `stretch`
@@ -70,15 +70,15 @@ struct PenaltyLaw {
     const Vector asked = stiffness * stretched + sticking_damper() * slip;
     const V limit = friction * pushed;
     const Vector drag = law::within_cone(asked, limit), none{V(0), V(0), V(0)};
-    const auto slides = body::square_root(dot(asked, asked)) > limit, acts = at_rest > V(0);
+    const auto slides = simd::square_root(dot(asked, asked)) > limit, acts = at_rest > V(0);
     stretch = select(acts, select(slides, (V(1) / stiffness) * drag, stretched), none);
     return select(acts, pushed * normal - drag, none);
   }
 
   /// Returns the work in J of the push at rest along n, from s until the pair is out of sight. across2: d^2 - s^2.
   HWY_INLINE V stored(V s, V across2) const {
-    const V end = body::square_root(body::larger(thickness * thickness - across2, V(0)));  // of sight
-    const V from = body::larger(s, V(0)), way = body::larger(end - from, V(0));
+    const V end = simd::square_root(simd::larger(thickness * thickness - across2, V(0)));  // of sight
+    const V from = simd::larger(s, V(0)), way = simd::larger(end - from, V(0));
     const V at_start = push_at_rest(from, across2 + from * from);
     const V middle = from + way / V(2), at_middle = push_at_rest(middle, across2 + middle * middle);
     // Simpson's rule is exact for a cubic, which ends at 0. Behind the surface the push does not change.
@@ -96,11 +96,11 @@ struct PenaltyLaw {
   static HWY_INLINE V stiffness_bound(V k) { return V(Real(4) / 3 * approach_limit) * k; }
   /// Returns how large the force can be (N) with sliding friction: Coulomb's limit moves with the push.
   HWY_INLINE V max_force() const {
-    return body::square_root(V(1) + friction * friction) * V(approach_limit) * stiffness * thickness;
+    return simd::square_root(V(1) + friction * friction) * V(approach_limit) * stiffness * thickness;
   }
 
  private:
-  static HWY_INLINE V clamp(V v, V low, V high) { return body::smaller(body::larger(v, low), high); }
+  static HWY_INLINE V clamp(V v, V low, V high) { return simd::smaller(simd::larger(v, low), high); }
 };
 
 }  // namespace HWY_NAMESPACE

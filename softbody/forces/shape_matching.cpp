@@ -25,15 +25,15 @@ void fit_shape(const ShapeMoments<Real>& moments, int used, ShapePose<Real>& pos
 template void fit_shape<float>(const ShapeMoments<float>&, int, ShapePose<float>&);
 template void fit_shape<double>(const ShapeMoments<double>&, int, ShapePose<double>&);
 
-std::optional<ShapeMatching::Data> ShapeMatching::make(const BodyModel& p, const MeshSource& source) {
+std::optional<ShapeMatching::Data> ShapeMatching::make(const BodyModel& model, const MeshSource& source) {
   const double by_kind = source.kind == "file" ? mesh_file_shape_frequency : 0;
-  const double rate = 2 * std::numbers::pi * (p.material.given(frequency) ? p.material[frequency] : by_kind);
+  const double rate = 2 * std::numbers::pi * (model.material.given(frequency) ? model.material[frequency] : by_kind);
   if (rate <= 0) return {};
   Data data;
-  data.stiffness = p.particle_mass * rate * rate;
+  data.stiffness = model.particle_mass * rate * rate;
   glm::dvec3 mean(0.0);
-  for (const glm::dvec3& v : p.mesh.vertices) mean += v / double(p.mesh.vertices.size());
-  for (const glm::dvec3& v : p.mesh.vertices) {
+  for (const glm::dvec3& v : model.mesh.vertices) mean += v / double(model.mesh.vertices.size());
+  for (const glm::dvec3& v : model.mesh.vertices) {
     const glm::dvec3 q = v - mean;
     data.add({q.x, q.y, q.z});
   }

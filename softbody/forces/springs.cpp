@@ -10,18 +10,18 @@
 
 namespace softbody {
 
-std::optional<Springs::Data> Springs::join(const BodyModel& p, const std::vector<Edge>& pairs,
+std::optional<Springs::Data> Springs::join(const BodyModel& model, const std::vector<Edge>& pairs,
                                            const std::vector<double>& shares, double stiffness, double damping_ratio) {
   if (stiffness <= 0 || pairs.empty()) return {};
   assert(std::ranges::is_sorted(pairs) && std::ranges::all_of(pairs, [](const Edge& e) { return e[0] < e[1]; }));
   assert(shares.empty() || shares.size() == pairs.size());
-  const double particle_mass = p.material[Material::mass] / p.mesh.stated_for;
+  const double particle_mass = model.material[Material::mass] / model.mesh.stated_for;
   const double damping = 2 * damping_ratio * std::sqrt(stiffness * particle_mass / 2);  // reduced mass m / 2
   Data data;
   for (std::size_t s = 0; s < pairs.size(); ++s) {
     const auto [i, j] = pairs[s];
     const double share = shares.empty() ? 1 : shares[s];
-    data.add({i, j, glm::distance(p.mesh.vertices[i], p.mesh.vertices[j]), share * stiffness, share * damping});
+    data.add({i, j, glm::distance(model.mesh.vertices[i], model.mesh.vertices[j]), share * stiffness, share * damping});
   }
   return data;
 }

@@ -11,7 +11,7 @@
 //   Data, make(model, source)   what the bodies of a model need for the coordinate, or nothing
 //   adapt(material, mesh)       changes the values of a material to fit a mesh
 //
-// Any other force is an object of the solver (ForceSet::Objects, Motion::Parts). It has
+// Any other force is an object of the solver (ForceSet::Objects, MotionParts). It has
 //   add(batch)         adds its forces on the bodies of a batch
 //   kick(batch)        changes velocities after all else has, in steps that are not made of forces alone
 //
@@ -76,7 +76,7 @@ constexpr std::optional<Coordinate> coordinate_of() {
 
 /// True if the force changes velocities, in steps that are not made of forces alone.
 template <class F>
-concept Kicks = requires(const F& force, const ForceBatch& batch) {
+concept Kicks = requires(F& force, const ForceBatch& batch) {
   force.kick(batch);
 };
 

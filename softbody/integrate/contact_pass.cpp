@@ -64,13 +64,13 @@ double ContactPass::find(double left, double ahead, double least) {
   std::vector<ContactBody> contacts;
   for (BodyId id = 0; id < state_.body_count(); ++id) {
     const Body& body = state_.body(id);
-    const BodyModel& p = state_.model(id);
-    const auto edge = float(p.mean_edge);
-    const float margin = std::clamp(0.5f * float(p.material[Material::thickness]), 0.001f * edge, 0.1f * edge);
-    traits.push_back({p.surface.get(), margin, 0, edge, body.moves()});
+    const BodyModel& model = state_.model(id);
+    const auto edge = float(model.mean_edge);
+    const float margin = std::clamp(0.5f * float(model.material[Material::thickness]), 0.001f * edge, 0.1f * edge);
+    traits.push_back({model.surface.get(), margin, 0, edge, body.moves()});
     contacts.push_back({body.origin, state_.slot(id, 0), std::size_t(state_.batch_of(id).width),
-                        body.moves() ? float(1 / p.particle_mass) : 0.0f, float(p.material[contact::friction]),
-                        float(p.material[contact::restitution]), &p.shape->rest()});
+                        body.moves() ? float(1 / model.particle_mass) : 0.0f, float(model.material[contact::friction]),
+                        float(model.material[contact::restitution]), &model.shape->rest()});
   }
   surfaces_.candidates().find(
       motion(now), std::move(traits), std::move(contacts),

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "softbody/forces/bound.h"
 #include "softbody/integrate/integrator_steps.h"
+#include "softbody/mechanics/bound.h"
 
 namespace softbody {
 namespace {
@@ -68,6 +68,7 @@ constexpr std::array all_integrators{
                .order = 1,
                .advance = semi_implicit_euler,
                .stable_step = stable_step,
+               .choosable = true,
                .staggered = true,
                .conserves_spin = true},
     Integrator{.key = "imex-euler",
@@ -78,6 +79,7 @@ constexpr std::array all_integrators{
                .order = 1,
                .advance = imex_euler,
                .stable_step = stable_step,
+               .choosable = true,
                .implicit_volume = true,
                .staggered = true,
                .conserves_spin = true},
@@ -119,7 +121,8 @@ constexpr std::array all_integrators{
                .stable_step = unconditional,
                .step_lengths = 1,  // each needs a matrix
                .scratch = 2,
-               .implicit = true},
+               .implicit = true,
+               .choosable = true},
 };
 
 }  // namespace
@@ -130,6 +133,14 @@ const Integrator* find_integrator(std::string_view key) {
   for (const Integrator& i : all_integrators)
     if (i.key == key) return &i;
   return nullptr;
+}
+
+const Integrator& choosable_integrator(bool implicit, bool implicit_volume) {
+  const auto found = std::ranges::find_if(all_integrators, [&](const Integrator& i) {
+    return i.choosable && i.implicit == implicit && i.implicit_volume == implicit_volume;
+  });
+  assert(found != all_integrators.end());
+  return *found;
 }
 
 const Integrator& IntegratorChoice::integrator() const {

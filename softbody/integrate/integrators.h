@@ -30,13 +30,14 @@ struct Integrator {
   /// Advances all bodies by one substep. All threads call it at once; `worker` says what the calling one does.
   void (*advance)(Motion& motion, const Worker& worker, const Substep& substep);
   /// Returns 0.8 times the largest stable step in s, for the sums of stiffness/mass (1/s^2) and damping/mass (1/s) at
-  /// one particle; infinity if every step is stable. See stable_step() in forces/bound.h.
+  /// one particle; infinity if every step is stable. See stable_step() in mechanics/bound.h.
   double (*stable_step)(double k_m, double c_m);
   int substeps_per_step = 1;     // that the method makes of each step asked for, and of a frame at least
   int step_lengths = 8;          // in use between a length and its double, unless steps are fixed
   int scratch = 0;               // copies of a field over all particles that it needs
   bool implicit = false;         // solves with the matrices of implicit/matrix.h
   bool automatic = false;        // chooses another integrator for each frame, see StepController
+  bool choosable = false;        // may be chosen for a frame: one explicit, one with an implicit volume, one implicit
   bool implicit_volume = false;  // forces that depend on the volume do not bound its steps
   bool by_damping = false;       // is stable only if every oscillation is damped enough
   bool staggered = false;        // its velocities belong to the middle of the last substep
@@ -52,6 +53,8 @@ struct Integrator {
 std::span<const Integrator> integrators();
 /// Returns nullptr if there is no such integrator.
 const Integrator* find_integrator(std::string_view key);
+/// Returns the choosable integrator that takes all forces, or those that depend on the volume, implicitly, or none.
+const Integrator& choosable_integrator(bool implicit, bool implicit_volume);
 std::string integrator_keys();
 
 inline constexpr std::string_view default_integrator = "auto";

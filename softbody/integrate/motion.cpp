@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "softbody/integrate/force_stage.h"
+#include "softbody/integrate/implicit/steps.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/state/kernels.h"
 
@@ -36,17 +37,18 @@ void Motion::begin_frame(const Integrator& integrator, const glm::dvec3& gravity
 
 void Motion::begin_substeps(const Integrator& integrator, float h) {
   h_ = h;
-  parts_.penalty.damper_limit =
-      integrator.implicit ? std::numeric_limits<float>::infinity() : PenaltyContact::max_damped / h;
-  parts_.penalty.sums_impacts = !integrator.implicit;
+  penalty_step_ = {h, integrator.implicit ? std::numeric_limits<float>::infinity() : PenaltyContact::max_damped / h,
+                   !integrator.implicit};
 }
 
 void Motion::show(const Batch& b) { parts_.penalty.gather(b, field(parts_.state.x), field(parts_.state.v)); }
 
 void Motion::contact_forces(const Worker& worker, float h) {
   PenaltyContact& penalty = parts_.penalty;
-  if (penalty.pairs.empty()) return;
-  penalty.evaluate(worker.part(penalty.pairs.size()), h);
+  if (penalty.pairs().empty()) return;
+  PenaltyContact::Substep step = penalty_step_;
+  step.seconds = h;
+  penalty.evaluate(worker.part(penalty.pairs().size()), step);
   worker.barrier();
 }
 
@@ -100,6 +102,22 @@ void Motion::project(const Batch& b, Quantity x0, Quantity d, float h) {
 }
 
 void Motion::pull(const Batch& b, float h) { forces_.kick(step_of(b, h)); }
+
+void Motion::solve_implicit(const Worker& worker, const Batch& b, Quantity mean, Quantity rest, float h) {
+  const State& state = parts_.state;
+  PenaltyContact& penalty = parts_.penalty;
+  parts_.implicit.advance(worker.index(),
+                          {.batch = b,
+                           .x = field(state.x),
+                           .v = field(state.v),
+                           .gravity = gravity_,
+                           .near_solids = parts_.solids.near(b),
+                           .features = parts_.solids.find_feature_rows(b, h),
+                           .penalty = penalty,
+                           .ends = penalty.ends_of(b),
+                           .is_moving = [&state](BodyId body) { return state.body(body).moves(); }},
+                          {field(array(mean)), field(array(rest)), parts_.solids.sums(b)}, double(h));
+}
 
 void Motion::kick(const Batch& b, float h) {
   state_kernels(b.width).kick(used(b), step_of(b, h).kick_arguments(), f(b), v(b));

@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "softbody/forces/force_set.h"
 #include "softbody/integrate/contact_pass.h"
 #include "softbody/integrate/crew.h"
 #include "softbody/integrate/plan.h"
+#include "softbody/mechanics/force_set.h"
 #include "softbody/state/state.h"
 
 namespace softbody {
@@ -25,7 +25,7 @@ constexpr Quantity scratch(int i) { return {3 + i}; }
 /// What a Motion acts on. All of these must outlive it.
 struct MotionParts {
   State& state;
-  const Hand& hand;
+  Hand& hand;
   PenaltyContact& penalty;
   SolidContact& solids;
   ContactPass& contacts;
@@ -95,6 +95,7 @@ class Motion {
   std::vector<VectorArray> own_forces_;  // of each thread, room for those on a batch: they stay in the cache; 0
   glm::dvec3 gravity_{0.0};
   float h_ = 0;
+  PenaltyContact::Substep penalty_step_{};
 };
 
 }  // namespace softbody

@@ -53,7 +53,7 @@ const char* force(const Facts& f) {
   if constexpr (requires(ForceFacts facts) { F::why_not(facts); })
     return F::why_not({f.models, vertices ? contacts(f) : "the surfaces keep the bodies apart", f.added_bodies.grabs});
   else
-    return f.any([](const BodyModel& p) { return data<F>(p) != nullptr; }) ? nullptr : F::absent;
+    return f.any([](const BodyModel& model) { return data<F>(model) != nullptr; }) ? nullptr : F::absent;
 }
 
 const char* gravity(const Facts& f) { return f.scene.gravity != glm::dvec3(0.0) ? nullptr : "the scene has none"; }
@@ -62,18 +62,18 @@ const char* solids(const Facts& f) { return f.any_solid() ? nullptr : "the scene
 
 const char* restitution(const Facts& f) {
   const bool any = f.any_solid([](const Solid& s) { return s.restitution > 0; }) ||
-                   f.any([](const BodyModel& p) { return p.material[contact::restitution] > 0; });
+                   f.any([](const BodyModel& model) { return model.material[contact::restitution] > 0; });
   return any ? nullptr : "no solid and no material has restitution";
 }
 
 const char* damping(const Facts& f) {
-  return f.any([](const BodyModel& p) { return internal_damping(p) > 0; }) ? nullptr
-                                                                           : "no material has internal damping";
+  return f.any([](const BodyModel& model) { return internal_damping(model) > 0; }) ? nullptr
+                                                                                   : "no material has internal damping";
 }
 
 const char* rebound(const Facts& f) {
   if (!f.any_solid()) return "no solid to rebound from";
-  return f.any([](const BodyModel& p) { return p.material[contact::rebound_speed] > 0; })
+  return f.any([](const BodyModel& model) { return model.material[contact::rebound_speed] > 0; })
              ? nullptr
              : "no material has a rebound speed";
 }
@@ -85,7 +85,7 @@ const char* solid_features(const Facts& f) {
 
 const char* rolling(const Facts& f) {
   if (!f.any_solid()) return "no solid to roll on";
-  return f.any([](const BodyModel& p) { return p.rolls && p.material[contact::rolling_resistance] > 0; })
+  return f.any([](const BodyModel& model) { return model.rolls && model.material[contact::rolling_resistance] > 0; })
              ? nullptr
              : "no closed body with rolling resistance";
 }

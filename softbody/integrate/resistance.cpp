@@ -16,10 +16,10 @@
 
 namespace softbody {
 
-double internal_damping(const BodyModel& p) {
-  const auto* shape = data<ShapeMatching>(p);
-  const double frequency = shape ? std::sqrt(shape->stiffness / p.particle_mass) : 0;  // angular
-  return std::max(p.material[Material::internal_damping], 2 * ShapeMatching::damping_ratio * frequency);
+double internal_damping(const BodyModel& model) {
+  const auto* shape = data<ShapeMatching>(model);
+  const double frequency = shape ? std::sqrt(shape->stiffness / model.particle_mass) : 0;  // angular
+  return std::max(model.material[Material::internal_damping], 2 * ShapeMatching::damping_ratio * frequency);
 }
 
 void Resistance::set_plan(const Plan& plan) {
@@ -34,9 +34,9 @@ void Resistance::apply(const BatchView& view, std::span<const SolidPush> pushes,
   const Batch& b = view.batch;
   assert(seconds >= 0 && pushes.size() >= std::size_t(b.used) && impacts.size() >= std::size_t(b.used));
   if (!internal_ && !rebound_ && !rolling_ && !restitution_) return;
-  const BodyModel& p = *b.model;
-  const Material& m = p.material;
-  const double rate = internal_ ? internal_damping(p) * seconds : 0, share = rate / (1 + rate);
+  const BodyModel& model = *b.model;
+  const Material& m = model.material;
+  const double rate = internal_ ? internal_damping(model) * seconds : 0, share = rate / (1 + rate);
   unsigned acts = 0;  // bits: lanes
   for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
     if (b.moves[l] <= 0) continue;
@@ -54,8 +54,8 @@ void Resistance::apply(const BatchView& view, std::span<const SolidPush> pushes,
     if (!motion.can_rotate) continue;
     const double normal = glm::length(pushes[l].impulse);
     glm::dvec3 velocity = share * motion.velocity, spin = share * motion.spin;
-    if (const double size = p.particle_mass * glm::length(motion.momentum); rolling_ && p.rolls && size > 0)
-      spin -= motion.spin * std::min(1.0, m[contact::rolling_resistance] * p.radius * normal / size);
+    if (const double size = model.particle_mass * glm::length(motion.momentum); rolling_ && model.rolls && size > 0)
+      spin -= motion.spin * std::min(1.0, m[contact::rolling_resistance] * model.radius * normal / size);
     glm::dvec3 after = motion.velocity;
     double returned = pushes[l].returned;
     if (rebound_ && m[contact::rebound_speed] > 0 && normal > 0) {

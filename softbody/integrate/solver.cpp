@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "softbody/forces/body_measures.h"
 #include "softbody/integrate/force_stage.h"
 #include "softbody/integrate/implicit/steps.h"
+#include "softbody/mechanics/body_measures.h"
 
 namespace softbody {
 namespace {
@@ -18,7 +18,7 @@ constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a mome
 }  // namespace
 
 std::size_t SolverState::bytes() const {
-  return bodies.bytes() + penalty_pairs.bytes() + bytes_of(pushes) + rebounds.bytes() + surface.bytes();
+  return bodies.bytes() + penalty.pairs.bytes() + bytes_of(pushes) + rebounds.bytes() + surface.bytes();
 }
 
 Solver::Solver(const Scene& scene, const Crew& crew)
@@ -60,13 +60,8 @@ void Solver::join(BodyId body) {
   joined_[state_.body(body).batch] = true;
 }
 
-Solver::Frame Solver::begin_frame(double seconds) {
-  contacts_.begin_frame();
-  const bool press = contacts_.surfaces().presses();  // in the last frame; a search forgets it
-  const double searches = contacts_.has_surfaces() ? contacts_.wake_hit_sleepers(seconds) : 0;
-  solids_.begin_frame();
-  pushed_.assign(state_.batches().size(), 0);
-  joined_.assign(state_.batches().size(), false);
+/// Hands the batches that move to the crew. Returns how many particles they have.
+std::size_t Solver::take_moving_batches() {
   std::vector<const Batch*> batches;
   std::size_t particles = 0;
   for (const Batch& b : state_.batches()) {
@@ -75,6 +70,26 @@ Solver::Frame Solver::begin_frame(double seconds) {
     particles += b.particles() * std::size_t(b.used);
   }
   crew_.take(std::move(batches), particles);
+  return particles;
+}
+
+/// Notes what contacts of vertices, the hand and forces from outside may push or join in this frame.
+void Solver::mark_touched() {
+  for (const auto* bodies : {&penalty_.pairs().body_a, &penalty_.pairs().body_b})
+    for (const BodyId body : *bodies) join(body);
+  if (hand_.grab()) mark_pushed(hand_.grab()->body);
+  for (const Batch* b : crew_.moving())
+    if (has_external_force(*b->model)) pushed_[b->index] = ~0u;
+}
+
+StepBound Solver::begin_frame(double seconds) {
+  contacts_.begin_frame();
+  const bool press = contacts_.surfaces().presses();  // in the last frame; a search forgets it
+  const double searches = contacts_.has_surfaces() ? contacts_.wake_hit_sleepers(seconds) : 0;
+  solids_.begin_frame();
+  pushed_.assign(state_.batches().size(), 0);
+  joined_.assign(state_.batches().size(), false);
+  const std::size_t particles = take_moving_batches();
   const std::vector<const Batch*>& moving = crew_.moving();
   std::vector<Extent> extents(moving.size());
   crew_.for_each(moving.size(), [&](std::size_t i) { extents[i] = state_.extent(*moving[i], state_.x, state_.v); });
@@ -87,7 +102,7 @@ Solver::Frame Solver::begin_frame(double seconds) {
       {.seconds = seconds,
        .particles = state_.particle_count(),
        .moving = particles,
-       .penalty_pairs = penalty_.pairs.size(),
+       .penalty_pairs = penalty_.pairs().size(),
        .near_solids = std::ranges::any_of(moving, [&](const Batch* b) { return !solids_.near(*b).empty(); }),
        .surface_contact = contacts_.has_surfaces(),
        .surfaces_touch =
@@ -98,111 +113,117 @@ Solver::Frame Solver::begin_frame(double seconds) {
       bound);
   steps_.spend(work::surface * searches);
   motion_.begin_frame(*steps_.plan().integrator, gravity(), crew_);
-  for (const auto* bodies : {&penalty_.pairs.body_a, &penalty_.pairs.body_b})
-    for (const BodyId body : *bodies) join(body);
-  if (hand_.grab()) mark_pushed(hand_.grab()->body);
-  for (const Batch* b : moving)
-    if (has_external_force(*b->model)) pushed_[b->index] = ~0u;
-  return {seconds, particles, bound};
+  mark_touched();
+  return bound;
 }
 
-/// Returns what the pairs of the frame hold at its start or after the last substep, in J.
-double Solver::penalty_energy() {
-  if (penalty_.pairs.empty()) return 0;
-  crew_.run([&](const Worker& worker) { penalty_.measure(worker.part(penalty_.pairs.size())); });
-  return penalty_.energy();
-}
-
-FrameResult Solver::advance(double seconds, const std::function<void()>& after_substep) {
-  Frame frame = begin_frame(seconds);
+FrameResult Solver::advance(double seconds, const AfterSubstep& after_substep) {
+  const StepBound bound = begin_frame(seconds);
   const double held = penalty_energy();
-  if (!crew_.moving().empty()) {
-    try {
-      do take_substeps(frame, after_substep);
-      while (frame.left > 0 && steps_.may_go_on());
-    } catch (const std::length_error&) {  // too many candidates; the next frame has them at its start
-      if (frame.substeps == 0) throw;
-    }
-    for (const Batch* b : crew_.moving()) pushed_[b->index] |= solids_.pushed(*b);
-    frame.momenta.restore((seconds - frame.left) * gravity(), steps_.plan().integrator->conserves_spin, pushed_);
-  } else {
-    frame.left = 0;
-  }
+  const FrameResult done =
+      crew_.moving().empty() ? FrameResult{.seconds = seconds} : take_substeps(seconds, bound, after_substep);
   solids_.end_frame();
   penalty_.take_impacts(rebounds_);
-  state_.ledger.book(WorkBy::surfaces, rebounds_.give_back(state_, seconds - frame.left));
+  state_.ledger.book(WorkBy::surfaces, rebounds_.give_back(state_, done.seconds));
   state_.ledger.book(WorkBy::penalty, held - penalty_energy());
-  return {frame.substeps, frame.needed, seconds - frame.left};
+  return done;
 }
 
-/// Takes as many substeps as what bounds them may be trusted for.
-void Solver::take_substeps(Frame& frame, const std::function<void()>& after_substep) {
-  const bool fixed = steps_.fixed(), surfaces = contacts_.has_surfaces();
-  const SurfaceContact& surface = contacts_.surfaces();
-  const SurfaceCandidates& candidates = surface.candidates();
-  if (frame.substeps > 0 && !fixed) {
-    frame.bound = bounds_.measure(steps_.bounds_of());
-    steps_.spend(work::bound * double(frame.particles));
-  }
-  frame.bound.surfaces_near = !candidates.empty();
-  StepPlan plan = steps_.plan(frame.bound, frame.left);
-  bool surfaces_decide = false;
-  if (surfaces) {
-    const double longest = frame.left / plan.substeps;
-    steps_.spend(work::surface * contacts_.find(frame.left, longest, longest));
-    for (const collide::surface::SurfacePair& p : candidates.search().pairs()) join(p.a), join(p.b);
-    frame.bound.passing = std::max(frame.bound.passing, double(candidates.substep_rate()));
-    const double without = plan.substeps;
-    frame.bound.surfaces_near = !candidates.empty();
-    plan = steps_.plan(frame.bound, frame.left);
-    surfaces_decide = plan.substeps > without;
-  }
-  frame.needed = frame.substeps == 0 ? plan.needed : std::min(frame.needed, plan.needed);
-  const bool implicit = plan.integrator->implicit;
-  if (frame.substeps == 0 && !implicit && plan.substeps >= many_substeps)
-    for (const Batch* b : crew_.moving()) frame.momenta.note({*b, field(state_.x, b->base), field(state_.v, b->base)});
-  const double h = frame.left / plan.substeps;
-  int now = int(fixed ? plan.substeps
-                      : std::clamp(double(StepBounds::trusted_substeps(frame.bound.fastest, h)), 1.0, plan.substeps));
-  // Then it is looked whether the candidates still hold: at once where their speed decides the count.
-  if (!candidates.empty()) now = std::min(now, fixed || surfaces_decide ? 1 : 4);
-  // What pulls at bodies, and drives them off the motion that candidates were found for, shows only after a substep.
-  if (surfaces) now = frame.substeps == 0 ? 1 : std::min(now, contacts_.trusted_substeps(frame.left, h));
-  int done = 0;
-  const auto go_on = [&](int steps) {
-    run(steps, static_cast<float>(h), frame.substeps == 0, after_substep);
-    state_.ledger.book(WorkBy::surfaces, contacts_.surfaces().take_work(rebounds_));
-    done += steps;
-    frame.substeps += steps;
-    steps_.spend(steps * ((implicit ? 0 : steps_.work_of_substep()) +
-                          (candidates.empty() ? 0 : work::surface * surface.work_of_substep())));
-    steps_.spend(work::implicit * implicit_->take_work());
-  };
-  if (frame.substeps == 0 && now > 1 && !fixed) {
-    go_on(1);  // what pulls at bodies that were moved by hand, or let go, shows in their speed only then
-    now = std::min(now, 1 + StepBounds::trusted_substeps(bounds_.fastest(), h));
-  }
-  // One implicit step can be a large part of the work that there may be.
-  while (done < now && (done == 0 || steps_.may_go_on())) go_on(implicit ? 1 : now - done);
-  frame.left = done == plan.substeps ? 0 : frame.left - done * h;
-}
-
-/// Before substeps of h, the first of the frame or later ones: sets which energy they conserve, and books what the
-/// change to that gives. Fixed ones that are too long to be stable conserve none; then the plain one is not to grow.
-void Solver::set_staggering(double h, bool first) {
-  constexpr double close = 0.2;  // of h
+FrameResult Solver::take_substeps(double seconds, StepBound bound, const AfterSubstep& after_substep) {
   const Integrator& integrator = *steps_.plan().integrator;
+  Series series = plan_series(seconds, bound);
+  FrameResult done{.needed = steps_.plan().needed};
+  const auto take = [&](int count) {
+    run(count, static_cast<float>(series.h()), done.substeps == 0, after_substep);
+    count_work(count);
+    series.taken += count;
+    done.substeps += count;
+  };
+  MomentumRestorer momenta;
+  if (!integrator.implicit && series.substeps >= many_substeps)
+    for (const Batch* b : crew_.moving()) momenta.note({*b, field(state_.x, b->base), field(state_.v, b->base)});
+  if (steps_.fixed()) set_staggering(stable_staggering(static_cast<float>(series.h())));
+  // What pulls at bodies shows only after a substep: in their speed, if they were moved by hand or let go, and in how
+  // far they leave the motion that candidates were found for.
+  if (contacts_.has_surfaces()) {
+    series.trusted = 1;
+  } else if (series.trusted > 1 && !steps_.fixed()) {
+    take(1);
+    series.trusted = std::min(series.trusted, 1 + StepBounds::trusted_substeps(bounds_.fastest(), series.h()));
+  }
+  for (;;) {
+    // One implicit step can be a large part of the work that there may be.
+    while (series.taken < series.trusted && (series.taken == 0 || steps_.may_go_on()))
+      take(integrator.implicit ? 1 : series.trusted - series.taken);
+    if (!(series.left_after() > 0 && steps_.may_go_on())) break;
+    if (!steps_.fixed()) {
+      bound = bounds_.measure(steps_.bounds_of());
+      steps_.spend(steps_.work_of_bound());
+    }
+    try {
+      series = plan_series(series.left_after(), bound);
+    } catch (const std::length_error&) {
+      break;  // too many candidates; the next frame has them at its start
+    }
+    done.needed = std::min(done.needed, steps_.plan().needed);
+  }
+  done.seconds = seconds - series.left_after();
+  for (const Batch* b : crew_.moving()) pushed_[b->index] |= solids_.pushed(*b);
+  momenta.restore(done.seconds * gravity(), integrator.conserves_spin, pushed_);
+  return done;
+}
+
+Solver::Series Solver::plan_series(double left, StepBound& bound) {
+  const SurfaceCandidates& candidates = contacts_.surfaces().candidates();
+  bound.surfaces_near = !candidates.empty();
+  Series series{.left = left, .substeps = steps_.plan(bound, left).substeps};
+  const double without = series.substeps;
+  if (contacts_.has_surfaces()) {  // candidates for the longest substeps that all else allows may ask for shorter ones
+    steps_.spend(work::surface * contacts_.find(left, series.h(), series.h()));
+    for (const collide::surface::SurfacePair& p : candidates.search().pairs()) join(p.a), join(p.b);
+    bound.passing = std::max(bound.passing, double(candidates.substep_rate()));
+    bound.surfaces_near = !candidates.empty();
+    series.substeps = steps_.plan(bound, left).substeps;
+  }
+  series.trusted = trusted_substeps(series, bound.fastest, series.substeps > without);
+  return series;
+}
+
+/// Returns how many substeps of a series may be taken before it is looked again whether they are short enough.
+/// fastest: see StepBound. surfaces_decide: how fast the candidates come closer decides the count.
+int Solver::trusted_substeps(const Series& s, double fastest, bool surfaces_decide) const {
+  const bool fixed = steps_.fixed();
+  double count = fixed ? s.substeps : std::clamp(double(StepBounds::trusted_substeps(fastest, s.h())), 1.0, s.substeps);
+  if (!contacts_.surfaces().candidates().empty()) count = std::min(count, fixed || surfaces_decide ? 1.0 : 4.0);
+  return contacts_.has_surfaces() ? std::min(int(count), contacts_.trusted_substeps(s.left, s.h())) : int(count);
+}
+
+/// Books the work of `count` substeps that have been run, in J and as a part of the frame's budget.
+void Solver::count_work(int count) {
+  const bool implicit = steps_.plan().integrator->implicit;
+  SurfaceContact& surface = contacts_.surfaces();
+  state_.ledger.book(WorkBy::surfaces, surface.take_work(rebounds_));
+  steps_.spend(count * ((implicit ? 0 : steps_.work_of_substep()) +
+                        (surface.candidates().empty() ? 0 : work::surface * surface.work_of_substep())));
+  steps_.spend(work::implicit * implicit_->take_work());
+}
+
+/// Returns how far (s) velocities stand behind positions in fixed substeps of h: 0 if these are too long to be stable.
+/// Then they conserve no energy, and the plain one is not to grow.
+double Solver::stable_staggering(float h) const {
+  const Integrator& i = *steps_.plan().integrator;
+  if (!i.staggered) return 0;
+  return (1 - i.reserve()) * double(h) * stable_rate(bounds_.measure(i), i) > 1 ? 0 : double(h);
+}
+
+/// Sets which energy the coming substeps conserve, by how far (s) velocities stand behind positions in them, and books
+/// what the change to that gives.
+void Solver::set_staggering(double seconds) {
+  constexpr double close = 0.2;  // of them
   double& now = state_.ledger.staggering;
   const double before = now;
-  now = integrator.staggered ? h : 0;
-  if (now > 0 && steps_.fixed())
-    now = !first                                                                                      ? before
-          : (1 - integrator.reserve()) * h * stable_rate(bounds_.measure(integrator), integrator) > 1 ? 0
-                                                                                                      : h;
-  if (std::abs(now - before) <= close * std::max(now, before)) {
-    now = before;
-    return;
-  }
+  if (std::abs(seconds - before) <= close * std::max(seconds, before)) return;
+  now = seconds;
   double power = 0;
   for (const BodyMeasures& b : measure_bodies(state_, gravity())) power += b.power;
   state_.ledger.book(WorkBy::steps, (now - before) / 2 * power);
@@ -223,10 +244,10 @@ void Solver::share_batches(bool in_step) {
   });
 }
 
-void Solver::run(int count, float h, bool first, const std::function<void()>& after_substep) {
+void Solver::run(int count, float h, bool first, const AfterSubstep& after_substep) {
   last_substep_ = h;
-  set_staggering(double(h), first);
   const Integrator& integrator = *steps_.plan().integrator;
+  if (!steps_.fixed()) set_staggering(integrator.staggered ? double(h) : 0);
   motion_.begin_substeps(integrator, h);
   if (integrator.implicit) prepare_implicit(h);
   const auto holds_body = [&](const Batch* b) { return hand_.holds(state_, *b); };
@@ -255,7 +276,7 @@ void Solver::run(int count, float h, bool first, const std::function<void()>& af
 }
 
 void Solver::finish_frame(double seconds, Field<float> places) {
-  penalty_.layer.grow(seconds);  // with time, not frames
+  penalty_.end_frame(seconds);
   const std::span<const Batch> batches = state_.batches();
   crew_.for_each(batches.size(), [&](std::size_t i) {
     if (batches[i].any_moves()) finish(batches[i], seconds);
@@ -288,14 +309,13 @@ void Solver::write_positions(Field<float> to) const {
 }
 
 SolverState Solver::save() const {
-  return {state_.saved(),     penalty_.layer, penalty_.pairs, solids_.pushes(), rebounds_, contacts_.surfaces().save(),
-          steps_.hysteresis()};
+  return {state_.saved(), penalty_.memory(),           solids_.pushes(),
+          rebounds_,      contacts_.surfaces().save(), steps_.hysteresis()};
 }
 
 void Solver::restore(const SolverState& saved) {
   state_.restore(saved.bodies);
-  penalty_.layer = saved.layer;
-  penalty_.pairs = saved.penalty_pairs;
+  penalty_.restore(saved.penalty);
   solids_.begin_frame();
   solids_.set_pushes(saved.pushes);
   rebounds_ = saved.rebounds;

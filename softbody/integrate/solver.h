@@ -28,8 +28,7 @@ struct FrameResult {
 /// Everything that the solver remembers from one frame to the next.
 struct SolverState {
   State bodies;
-  ContactLayer layer;
-  PenaltyPairs penalty_pairs;
+  PenaltyContact::Memory penalty;
   std::vector<SolidPush> pushes;
   Rebounds rebounds;
   SurfaceContact::State surface;
@@ -40,6 +39,8 @@ struct SolverState {
 
 class Solver {
  public:
+  using AfterSubstep = std::function<void()>;
+
   /// The scene must outlive this.
   Solver(const Scene& scene, const Crew& crew);
   Solver(const Solver&) = delete;
@@ -69,13 +70,13 @@ class Solver {
     penalty_.find(detected, state_, seconds, crew_.workers());
   }
   /// Bodies may come closer than the tolerance from now on: the layer of penalty contact grows anew, from nothing.
-  void let_bodies_closer() { penalty_.layer = {}; }
+  void let_bodies_closer() { penalty_.reset_layer(); }
 
   /// Advances by `seconds`, or by less if the budget of work is spent, or if there are too many candidates of surface
   /// contact on the way. If there are at the start, throws std::length_error; then nothing has moved. Unless substeps
   /// are fixed, their bound is measured anew as bodies move, since bodies that are crushed may need any number of
   /// substeps and have many contacts. after_substep: called by one thread while the others wait.
-  FrameResult advance(double seconds, const std::function<void()>& after_substep = {});
+  FrameResult advance(double seconds, const AfterSubstep& after_substep = {});
   /// Ends a frame of `seconds`, after advance(): applies what resists the bodies' motion as a whole, lets their origins
   /// follow, notes how fast they are, and writes all positions to `places` as write_positions() does.
   void finish_frame(double seconds, Field<float> places);
@@ -89,26 +90,40 @@ class Solver {
 
  private:
   friend struct SolverTestAccess;  // for a benchmark of its stages
-  /// A frame in progress.
-  struct Frame {
-    double left;            // s
-    std::size_t particles;  // that move
-    StepBound bound;        // as it was measured last
-    int substeps = 0, needed = 0;
-    MomentumRestorer momenta{};
+  /// Substeps of one length, taken until it has to be looked again whether they are short enough.
+  struct Series {
+    double left;      // s, of the frame, when it begins
+    double substeps;  // that this is divided into; no int may hold it
+    int trusted = 0;  // the most of them that may be taken
+    int taken = 0;
+
+    double h() const { return left / substeps; }  // s
+    double left_after() const { return taken == substeps ? 0 : left - taken * h(); }
   };
 
   glm::dvec3 gravity() const;
   void mark_pushed(BodyId body) { pushed_[state_.body(body).batch] |= 1u << state_.body(body).lane; }
   void join(BodyId body);
-  double penalty_energy();
+  /// Returns what the pairs of the frame hold at its start or after the last substep, in J.
+  double penalty_energy() { return penalty_.stored_energy(crew_.workers(), crew_.active()); }
   void finish(const Batch& batch, double seconds);
-  Frame begin_frame(double seconds);
-  void take_substeps(Frame& frame, const std::function<void()>& after_substep);
-  void set_staggering(double h, bool first);
+  std::size_t take_moving_batches();
+  void mark_touched();
+  /// Returns what bounds the steps at the frame's start.
+  StepBound begin_frame(double seconds);
+  /// Takes the substeps of a frame of `seconds` in series, and restores what rounding has done to the momenta.
+  FrameResult take_substeps(double seconds, StepBound bound, const AfterSubstep& after_substep);
+  /// Plans the next series: into how many substeps the last `left` seconds of the frame are divided. The candidates of
+  /// surface contact, which it finds, add to the bound.
+  Series plan_series(double left, StepBound& bound);
+  int trusted_substeps(const Series& series, double fastest, bool surfaces_decide) const;
+  void count_work(int count);
+  double stable_staggering(float h) const;
+  void set_staggering(double seconds);
   void prepare_implicit(float h);
   void share_batches(bool in_step);
-  void run(int substeps, float h, bool first, const std::function<void()>& after_substep);
+  /// Takes `count` substeps of h. first: of the frame.
+  void run(int count, float h, bool first, const AfterSubstep& after_substep);
 
   const Scene& scene_;
   Crew crew_;

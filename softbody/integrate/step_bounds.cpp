@@ -40,18 +40,19 @@ StepBound StepBounds::measure(const Integrator& integrator) const {
 }
 
 StepBound StepBounds::measure(const Batch& b, const Integrator& integrator) const {
-  const BodyModel& p = *b.model;
+  const BodyModel& model = *b.model;
   const ForceBound force = bound_of(b, field(state_.x, b.base), integrator.projects);
-  const double contact = penalty_.pairs.empty()
-                             ? 0
-                             : PenaltyLaw<double>::stiffness_bound(p.material[contact::stiffness]) / p.particle_mass;
+  const double contact =
+      penalty_.pairs().empty()
+          ? 0
+          : PenaltyLaw<double>::stiffness_bound(model.material[contact::stiffness]) / model.particle_mass;
   // What XPBD does not project acts as in semi-implicit Euler.
   const auto step = integrator.projects ? stable_step : integrator.stable_step;
   const auto rate = [&](double stiffness) { return 1 / step(stiffness + contact, force.damping); };
   unsigned near = 0;  // bits: lanes
   for (const SolidArguments& solid : solids_.near(b)) near |= solid.near;
   const Extent motion = state_.extent(b, state_.v, state_.v);
-  const double pace = 0.1 * p.radius;
+  const double pace = 0.1 * model.radius;
   return {(1 - gas_reserve) / (1 - gasless_reserve) * rate(force.implicit_volume),
           rate(force.stiffness),
           max_of_moving(b, [&](std::size_t l) { return motion.diagonal(l); }) / pace,

@@ -4,9 +4,9 @@
 #include <span>
 
 #include "softbody/contact/solid_contact.h"
-#include "softbody/forces/force_set.h"
 #include "softbody/integrate/crew.h"
 #include "softbody/integrate/step_controller.h"
+#include "softbody/mechanics/force_set.h"
 
 namespace softbody {
 

@@ -42,6 +42,7 @@ void StepController::begin_frame(const FrameConditions& c, const StepBound& boun
   spent_ = 0;
   most_ = budget_.of(c.particles);
   work_of_substep_ = work::substep + double(c.moving) + work::penalty_pair * double(c.penalty_pairs);
+  work_of_bound_ = work::bound * double(c.moving);
   for (RecentMaximum* m : {&hysteresis_.implicit_volume_rate, &hysteresis_.explicit_rate, &hysteresis_.volume_change})
     m->advance(c.seconds);
   plan_.substeps = plan_.needed = 0;
@@ -77,7 +78,7 @@ void StepController::choose(const StepBound& b, const FrameConditions& c) {
   // Contact of surfaces wants short steps. It acts after the gas, and would be solved again for each new pressure.
   const bool gas_decides = !c.surfaces_touch && hysteresis_.volume_change.value() <= quiet_breathing &&
                            std::max({accurate_rate, 1 / seconds_, b.stable}) < 0.8 * b.breathing;
-  plan_.integrator = find_integrator(gas_decides ? "imex-euler" : "semi-implicit-euler");
+  plan_.integrator = &choosable_integrator(false, gas_decides);
   const double most = fixed() ? fixed_steps_ : of_implicit * std::max(1.0, seconds_ * implicit_rate(b));
   const bool cheaper = seconds_ * explicit_rate(b) <= most;
   const double rest = std::max(1e-3, 0.2 * c.sleep_speed);  // m/s
@@ -91,7 +92,7 @@ void StepController::choose(const StepBound& b, const FrameConditions& c) {
   } else if (c.too_large) {
     plan_.why = "a body has too many particles for implicit steps";
   } else {
-    plan_.integrator = find_integrator("implicit");
+    plan_.integrator = &choosable_integrator(true, false);
     plan_.why = cheaper ? "so stiff that in explicit substeps rounding would keep bodies trembling"
                         : "so stiff, or deforming so fast, that explicit substeps would cost more";
   }

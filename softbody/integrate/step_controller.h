@@ -101,6 +101,8 @@ class StepController {
   double spent() const { return spent_; }
   /// Returns the work of an explicit substep without contact of surfaces.
   double work_of_substep() const { return work_of_substep_; }
+  /// Returns the work of measuring the bounds of steps.
+  double work_of_bound() const { return work_of_bound_; }
   /// Returns false if the frame has spent its budget.
   bool may_go_on() const { return fixed() || spent_ < most_; }
 
@@ -116,8 +118,9 @@ class StepController {
   int fixed_steps_ = 0;  // 0: not fixed
   WorkBudget budget_;
   Hysteresis hysteresis_;
-  double seconds_ = 0;                                 // how long this frame is
-  double work_of_substep_ = 0, spent_ = 0, most_ = 0;  // of work, in this frame; the last is its budget
+  double seconds_ = 0;  // how long this frame is
+  // Of work in this frame; the last is its budget.
+  double work_of_substep_ = 0, work_of_bound_ = 0, spent_ = 0, most_ = 0;
   StepPlan plan_;
 };
 

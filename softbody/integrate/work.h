@@ -14,7 +14,7 @@ inline constexpr double substep = 300;     // each explicit substep, beside its 
 inline constexpr double bound = 2;         // a particle, each time that the bounds of steps are measured
 inline constexpr double penalty_pair = 5;  // a pair in a substep
 inline constexpr double surface = 3;       // what SurfaceContact::work_of_substep() and SurfaceSearch::work() count
-inline constexpr double implicit = 50;     // what ImplicitSolver::take_work() counts
+inline constexpr double implicit = 50;     // what QuasiNewton::take_work() counts
 // A particle in an implicit step, as it is estimated to choose an integrator; what is spent is counted as it is done.
 // In heaps all bodies of a batch take as long as the one that is pressed most.
 inline constexpr double implicit_in_flight = 150, implicit_on_solids = 300, implicit_in_contact = 2000;

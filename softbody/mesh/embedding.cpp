@@ -10,7 +10,7 @@
 namespace softbody {
 namespace {
 
-/// Returns the right-handed orthonormal frame of a normal and a tangent, of any lengths; zero if they have none.
+/// Returns the right-handed orthonormal axes of a normal and a tangent, of any lengths; zero if they have none.
 glm::mat3 orthonormal(const glm::vec3& normal, const glm::vec3& tangent) {
   const glm::vec3 side = glm::cross(normal, tangent);
   const float n2 = glm::dot(normal, normal), s2 = glm::dot(side, side);
@@ -52,14 +52,14 @@ Embedding::Embedding(const Mesh& coarse, std::vector<Hold> holds)
 void Embedding::place(const ConstPoints& coarse, std::span<float> x, std::span<float> y, std::span<float> z,
                       Scratch& scratch) const {
   assert(coarse.x.size() == tangent_.size() && x.size() == holds_.size());
-  auto& [normal, frame] = scratch;
+  auto& [normal, axes] = scratch;
   find_normals(triangles_, coarse, normal);
-  frame.resize(normal.size());
-  for (std::size_t i = 0; i < frame.size(); ++i)
-    frame[i] = {coarse[i], orthonormal(normal[i], coarse[tangent_[i]] - coarse[i]) * rest_inverse_[i]};
+  axes.resize(normal.size());
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    axes[i] = {coarse[i], orthonormal(normal[i], coarse[tangent_[i]] - coarse[i]) * rest_inverse_[i]};
   for (std::size_t i = 0; i < holds_.size(); ++i) {
     const Hold& hold = holds_[i];
-    const Frame &a = frame[hold.corner[0]], &b = frame[hold.corner[1]], &c = frame[hold.corner[2]];
+    const Axes &a = axes[hold.corner[0]], &b = axes[hold.corner[1]], &c = axes[hold.corner[2]];
     const glm::vec3 p = hold.weight.x * (a.origin + a.turn * hold.offset) +
                         hold.weight.y * (b.origin + b.turn * hold.offset) +
                         hold.weight.z * (c.origin + c.turn * hold.offset);

@@ -23,7 +23,7 @@ namespace softbody {
 /// where its vertices change from one triangle to the next.
 class Embedding {
   /// Of one coarse vertex.
-  struct Frame {
+  struct Axes {
     glm::vec3 origin;
     glm::mat3 turn;
   };
@@ -40,7 +40,7 @@ class Embedding {
   class Scratch {
     friend Embedding;
     std::vector<glm::vec3> normal_;  // at each coarse vertex
-    std::vector<Frame> frame_;
+    std::vector<Axes> axes_;
   };
 
   Embedding() = default;
@@ -57,7 +57,7 @@ class Embedding {
   std::vector<Hold> holds_;
   std::vector<Triangle> triangles_;      // of the coarse mesh
   std::vector<Index> tangent_;           // of each coarse vertex: the neighbour to which its tangent points
-  std::vector<glm::mat3> rest_inverse_;  // of the frame of each coarse vertex at rest
+  std::vector<glm::mat3> rest_inverse_;  // of the axes of each coarse vertex at rest
 };
 
 }  // namespace softbody

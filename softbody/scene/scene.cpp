@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "softbody/forces/material_keys.h"
+#include "softbody/mechanics/material_keys.h"
 #include "softbody/mesh/shortest_text.h"
 #include "softbody/scene/scene_keys.h"
 

@@ -55,7 +55,7 @@ inline constexpr Key sleep_frames("sleep.frames", "", {1, 1e6}, "They do so afte
 }  // namespace scene_key
 
 /// Calls visit(key, value) for each of these keys, with the member of the scene that it stands for.
-void for_each_value(auto& scene, const auto& visit) {
+void for_each_value(auto& scene, auto&& visit) {
   using namespace scene_key;
   visit(gravity, scene.gravity);
   visit(method, scene.method);

@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/material_keys.h"
+#include "softbody/mechanics/material_keys.h"
 #include "softbody/mesh/file_mesh.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/scene/scene_keys.h"
@@ -48,7 +48,7 @@ void read(Table& t, const std::string& name, const Key& key, Value& value) {
 class ValueReader {
  public:
   explicit ValueReader(Table& root) : root_(root) {}
-  void operator()(const Key& key, auto& value) const {
+  void operator()(const Key& key, auto& value) {
     const std::string inside(key.table());
     Table& t = inside.empty() ? root_ : tables_.try_emplace(inside, root_.child(inside)).first->second;
     read(t, std::string(key.own_name()), key, value);
@@ -60,13 +60,13 @@ class ValueReader {
 
  private:
   Table& root_;
-  mutable std::map<std::string, Table> tables_;
+  std::map<std::string, Table> tables_;
 };
 
 /// Reads a material. `m` holds the values for keys that the table does not have.
 Material read_material(Table& table, Material m = {}) {
   m.name = table.text("name", m.name);
-  const ValueReader read_value(table);
+  ValueReader read_value(table);
   for (const Key* key : material_keys()) read_value(*key, m[*key]);
   read_value.close();
   table.close();
@@ -223,7 +223,7 @@ Scene read_scene(Table root, const std::filesystem::path& file, const std::files
   scene.key = file.stem().string();
   scene.name = root.text("name", scene.key);
   scene.look_at = root.text("look_at", "");
-  const ValueReader read_value(root);
+  ValueReader read_value(root);
   for_each_value(scene, read_value);
   read_value.close();
   scene.solids = read_solids(root);

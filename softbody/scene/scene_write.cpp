@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "softbody/forces/material_keys.h"
+#include "softbody/mechanics/material_keys.h"
 #include "softbody/scene/scene_keys.h"
 #include "softbody/scene/solid_toml.h"
 #include "softbody/scene/toml_table.h"

@@ -11,7 +11,7 @@ namespace softbody {
 namespace HWY_NAMESPACE {
 namespace {
 
-using namespace body;
+using namespace simd;
 using ConstField = Field<const float>;
 
 template <int width>

@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace softbody {
 namespace HWY_NAMESPACE {
-namespace body {
+namespace simd {
 
 // As of lanes.
 template <std::floating_point T>
@@ -94,7 +94,7 @@ HWY_INLINE void store(Field<Real> f, std::size_t at, const Vec<V>& v) {
   store(f.z + at, v.z);
 }
 
-}  // namespace body
+}  // namespace simd
 }  // namespace HWY_NAMESPACE
 }  // namespace softbody
 HWY_AFTER_NAMESPACE();

@@ -20,7 +20,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace softbody {
 namespace HWY_NAMESPACE {
-namespace body {
+namespace simd {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -267,7 +267,7 @@ HWY_INLINE void transpose(Lane<float, 4> (&rows)[4]) {
 }
 #endif
 
-}  // namespace body
+}  // namespace simd
 }  // namespace HWY_NAMESPACE
 
 #if HWY_ONCE

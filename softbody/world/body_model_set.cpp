@@ -3,8 +3,8 @@
 #include <mutex>
 #include <utility>
 
-#include "softbody/forces/equilibrium.h"
 #include "softbody/forces/model_forces.h"
+#include "softbody/mechanics/make_body_model.h"
 
 namespace softbody {
 namespace {

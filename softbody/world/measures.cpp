@@ -63,14 +63,14 @@ std::vector<PlacedBox> boxes_of(const State& state) {
 
 /// Returns how deep (m) a body in this box lies in solids. What contact sees counts: faces only if surfaces touch.
 double deepest_in_solids(const World& world, BodyId id, const PlacedBox& box) {
-  const BodyModel& p = world.model(id);
+  const BodyModel& model = world.model(id);
   std::vector<glm::dvec3> x;
   std::span<const Triangle> faces;
-  if (world.scene().contact_surface == ContactSurface::surfaces) faces = p.mesh.triangles;
+  if (world.scene().contact_surface == ContactSurface::surfaces) faces = model.mesh.triangles;
   double deepest = 0;
   for (const Solid& solid : world.scene().solids) {
     if (gap_before(solid, box) >= 0) continue;
-    for (Index i = Index(x.size()); i < p.mesh.vertices.size(); ++i) x.push_back(world.particle(id, i).position);
+    for (Index i = Index(x.size()); i < model.mesh.vertices.size(); ++i) x.push_back(world.particle(id, i).position);
     deepest = deepest_in(solid, x, faces, deepest);
   }
   return deepest;
@@ -99,8 +99,8 @@ std::vector<BodyId> overlapping_bodies(const World& world) {
   const collide::Frame now = world.simulated().positions;
   const BodyId count = world.bodies().count();
   const auto placed = [&](BodyId id) {
-    const BodyModel& p = world.model(id);
-    return PlacedBody{*p.surface, glm::dvec3(0.0), collide::vertices_of(now, id), p.mean_edge};
+    const BodyModel& model = world.model(id);
+    return PlacedBody{*model.surface, glm::dvec3(0.0), collide::vertices_of(now, id), model.mean_edge};
   };
   std::vector<PlacedBody> bodies;
   for (BodyId id = 0; id < count; ++id) bodies.push_back(placed(id));

@@ -1,7 +1,7 @@
 #pragma once
 // Energy, momentum, volume and penetration of bodies and of a whole world, in double.
 
-#include "softbody/forces/body_measures.h"
+#include "softbody/mechanics/body_measures.h"
 #include "softbody/world/world.h"
 
 namespace softbody {

@@ -24,7 +24,7 @@ glm::vec3 rest_cell_size(const BodyModelSet& models, int levels, float tolerance
     bodies.add(std::make_shared<collide::Shape>(p->shown().shape->shared_topology()));  // without another shape at rest
     rest.add(p->shown_at_rest());
   }
-  return collide::automatic_cell_size(rest.frame(bodies), levels, tolerance);
+  return collide::automatic_cell_size(rest.input(bodies), levels, tolerance);
 }
 
 }  // namespace
@@ -153,7 +153,7 @@ void World::Parts::detect() {
   const auto start = Clock::now();
   for_each_meshes([&](DetectedMeshes& meshes) {
     if (plan.has(Stage::detect))
-      meshes.detector->detect(meshes.frame(), settings, workers, meshes.result);
+      meshes.detector->detect(meshes.input(), settings, workers, meshes.result);
     else
       meshes.result = {};
   });
@@ -169,7 +169,7 @@ void World::Parts::detect_anew(const World& world, const Scene& next, const Plan
   std::vector<Detection> found;
   for_each_meshes([&](DetectedMeshes& meshes) {
     Detection& one = found.emplace_back(Detection{another.make(), {}});
-    if (next_plan.has(Stage::detect)) one.detector->detect(meshes.frame(), others, workers, one.result);
+    if (next_plan.has(Stage::detect)) one.detector->detect(meshes.input(), others, workers, one.result);
   });
   report.detect_ms = ms_since(start);
   settings = others;
@@ -222,7 +222,7 @@ void World::step(const std::function<void()>& after_substep) {
   const bool whole = done.seconds == s.frame_time;
   s.report.solve_ms = ms_since(start) - looking_ms;
   s.detect();
-  const bool penalty_grows = penalty && s.solver.penalty_contact().layer.grows();  // nobody falls asleep meanwhile
+  const bool penalty_grows = penalty && s.solver.penalty_contact().layer().grows();  // nobody falls asleep meanwhile
   if (s.plan.has(Stage::sleep) && whole && !penalty_grows)
     settle(s.scene.sleep, s.solver.state(), touching.vertex_body, touching.result.contacts,
            s.solver.surface_contact().candidates().interactions());
@@ -261,8 +261,8 @@ void World::set_integrator(const IntegratorChoice& choice) {
 const IntegratorChoice& World::integrator_choice() const { return parts_->choice; }
 
 const collide::Bodies& World::bodies() const { return parts_->shown().bodies; }
-collide::Frame World::positions() const { return parts_->shown().frame(); }
-SimulatedMeshes World::simulated() const { return {parts_->particles.frame(), parts_->particles.result.contacts}; }
+collide::Frame World::positions() const { return parts_->shown().input(); }
+SimulatedMeshes World::simulated() const { return {parts_->particles.input(), parts_->particles.result.contacts}; }
 const BodyModel& World::model(BodyId body) const { return parts_->solver.state().model(body); }
 Particle World::particle(BodyId body, Index vertex) const { return parts_->solver.state().particle(body, vertex); }
 const collide::Result& World::detection() const { return parts_->shown().result; }

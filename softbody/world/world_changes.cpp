@@ -22,8 +22,9 @@ void World::Parts::update_plan() {
 }
 
 /// Throws SceneError if `number` more bodies would exceed max_particles.
-void World::Parts::check_capacity(const BodyModel& p, std::size_t number) const {
-  const std::uint64_t vertices = shown().bodies.vertex_count() + std::uint64_t{number} * p.shown().mesh.vertices.size();
+void World::Parts::check_capacity(const BodyModel& model, std::size_t number) const {
+  const std::uint64_t vertices =
+      shown().bodies.vertex_count() + std::uint64_t{number} * model.shown().mesh.vertices.size();
   if (vertices <= max_particles) return;
   throw SceneError("scene '" + scene.key + "': there is no room for " + std::to_string(number) +
                    " more bodies: " + std::to_string(vertices) + " vertices (at most " + std::to_string(max_particles) +
@@ -38,10 +39,10 @@ void World::Parts::bodies_added(std::size_t number) {
 }
 
 /// Returns the height at which a body dropped at `position` touches no other body.
-double World::Parts::clear_height(const BodyModel& p, const glm::dvec3& position) const {
+double World::Parts::clear_height(const BodyModel& model, const glm::dvec3& position) const {
   double height = position.y;
-  const double clear = 1.3 * p.radius + settings.tolerance;
-  const collide::Frame now = particles.frame();
+  const double clear = 1.3 * model.radius + settings.tolerance;
+  const collide::Frame now = particles.input();
   for (Index i = 0; i < now.x.size(); ++i)
     if (glm::length(glm::dvec2(now.x[i] - position.x, now.z[i] - position.z)) < clear)
       height = std::max(height, now.y[i] + clear);
@@ -71,14 +72,14 @@ BodyId World::Parts::spawn(BodySource source) {
 Dropper World::Parts::dropper() const { return scene.dropper ? *scene.dropper : Dropper{.body = scene.bodies.front()}; }
 
 /// True if a new body at `position` would be outside all solids and no vertex of another body in its bounding box.
-bool World::Parts::is_clear(const BodyModel& p, const glm::dvec3& position) const {
-  glm::dvec3 lo = p.start.front(), hi = lo;
-  for (const glm::dvec3& v : p.start) {
-    if (solid_depth(scene, position + v).depth > -p.material[Material::thickness]) return false;
+bool World::Parts::is_clear(const BodyModel& model, const glm::dvec3& position) const {
+  glm::dvec3 lo = model.start.front(), hi = lo;
+  for (const glm::dvec3& v : model.start) {
+    if (solid_depth(scene, position + v).depth > -model.material[Material::thickness]) return false;
     lo = glm::min(lo, v), hi = glm::max(hi, v);
   }
   const glm::vec3 low(position + lo - double(settings.tolerance)), high(position + hi + double(settings.tolerance));
-  const collide::Frame now = particles.frame();
+  const collide::Frame now = particles.input();
   for (Index i = 0; i < now.x.size(); ++i) {
     const glm::vec3 v(now.x[i], now.y[i], now.z[i]);
     if (glm::all(glm::lessThan(low, v)) && glm::all(glm::lessThan(v, high))) return false;
@@ -89,8 +90,8 @@ bool World::Parts::is_clear(const BodyModel& p, const glm::dvec3& position) cons
 std::optional<BodyId> World::throw_body(const glm::dvec3& from, const glm::dvec3& velocity) {
   Parts& s = *parts_;
   BodySource source = s.dropper().body;
-  const BodyModel& p = *s.models.of(source);
-  const double pace = std::min(p.radius, 0.5);  // m
+  const BodyModel& model = *s.models.of(source);
+  const double pace = std::min(model.radius, 0.5);  // m
   constexpr int max_paces = 20;
   assert(velocity != glm::dvec3(0.0));
   const glm::dvec3 gravity = s.scene.gravity;
@@ -98,7 +99,7 @@ std::optional<BodyId> World::throw_body(const glm::dvec3& from, const glm::dvec3
     const double time = i * pace / glm::length(velocity);
     source.position = from + time * velocity + 0.5 * time * time * gravity;
     source.velocity = velocity + time * gravity;
-    if (s.is_clear(p, source.position)) return add(source);
+    if (s.is_clear(model, source.position)) return add(source);
   }
   return std::nullopt;
 }
@@ -145,7 +146,7 @@ BodyId World::add(const BodySource& source) {
 
 /// Wakes the bodies near this one: they may rest on it, even if the detector reports no contact.
 void World::Parts::wake_near(BodyId body) {
-  const collide::Frame now = particles.frame();
+  const collide::Frame now = particles.input();
   const collide::Bodies& bodies = particles.bodies;
   const auto box = [&](BodyId b) {
     const Index first = bodies.first[b];

@@ -10,13 +10,13 @@
 
 namespace softbody {
 
-/// Positions that the solver writes and detectors read.
+/// Positions that the solver writes, and which are an input of detectors.
 struct Coordinates : Points {
   Field<float> resized(std::size_t size) {
     x.resize(size), y.resize(size), z.resize(size);
     return {x.data(), y.data(), z.data()};
   }
-  collide::Frame frame(const collide::Bodies& bodies) const { return {x, y, z, &bodies}; }
+  collide::Frame input(const collide::Bodies& bodies) const { return {x, y, z, &bodies}; }
 };
 
 struct Detection {
@@ -34,7 +34,7 @@ struct DetectedMeshes : Detection {
     vertex_body.resize(vertex_body.size() + shape->vertex_count(), bodies.count());
     bodies.add(shape);
   }
-  collide::Frame frame() const { return positions.frame(bodies); }
+  collide::Frame input() const { return positions.input(bodies); }
 };
 
 /// What decides how a world goes on, beside its solver's state.
@@ -83,14 +83,14 @@ struct World::Parts : WorldValues {
   void set_integrator();
   void wake_near(BodyId body);
   void update_plan();
-  void check_capacity(const BodyModel& p, std::size_t number) const;
+  void check_capacity(const BodyModel& model, std::size_t number) const;
   void check_sizes(const BodyModelSet& all, const IntegratorChoice& wanted) const;
   void bodies_added(std::size_t number);  // by hand
   Dropper dropper() const;                // the scene's, or one over its first body
   void drop(const Dropper& dropper);
   BodyId spawn(BodySource source);
-  bool is_clear(const BodyModel& p, const glm::dvec3& position) const;
-  double clear_height(const BodyModel& p, const glm::dvec3& position) const;
+  bool is_clear(const BodyModel& model, const glm::dvec3& position) const;
+  double clear_height(const BodyModel& model, const glm::dvec3& position) const;
 
   decltype(Options::check_work) check_work;
   double frame_time;                                // s

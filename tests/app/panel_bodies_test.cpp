@@ -6,8 +6,8 @@
 #include "app/ui/panel/panel.h"
 #include "app/ui/parts.h"
 #include "softbody/forces/gas.h"
-#include "softbody/forces/material_keys.h"
 #include "softbody/forces/springs.h"
+#include "softbody/mechanics/material_keys.h"
 #include "softbody/world/measures.h"
 #include "tests/app/panel_rig.h"
 

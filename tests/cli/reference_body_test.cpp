@@ -8,6 +8,7 @@
 #include "app/reference/reference_trajectory.h"
 #include "softbody/contact/keys.h"
 #include "softbody/forces/model_forces.h"
+#include "softbody/mechanics/bound.h"
 #include "tests/solids.h"
 
 namespace app::test {
@@ -36,7 +37,7 @@ struct Pair {
     model.mesh.vertices = {{0, 0, 0}, {1, 0, 0}};
     auto forces = std::make_shared<softbody::ModelForces>();
     forces->of<softbody::StructuralSprings>() = {{{0, 1, 1.0, stiffness, damping}}, {}};
-    forces->set_bounds(2);
+    set_bounds(*forces, 2);
     model.forces = forces;
     model.particle_mass = 0.5;
     model.radius = 0.5;

@@ -20,7 +20,7 @@
 
 #include "app/base/table.h"
 #include "collide/methods.h"
-#include "softbody/forces/material_keys.h"
+#include "softbody/mechanics/material_keys.h"
 #include "softbody/mesh/shortest_text.h"
 #include "softbody/scene/scene_keys.h"
 #include "tests/csv_fields.h"

@@ -10,7 +10,7 @@
 
 #include "softbody/contact/keys.h"
 #include "softbody/forces/gas.h"
-#include "softbody/forces/material_keys.h"
+#include "softbody/mechanics/material_keys.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/scene/scene_keys.h"
 #include "tests/solids.h"

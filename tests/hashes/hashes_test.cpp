@@ -13,7 +13,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "softbody/forces/bound.h"
+#include "softbody/mechanics/bound.h"
 #include "softbody/world/snapshot.h"
 #include "softbody/world/world.h"
 #include "tests/cli/process.h"

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "softbody/contact/kernels.h"
-#include "softbody/forces/kernels/kernels.h"
+#include "softbody/mechanics/kernels.h"
 #include "softbody/state/kernels.h"
 #include "softbody/world/snapshot.h"
 #include "tests/every_target.h"

@@ -9,8 +9,8 @@
 #include <numeric>
 #include <utility>
 
-#include "softbody/forces/bound.h"
-#include "softbody/forces/equilibrium.h"
+#include "softbody/mechanics/bound.h"
+#include "softbody/mechanics/make_body_model.h"
 #include "softbody/world/body_model_set.h"
 #include "tests/softbody/helpers.h"
 #include "tests/softbody/obj_lines.h"

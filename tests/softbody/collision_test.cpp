@@ -57,8 +57,8 @@ TEST(Collision, FrictionSpringsSlipOnceAStepInEveryExplicitIntegrator) {
     World world(scene, {.frame_time = 1e-4, .integrator = {integrator, 1}});
     run(world, 10);
     double sum = 0;
-    const PenaltyPairs& pairs = WorldTestAccess::solver(world).penalty_contact().pairs;
-    for (std::size_t i = 0; i < pairs.size(); ++i) sum += double(glm::length(pairs[i].stretch));
+    const PenaltyPairs& pairs = WorldTestAccess::solver(world).penalty_contact().pairs();
+    for (std::size_t i = 0; i < pairs.size(); ++i) sum += double(glm::length(pair_of(pairs, i).stretch));
     EXPECT_GT(sum, 5e-5) << integrator;
     return sum;
   };
@@ -88,7 +88,7 @@ TEST(Collision, PairsOfUnlikeBodiesHaveTheSofterContactAndTheMeanFriction) {
     };
     EXPECT_GT(std::erase_if(contacts, both_held), 0u);
     world.step();
-    const PenaltyPairs& pairs = WorldTestAccess::solver(world).penalty_contact().pairs;
+    const PenaltyPairs& pairs = WorldTestAccess::solver(world).penalty_contact().pairs();
     ASSERT_EQ(pairs.size(), contacts.size());
     std::vector<int> count(world.bodies().vertex_count(), 0);
     for (const collide::Contact& c : contacts) ++count[c.a], ++count[c.b];
@@ -96,7 +96,7 @@ TEST(Collision, PairsOfUnlikeBodiesHaveTheSofterContactAndTheMeanFriction) {
         float(std::min(world.model(0).material[contact::stiffness], world.model(1).material[contact::stiffness]));
     int more_at_a = 0, more_at_b = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const PenaltyPair pair = pairs[i];
+      const PenaltyPair pair = pair_of(pairs, i);
       const int a = count[pair.contact.a], b = count[pair.contact.b];
       more_at_a += a > b, more_at_b += b > a;
       EXPECT_FLOAT_EQ(pair.stiffness, softer / float(std::max(a, b)));
@@ -141,10 +141,10 @@ TEST(Collision, ActsAlongTheSurfacesNormalsWhereClosedBodiesFaceEachOther) {
         ++(facing ? by_surfaces : by_line);
       }
       world.step();
-      const PenaltyPairs& pairs = WorldTestAccess::solver(world).penalty_contact().pairs;
+      const PenaltyPairs& pairs = WorldTestAccess::solver(world).penalty_contact().pairs();
       ASSERT_EQ(pairs.size(), expected.size());
       for (std::size_t i = 0; i < pairs.size(); ++i)
-        EXPECT_LT(glm::distance(glm::dvec3(pairs[i].normal), expected[i]), 1e-3) << i;
+        EXPECT_LT(glm::distance(glm::dvec3(pair_of(pairs, i).normal), expected[i]), 1e-3) << i;
     }
   EXPECT_GT(by_surfaces, 10);
   EXPECT_GT(by_line, 10);

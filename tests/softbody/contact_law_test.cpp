@@ -81,7 +81,7 @@ TEST(ContactLaw, IsTheSameInFloatAndDouble) {
     EXPECT_FLOAT_EQ(law::bounce_energy(step, s, g, e),
                     float(law::bounce_energy(double(step), double(s), double(g), double(e))));
     const glm::vec3 drag(s, g, i == 3 ? 0 : 0.2f), one = law::within_cone(drag, limit);
-    const body::Vec<float> same = law::within_cone(body::Vec<float>{drag.x, drag.y, drag.z}, limit);
+    const simd::Vec<float> same = law::within_cone(simd::Vec<float>{drag.x, drag.y, drag.z}, limit);
     const glm::dvec3 exact = law::within_cone(glm::dvec3(drag), double(limit));
     EXPECT_EQ(glm::vec3(same.x, same.y, same.z), one);
     EXPECT_LE(glm::length(exact - glm::dvec3(one)), 1e-6 * glm::length(exact));

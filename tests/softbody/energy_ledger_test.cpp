@@ -11,8 +11,8 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "softbody/forces/deformation.h"
-#include "softbody/forces/equilibrium.h"
+#include "softbody/mechanics/deformation.h"
+#include "softbody/mechanics/make_body_model.h"
 #include "softbody/state/state.h"
 #include "softbody/world/energy_watch.h"
 #include "tests/softbody/surface_rig.h"
@@ -30,7 +30,7 @@ struct Sums {
   explicit Sums(const World& world) {
     const double staggering = ledger(world).staggering;
     for (BodyId id = 0; id < world.bodies().count(); ++id) {
-      const BodyModel& p = world.model(id);
+      const BodyModel& model = world.model(id);
       std::vector<glm::dvec3> x, before, after;
       double kinetic = 0, height = 0, fall = 0;
       constexpr double moment = 1e-6;  // s
@@ -38,16 +38,16 @@ struct Sums {
         x.push_back(q.position);
         before.push_back(q.position - moment * q.velocity);
         after.push_back(q.position + moment * q.velocity);
-        kinetic += p.particle_mass / 2 * glm::dot(q.velocity, q.velocity);
-        height -= p.particle_mass * glm::dot(world.scene().gravity, q.position);
-        fall += p.particle_mass * glm::dot(world.scene().gravity, q.velocity);
+        kinetic += model.particle_mass / 2 * glm::dot(q.velocity, q.velocity);
+        height -= model.particle_mass * glm::dot(world.scene().gravity, q.position);
+        fall += model.particle_mass * glm::dot(world.scene().gravity, q.velocity);
       }
-      const auto springs_and_gas = [&](const std::vector<glm::dvec3>& at) { return stored_energy(p, at).total(); };
+      const auto springs_and_gas = [&](const std::vector<glm::dvec3>& at) { return stored_energy(model, at).total(); };
       const double power = fall + (springs_and_gas(before) - springs_and_gas(after)) / (2 * moment);
-      const StoredEnergy now = stored_energy(p, x), start = stored_energy(p, p.start);
+      const StoredEnergy now = stored_energy(model, x), start = stored_energy(model, model.start);
       energy += kinetic + height + now.elastic + now.gas + staggering / 2 * power;
       active += kinetic + std::abs(now.elastic - start.elastic) + std::abs(now.gas - start.gas);
-      mass += p.material[Material::mass];
+      mass += model.material[Material::mass];
     }
   }
 };

@@ -1,6 +1,6 @@
 // The starting shape, in which springs and gas are in balance.
 
-#include "softbody/forces/equilibrium.h"
+#include "softbody/mechanics/make_body_model.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/deformation.h"
-#include "softbody/forces/force_set.h"
+#include "softbody/mechanics/deformation.h"
+#include "softbody/mechanics/force_set.h"
 #include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
 

@@ -134,7 +134,7 @@ TEST(WorkBudget, CountsPenaltyPairs) {
     world.step();
     EXPECT_TRUE(measure(world).finite);
     EXPECT_EQ(world.last_step().substeps, 1);
-    const double pairs = double(WorldTestAccess::solver(world).penalty_contact().pairs.size());
+    const double pairs = double(WorldTestAccess::solver(world).penalty_contact().pairs().size());
     EXPECT_EQ(pairs > 10, apart < 1);
     return WorldTestAccess::solver(world).steps().spent() - pairs * work::penalty_pair;
   };

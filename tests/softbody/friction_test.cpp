@@ -170,7 +170,7 @@ TEST_P(SolidKernels, OfASphereActWhereverTheLawDoesAndNowhereElse) {
   std::mt19937 random(10);
   int acted = 0;
   for (int round = 0; round < 20'000; ++round) {
-    body::Vec<float> expected[lanes];
+    simd::Vec<float> expected[lanes];
     for (int l = 0; l < lanes; ++l) {
       const auto direction = [&] { return glm::normalize(random_vector(random, 1)); };
       const double gap = uniform(random, -1, 1) * std::pow(10, uniform(random, -7, 0.5));  // m
@@ -179,10 +179,10 @@ TEST_P(SolidKernels, OfASphereActWhereverTheLawDoesAndNowhereElse) {
       v.set(0, l, -gap / s.h * uniform(random, 0.9, 1.1) * n + uniform(random, 0, 1) * direction());
       const glm::dvec3 at = x.at(0, l), speed = v.at(0, l);
       const auto surface =
-          body::surface_at(SphereShape<float>{3}, body::Vec<float>{float(at.x), float(at.y), float(at.z)});
+          simd::surface_at(SphereShape<float>{3}, simd::Vec<float>{float(at.x), float(at.y), float(at.z)});
       expected[l] = {float(speed.x), float(speed.y), float(speed.z)};
       float given = 0, back = 0;
-      acted += body::respond(s, 1.0f, surface.distance, surface.normal, {}, expected[l], given, back) > 0;
+      acted += simd::respond(s, 1.0f, surface.distance, surface.normal, {}, expected[l], given, back) > 0;
     }
     act(s);
     for (int l = 0; l < lanes; ++l)

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/kernels/kernels.h"
-#include "softbody/forces/visit.h"
+#include "softbody/mechanics/kernels.h"
+#include "softbody/mechanics/visit.h"
 #include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
 
@@ -203,7 +203,7 @@ TEST(PressureAtEnd, IsTheRootWhateverTheGas) {
           double low = -1e9, high = 1e9;
           for (int i = 0; i < 100; ++i) (excess((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
           const double found =
-              body::pressure_at_end({volume, drift, yield}, 0.52, [&](double v) { return law.pull(Jet(v, 1)); });
+              simd::pressure_at_end({volume, drift, yield}, 0.52, [&](double v) { return law.pull(Jet(v, 1)); });
           EXPECT_NEAR(found, low, 1e-3 * (std::abs(low) + law.scale()))
               << inside << " Pa, " << volume << " m^3, " << drift << ", " << yield;
         }

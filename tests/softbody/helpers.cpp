@@ -88,9 +88,9 @@ void place(World& world, const glm::dvec3& scale, double rate) {
 }
 
 Motion motion(const World& world, BodyId body) {
-  const BodyModel& p = world.model(body);
-  const auto count = static_cast<Index>(p.mesh.vertices.size());
-  Motion m{p.material[Material::mass], glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
+  const BodyModel& model = world.model(body);
+  const auto count = static_cast<Index>(model.mesh.vertices.size());
+  Motion m{model.material[Material::mass], glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
   for (Index i = 0; i < count; ++i) {
     const Particle q = world.particle(body, i);
     m.centre += q.position / double(count);
@@ -98,7 +98,7 @@ Motion motion(const World& world, BodyId body) {
   }
   for (Index i = 0; i < count; ++i) {
     const Particle q = world.particle(body, i);
-    m.spin_momentum += p.particle_mass * glm::cross(q.position - m.centre, q.velocity - m.velocity);
+    m.spin_momentum += model.particle_mass * glm::cross(q.position - m.centre, q.velocity - m.velocity);
   }
   return m;
 }
@@ -122,23 +122,23 @@ glm::dvec3 angular_momentum(const World& world) {
   return total;
 }
 
-std::vector<glm::dvec3> forces(const BodyModel& p, const std::vector<glm::dvec3>& x) {
+std::vector<glm::dvec3> forces(const BodyModel& model, const std::vector<glm::dvec3>& x) {
   std::vector<glm::dvec3> f(x.size(), glm::dvec3(0.0));
-  for_each_spring(p, [&](const Spring& s) {
+  for_each_spring(model, [&](const Spring& s) {
     const glm::dvec3 d = x[s.j] - x[s.i];
     const double length = glm::length(d);
     const glm::dvec3 pull = s.stiffness * (1 - s.rest / length) * d;
     f[s.i] += pull;
     f[s.j] -= pull;
   });
-  const Gas* gas = data<GasPressure>(p);
+  const Gas* gas = data<GasPressure>(model);
   if (!gas) return f;
   double v = 0;
-  for (const auto& t : p.mesh.triangles) v += glm::dot(x[t[0]], glm::cross(x[t[1]], x[t[2]])) / 6;
+  for (const auto& t : model.mesh.triangles) v += glm::dot(x[t[0]], glm::cross(x[t[1]], x[t[2]])) / 6;
   const double turn = 0.1 * gas->rest_volume;
   const double pressure = v >= turn ? gas->amount / v : gas->amount / turn - gas->amount / (turn * turn) * (v - turn);
   const double outside = std::abs(v) < turn ? gas->ambient * v / turn : std::copysign(gas->ambient, v);
-  for (const auto& t : p.mesh.triangles) {
+  for (const auto& t : model.mesh.triangles) {
     const glm::dvec3 third = (pressure - outside) / 3 * 0.5 * glm::cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
     for (const Index corner : t) f[corner] += third;
   }

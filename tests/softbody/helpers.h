@@ -5,8 +5,9 @@
 #include <random>
 
 #include "softbody/contact/keys.h"
-#include "softbody/forces/bound.h"
 #include "softbody/forces/model_forces.h"
+#include "softbody/mechanics/bound.h"
+#include "softbody/mechanics/make_body_model.h"
 #include "softbody/state/lanes.h"
 #include "softbody/world/measures.h"
 #include "tests/solids.h"
@@ -54,7 +55,7 @@ template <class F>
 BodyModel with_force(BodyModel model, const typename F::Data& data) {
   auto forces = std::make_shared<ModelForces>();
   forces->of<F>() = data;
-  forces->set_bounds(model.mesh.vertices.size());
+  set_bounds(*forces, model.mesh.vertices.size());
   model.forces = std::move(forces);
   return model;
 }

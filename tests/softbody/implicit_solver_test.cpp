@@ -1,6 +1,6 @@
 // What the implicit solver is made of: the minimiser, and the search for the forces of solids.
 
-#include "softbody/integrate/implicit/solver.h"
+#include "softbody/integrate/implicit/quasi_newton.h"
 
 #include <gtest/gtest.h>
 
@@ -95,19 +95,20 @@ TEST(Minimiser, StaysWhereALaneIsLost) {
 /// A ball in lane 0 that has been moved by `by`, with a plane that asks for `min_displacement` at its particle 3.
 struct Pressed : ImplicitRig {
   explicit Pressed(double min_displacement, const glm::dvec3& by = glm::dvec3(0.0)) {
-    matrices.prepare(model, h);
-    work.planes = {plane(3, 0, {0, 1, 0}, min_displacement)};
-    for (std::size_t i = 0; i < particles(); ++i) put(work.end_x, i, 0, at(work.x, i, 0) + by);
+    matrices.prepare(*model, h);
+    bodies.planes = {plane(3, 0, {0, 1, 0}, min_displacement)};
+    for (std::size_t i = 0; i < particles(); ++i) put(bodies.end_x, i, 0, at(bodies.x, i, 0) + by);
   }
   ImplicitProblem problem() {
-    return {*model,  matrices.at(*model, h),   h, work.moves.data(), &work.x, &work.v,
-            &work.a, &work.frame_displacement, h, work.planes};
+    const Lanes none(bodies.x.size());
+    local = {bodies.x, bodies.v, none, none};
+    return {*model, matrices.at(h), h, local, h, bodies.planes};
   }
   /// m, how far the particle moves under its contact's force.
-  glm::dvec3 response() { return matrices.at(*model, h).compliance(3, 3) * work.planes[0].force; }
+  glm::dvec3 response() { return matrices.at(h).compliance(3, 3) * bodies.planes[0].force; }
   double update() {
-    changes.assign(work.x.size(), 0.0);
-    return contact.update(problem(), work.planes, work.end_x, glm::dmat3(1.0), changes);
+    changes.assign(bodies.x.size(), 0.0);
+    return contact.update(problem(), bodies.planes, bodies.end_x, glm::dmat3(1.0), changes);
   }
   ContactForces contact;
   Lanes changes;
@@ -119,27 +120,27 @@ TEST(ContactForces, AreAsLargeAsThePlaneAsksFor) {
   const double most = p.update();
   EXPECT_NEAR(most, glm::length(p.response()), 1e-9) << "m";
   EXPECT_NEAR(p.response().y, 0.01 - 0.004, 1e-9);
-  EXPECT_EQ(at(p.changes, 3, 0), p.work.planes[0].force);
+  EXPECT_EQ(at(p.changes, 3, 0), p.bodies.planes[0].force);
   EXPECT_GT(p.contact.take_work(), 0);
   EXPECT_EQ(p.contact.take_work(), 0);
 }
 
 TEST(ContactForces, NeverPull) {
   Pressed p(-10);
-  p.work.planes[0].force = {0, 100, 0};
+  p.bodies.planes[0].force = {0, 100, 0};
   p.contact.start(false);
   p.update();
-  EXPECT_EQ(p.work.planes[0].force, glm::dvec3(0.0));
+  EXPECT_EQ(p.bodies.planes[0].force, glm::dvec3(0.0));
   EXPECT_EQ(at(p.changes, 3, 0), glm::dvec3(0, -100, 0));
 }
 
 TEST(ContactForces, StickOrSlideByCoulombsLaw) {
   for (const double friction : {0.2, 100.0}) {
     Pressed p(0.01, {0.005, 0, 0});
-    p.work.planes[0].friction = friction;
+    p.bodies.planes[0].friction = friction;
     p.contact.start(false);
     p.update();
-    const glm::dvec3 force = p.work.planes[0].force;
+    const glm::dvec3 force = p.bodies.planes[0].force;
     if (friction < 1) {
       EXPECT_NEAR(std::hypot(force.x, force.z), friction * force.y, 1e-6 * force.y);
     } else {
@@ -151,26 +152,26 @@ TEST(ContactForces, StickOrSlideByCoulombsLaw) {
 
 TEST(ContactForces, OfSpringsCorrectWhatIsLeft) {
   Pressed p(0.01);
-  p.work.planes[0].force = {0, 3, 0};
-  p.work.planes[0].friction = 0.5;
-  const double k = p.matrices.at(*p.model, p.h).contact_stiffness();
+  p.bodies.planes[0].force = {0, 3, 0};
+  p.bodies.planes[0].friction = 0.5;
+  const double k = p.matrices.at(p.h).contact_stiffness();
   const glm::dvec3 moved(1, 0.002, 0);
   p.contact.start(false);
-  EXPECT_EQ(p.contact.force(p.problem(), p.work.planes[0], moved), p.work.planes[0].force);
+  EXPECT_EQ(p.contact.force(p.problem(), p.bodies.planes[0], moved), p.bodies.planes[0].force);
   p.contact.start(true);
-  const glm::dvec3 force = p.contact.force(p.problem(), p.work.planes[0], moved);
+  const glm::dvec3 force = p.contact.force(p.problem(), p.bodies.planes[0], moved);
   EXPECT_NEAR(force.y, 3 + k * 0.008, 1e-9 * k);
   EXPECT_NEAR(force.x, -0.5 * force.y, 1e-9 * k);
-  EXPECT_EQ(p.contact.force(p.problem(), p.work.planes[0], {0, 1e3, 0}), glm::dvec3(0.0));
+  EXPECT_EQ(p.contact.force(p.problem(), p.bodies.planes[0], {0, 1e3, 0}), glm::dvec3(0.0));
 }
 
 /// Planes that face each other ask for what no forces give.
 TEST(ContactForces, SayWhereThereAreNone) {
   Pressed p(0.1);
-  p.work.planes.push_back(plane(3, 0, {0, -1, 0}, 0.1));
+  p.bodies.planes.push_back(plane(3, 0, {0, -1, 0}, 0.1));
   p.contact.start(false);
   EXPECT_EQ(p.update(), std::numeric_limits<double>::infinity());
-  for (const PlaneContact& c : p.work.planes) EXPECT_EQ(c.force, glm::dvec3(0.0));
+  for (const PlaneContact& c : p.bodies.planes) EXPECT_EQ(c.force, glm::dvec3(0.0));
   EXPECT_EQ(p.changes, Lanes(p.changes.size()));
 }
 

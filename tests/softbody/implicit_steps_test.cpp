@@ -6,8 +6,9 @@
 
 #include <algorithm>
 
-#include "softbody/integrate/implicit/contact_search.h"
+#include "softbody/integrate/implicit/step_contacts.h"
 #include "tests/softbody/implicit_rig.h"
+#include "tests/support/penalty_test_access.h"
 
 namespace softbody::test {
 namespace {
@@ -62,8 +63,8 @@ struct BatchRig {
     return sum;
   }
   /// The start as attempts see it.
-  ImplicitWork work() const {
-    ImplicitWork w(*model, implicit_kernels());
+  ImplicitBodies bodies() const {
+    ImplicitBodies w(*model);
     for (std::size_t i = 0; i < particles(); ++i)
       for (std::size_t lane = 0; lane < implicit_lanes; ++lane) {
         put(w.x, i, lane, x.at(3 + i, int(lane)));
@@ -73,28 +74,21 @@ struct BatchRig {
   }
 };
 
-TEST(ImplicitMatrices, KeepTheLastOnesOfEachModel) {
-  const auto model = make_body_model({}, gas_ball(1e4)), other = make_body_model({}, gas_ball(1e5));
+TEST(ImplicitMatrices, KeepTheLastOnes) {
+  const auto model = make_body_model({}, gas_ball(1e4));
   ImplicitMatrices matrices;
   const auto length = [](std::size_t i) { return 1e-2 / double(i + 1); };
   std::vector<const ImplicitMatrix*> before;
-  matrices.prepare(other, 1e-2);
-  const ImplicitMatrix* of_other = &matrices.at(*other, 1e-2);
   for (std::size_t i = 0; i < ImplicitMatrices::max_lengths; ++i) {
-    matrices.prepare(model, length(i));
-    before.push_back(&matrices.at(*model, length(i)));
+    matrices.prepare(*model, length(i));
+    before.push_back(&matrices.at(length(i)));
   }
-  matrices.prepare(model, length(0));  // so that the second one is the oldest
-  matrices.prepare(model, 1e-4);
-  EXPECT_EQ(std::size_t(model.use_count()), 1 + ImplicitMatrices::max_lengths) << "one is gone";
+  matrices.prepare(*model, length(0));  // so that the second one is the oldest
+  matrices.prepare(*model, 1e-4);
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (i == 1) continue;
-    EXPECT_EQ(&matrices.at(*model, length(i)), before[i]);
+    EXPECT_EQ(&matrices.at(length(i)), before[i]);
   }
-  EXPECT_EQ(&matrices.at(*other, 1e-2), of_other);
-  matrices.retain([&](const BodyModel& m) { return &m == other.get(); });
-  EXPECT_EQ(model.use_count(), 1);
-  EXPECT_EQ(&matrices.at(*other, 1e-2), of_other);
 }
 
 TEST(FindPlanes, TakesPointsOfFacesAndEdgesOnce) {
@@ -110,14 +104,14 @@ TEST(FindPlanes, TakesPointsOfFacesAndEdgesOnce) {
   rig.features = {row(2, {4, 5, 6}, {0.25f, 0, 0.75f}), row(2, {6, 4, 7}, {0.7500001f, 0.2499999f, 0}),
                   row(2, {4, 5, 6}, {0.25f, 0.25f, 0.5f}), row(1, {4, 5, 6}, {0.25f, 0, 0.75f}),
                   row(3, {4, 5, 6}, {0.25f, 0, 0.75f})};
-  ImplicitWork work = rig.work();
+  ImplicitBodies bodies = rig.bodies();
   const LaneMask moving = mask({1, 2});
-  const ImplicitFrames frames(work.x, work.v, moving, rig.h, rig.gravity);
-  find_planes(rig.batch(), frames, moving, rig.h, work);
-  std::erase_if(work.planes, [](const PlaneContact& c) { return c.point.weight[0] == 1; });
-  ASSERT_EQ(work.planes.size(), 3u) << "one in lane 1, and two in lane 2";
+  const MovingAxes axes(bodies.x, bodies.v, moving, rig.h, rig.gravity);
+  find_planes(rig.batch(), axes, bodies);
+  std::erase_if(bodies.planes, [](const PlaneContact& c) { return c.point.weight[0] == 1; });
+  ASSERT_EQ(bodies.planes.size(), 3u) << "one in lane 1, and two in lane 2";
   for (std::size_t i = 0; i < 3; ++i) {
-    const PlaneContact& c = work.planes[i];
+    const PlaneContact& c = bodies.planes[i];
     EXPECT_EQ(c.point.lane(), i == 0 ? 1u : 2u);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(c.point.at[k], (4 + k) * implicit_lanes + c.point.lane());
     EXPECT_EQ(c.point.weight[2], i == 2 ? 0.5 : 0.75);
@@ -135,13 +129,13 @@ TEST(FindPlanes, AsksForWhatTheLawOfContactAsksFor) {
   rig.set_ground(1, 0.01);
   rig.set_ground(2, -0.02);
   rig.set_ground(3, 0.01);
-  ImplicitWork work = rig.work();
+  ImplicitBodies bodies = rig.bodies();
   const LaneMask moving = mask({0, 1, 2});
-  const ImplicitFrames frames(work.x, work.v, moving, rig.h, rig.gravity);
-  EXPECT_EQ(find_planes(rig.batch(), frames, moving, rig.h, work), mask({1, 2}));
-  EXPECT_EQ(work.planes.size(), 3 * rig.particles()) << "none of lanes that do not move";
+  const MovingAxes axes(bodies.x, bodies.v, moving, rig.h, rig.gravity);
+  EXPECT_EQ(find_planes(rig.batch(), axes, bodies), mask({1, 2}));
+  EXPECT_EQ(bodies.planes.size(), 3 * rig.particles()) << "none of lanes that do not move";
   double least_gap[] = {1, 1, 1, 1}, most_out[] = {0, 0, 0, 0};
-  for (const PlaneContact& c : work.planes) {
+  for (const PlaneContact& c : bodies.planes) {
     EXPECT_EQ(c.normal, glm::dvec3(0, 1, 0));
     EXPECT_EQ(c.force, glm::dvec3(0.0));
     least_gap[c.point.lane()] = std::min(least_gap[c.point.lane()], -c.min_displacement);
@@ -156,7 +150,7 @@ TEST(FindPlanes, AsksForWhatTheLawOfContactAsksFor) {
 struct PairRig : BatchRig {
   PairRig() {
     start(1, {0, -1, 0});
-    penalty.layer.thickness = 0.1f;
+    PenaltyTestAccess::layer(penalty).thickness = 0.1f;
     for (const BodyId other : {BodyId(1), BodyId(2)}) {
       x.set(other, 0, x.at(3 + 5, 1) + glm::dvec3(0.01, -0.05, 0));
       v.set(other, 0, {0.5, 0.25, 0});
@@ -170,28 +164,28 @@ struct PairRig : BatchRig {
                        .stiffness = 100,
                        .friction = 0.5f,
                        .damped_mass = 1};
-      ends.push_back({std::uint32_t(penalty.pairs.size()), 0});
-      penalty.pairs.push_back(pair);
+      ends.push_back({std::uint32_t(penalty.pairs().size()), 0});
+      PenaltyTestAccess::add(penalty, pair);
     }
-    penalty.group(x.x.size(), {});
+    PenaltyTestAccess::group(penalty, x.x.size());
     penalty.gather(x.field(), v.field());
-    penalty.evaluate({0, 2}, float(h));
+    penalty.evaluate({0, 2}, {float(h)});
   }
   std::vector<PenaltyEnd> ends;
 };
 
 TEST(FindPenaltyPairs, LinearisesThemAboutTheFirstVelocities) {
   PairRig rig;
-  ImplicitWork work = rig.work();
-  EXPECT_EQ(find_penalty_pairs(rig.batch(rig.ends), mask({1, 2}), rig.h, work), mask({1}));
-  ASSERT_EQ(work.penalty_pairs.size(), 2u);
+  ImplicitBodies bodies = rig.bodies();
+  EXPECT_EQ(find_penalty_pairs(rig.batch(rig.ends), mask({1, 2}), rig.h, bodies), mask({1}));
+  ASSERT_EQ(bodies.penalty_pairs.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
-    const LinearPenaltyPair& s = work.penalty_pairs[i];
+    const LinearPenaltyPair& s = bodies.penalty_pairs[i];
     const glm::dvec3 partner = i == 0 ? rig.h * glm::dvec3(0.5, 0.25, 0) : glm::dvec3(0.0), own = {0, -rig.h, 0};
     EXPECT_EQ(s.at, 5 * implicit_lanes + 1);
     EXPECT_LT(glm::distance(s.partner, partner), 1e-9);
     EXPECT_LT(glm::distance(s.start_separation, own - partner), 1e-9);
-    const glm::dvec3 force(rig.penalty.force[i]);
+    const glm::dvec3 force = rig.penalty.force({std::uint32_t(i), 0});
     ASSERT_GT(force.y, 1) << "N";
     EXPECT_LT(glm::distance(s.force, force), 1e-9);
     // Where the particle goes on as at the start, the damper pulls no more than it does already.
@@ -203,10 +197,10 @@ TEST(FindPenaltyPairs, LinearisesThemAboutTheFirstVelocities) {
 
 TEST(FindPenaltyPairs, LeavesOutBodiesThatDoNotMove) {
   PairRig rig;
-  ImplicitWork work = rig.work();
-  work.penalty_pairs.resize(1);
-  EXPECT_EQ(find_penalty_pairs(rig.batch(rig.ends), mask({0}), rig.h, work), LaneMask());
-  EXPECT_TRUE(work.penalty_pairs.empty());
+  ImplicitBodies bodies = rig.bodies();
+  bodies.penalty_pairs.resize(1);
+  EXPECT_EQ(find_penalty_pairs(rig.batch(rig.ends), mask({0}), rig.h, bodies), LaneMask());
+  EXPECT_TRUE(bodies.penalty_pairs.empty());
 }
 
 TEST(ImplicitSteps, TakeABatchToItsEnd) {

@@ -26,7 +26,7 @@ using namespace softbody::HWY_NAMESPACE;
 /// Hands all that comes of a and b to add().
 template <class V, class Add>
 HWY_INLINE void compute(V a, V b, const Add& add) {
-  using namespace body;
+  using namespace simd;
   const V step(0.003f), zero{};
   add(a + b), add(a - b), add(a * b), add(a / b), add(-a), add(2.0f - a), add(square_root(a));
   add(larger(a, b)), add(smaller(a, b)), add(select(a > b, a, b)), add(select(a < b, a, b)), add(select(a >= b, a, b));
@@ -48,14 +48,14 @@ template <class V>
 std::vector<float> results(const float* a, const float* b, unsigned& above) {
   std::vector<float> all;
   above = 0;
-  for (int first = 0; first < lanes; first += body::lanes_of<V>) {
-    const V x = body::load<V>(a + first), y = body::load<V>(b + first);
-    above |= body::lanes_above(x, y) << first;
-    EXPECT_EQ(body::any_above(x, y), body::lanes_above(x, y) != 0);
+  for (int first = 0; first < lanes; first += simd::lanes_of<V>) {
+    const V x = simd::load<V>(a + first), y = simd::load<V>(b + first);
+    above |= simd::lanes_above(x, y) << first;
+    EXPECT_EQ(simd::any_above(x, y), simd::lanes_above(x, y) != 0);
     std::size_t at = std::size_t(first);
     compute(x, y, [&](V value) HWY_ATTR {
-      if (all.size() < at + body::lanes_of<V>) all.resize(at + std::size_t(lanes));
-      body::store(all.data() + at, value);
+      if (all.size() < at + simd::lanes_of<V>) all.resize(at + std::size_t(lanes));
+      simd::store(all.data() + at, value);
       at += std::size_t(lanes);
     });
   }
@@ -74,8 +74,8 @@ void compare_with_floats(const float* a, const float* b) {
 }
 
 void CompareWithFloats(const float* a, const float* b) {
-  compare_with_floats<body::Run<float, lanes>>(a, b);
-  compare_with_floats<body::Run<float, lanes, body::register_lanes<double>>>(a, b);
+  compare_with_floats<simd::Run<float, lanes>>(a, b);
+  compare_with_floats<simd::Run<float, lanes, simd::register_lanes<double>>>(a, b);
 }
 
 }  // namespace

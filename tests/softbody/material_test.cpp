@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "softbody/forces/material_keys.h"
+#include "softbody/mechanics/material_keys.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

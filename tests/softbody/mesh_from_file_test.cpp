@@ -7,10 +7,10 @@
 #include <glm/geometric.hpp>
 #include <tuple>
 
-#include "softbody/forces/deformation.h"
-#include "softbody/forces/equilibrium.h"
 #include "softbody/forces/shape_matching.h"
 #include "softbody/integrate/force_stage.h"
+#include "softbody/mechanics/deformation.h"
+#include "softbody/mechanics/make_body_model.h"
 #include "softbody/mesh/file_mesh.h"
 #include "tests/softbody/helpers.h"
 #include "tests/softbody/obj_lines.h"

@@ -6,7 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-#include "softbody/forces/material_keys.h"
+#include "softbody/mechanics/material_keys.h"
 #include "softbody/scene/scene_write.h"
 #include "tests/softbody/helpers.h"
 

@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "softbody/forces/deformation.h"
-#include "softbody/forces/equilibrium.h"
 #include "softbody/forces/shape_matching.h"
+#include "softbody/mechanics/deformation.h"
+#include "softbody/mechanics/make_body_model.h"
 #include "softbody/state/best_rotation.h"
 #include "tests/softbody/helpers.h"
 

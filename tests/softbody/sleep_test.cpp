@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/equilibrium.h"
+#include "softbody/mechanics/make_body_model.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_test_access.h"
 

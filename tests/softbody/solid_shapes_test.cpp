@@ -116,7 +116,7 @@ TEST(SolidShapes, KeepTheirThicknessAllRound) {
   for (const glm::dvec3& away : {glm::dvec3(1, 0, 0), glm::dvec3(0, 0.6, 0.8), glm::dvec3(0.48, 0.6, 0.64)}) {
     const glm::dvec3 seen = corner + box.axes * (0.03 * away) - box.centre;
     const BoxShape<double> grown = placed<double>(box, 0.03, glm::dvec3(0.0)).shape;
-    EXPECT_NEAR(body::surface_at(grown, body::Vec<double>{seen.x, seen.y, seen.z}).distance, 0, 1e-12);
+    EXPECT_NEAR(simd::surface_at(grown, simd::Vec<double>{seen.x, seen.y, seen.z}).distance, 0, 1e-12);
   }
 }
 

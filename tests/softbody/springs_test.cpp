@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/kernels/kernels.h"
+#include "softbody/mechanics/kernels.h"
 #include "softbody/state/kernels.h"
 #include "tests/every_target.h"
 #include "tests/softbody/helpers.h"

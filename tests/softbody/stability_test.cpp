@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/equilibrium.h"
+#include "softbody/mechanics/make_body_model.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -51,7 +51,7 @@ TEST(StableStep, ShrinksWithStiffnessAndWithDamping) {
 
 /// Largest eigenvalue of -dF/dx over the particle mass at x, by power iteration; the shift makes it the one of largest
 /// size, even where squeezed springs bring negative ones.
-double largest_eigenvalue(const BodyModel& p, const std::vector<glm::dvec3>& x, double shift) {
+double largest_eigenvalue(const BodyModel& model, const std::vector<glm::dvec3>& x, double shift) {
   std::mt19937 random(7);
   std::vector<glm::dvec3> mode(x.size());
   for (auto& m : mode) m = random_vector(random, 1);
@@ -66,10 +66,10 @@ double largest_eigenvalue(const BodyModel& p, const std::vector<glm::dvec3>& x, 
       more[i] += e * mode[i];
       less[i] -= e * mode[i];
     }
-    const auto up = forces(p, more), down = forces(p, less);
+    const auto up = forces(model, more), down = forces(model, less);
     value = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const glm::dvec3 image = -(up[i] - down[i]) / (2 * e) / p.particle_mass;
+      const glm::dvec3 image = -(up[i] - down[i]) / (2 * e) / model.particle_mass;
       value += glm::dot(mode[i], image);
       mode[i] = image + shift * mode[i];
     }

@@ -44,10 +44,11 @@ TEST(StepBounds, AreOfTheBodyThatNeedsMost) {
           x.push_back(particles.back().position);
         }
         world.set_particles(body, particles);
-        const BodyModel& p = world.model(body);
+        const BodyModel& model = world.model(body);
         const double step = world.integrator_choice().integrator().stable_step(
-            stiffness_per_mass(p, measure_surface(p, x), key == "imex-euler" ? Volumes::implicit_ : Volumes::explicit_),
-            damping_bound(p) / p.particle_mass);
+            stiffness_per_mass(model, measure_surface(model, x),
+                               key == "imex-euler" ? Volumes::implicit_ : Volumes::explicit_),
+            damping_bound(model) / model.particle_mass);
         most = std::max(most, 0.8 / step);
       }
       const Integrator& integrator = world.integrator_choice().integrator();
@@ -86,11 +87,13 @@ TEST(StepBounds, CountTheStiffnessOfContacts) {
   add_body(scene, top - bottom + glm::dvec3(0, 5e-5, 0), glm::dvec3(0.0));
   World world(scene, {.integrator = {"semi-implicit-euler"}});
   world.step();
-  const BodyModel& p = world.model(0);
-  const double own = stiffness_per_mass(p, {}), penalty = PenaltyLaw<double>::stiffness_bound(1e4) / p.particle_mass;
+  const BodyModel& model = world.model(0);
+  const double own = stiffness_per_mass(model, {}),
+               penalty = PenaltyLaw<double>::stiffness_bound(1e4) / model.particle_mass;
   ASSERT_GT(penalty, 4 * own);
-  EXPECT_GE(world.last_step().substeps, world.frame_time() / world.integrator_choice().integrator().stable_step(
-                                                                 own + penalty, damping_bound(p) / p.particle_mass));
+  EXPECT_GE(world.last_step().substeps,
+            world.frame_time() / world.integrator_choice().integrator().stable_step(
+                                     own + penalty, damping_bound(model) / model.particle_mass));
 }
 
 /// A tenth of its radius in a substep, at most. Who is far from solids does not count, in the same block or not.
@@ -173,9 +176,10 @@ TEST(StepController, FollowsTheBound) {
   for (const double stiffness : {10.0, 300.0, 30000.0}) {
     scene.materials[0][StructuralSprings::stiffness] = stiffness;
     World world(scene, {});
-    const BodyModel& p = world.model(0);
+    const BodyModel& model = world.model(0);
     world.step();
-    const double h = stable_step(p.forces->pair_stiffness / p.particle_mass, damping_bound(p) / p.particle_mass);
+    const double h =
+        stable_step(model.forces->pair_stiffness / model.particle_mass, damping_bound(model) / model.particle_mass);
     EXPECT_EQ(world.last_step().needed, int(std::ceil(1.0 / 60 / h)));
     EXPECT_EQ(world.last_step().substeps, on_ladder(1.0 / 60 / h, 8));
   }

@@ -90,8 +90,8 @@ void take_substep(const SolverTestAccess& s, const softbody::Worker& worker, flo
   watch.skip();
   for (const softbody::Batch* b : worker.batches()) s.solids.note_velocities(*b);
   watch.add(contacts);
-  if (!s.penalty.pairs.empty()) {
-    s.penalty.evaluate(worker.part(s.penalty.pairs.size()), h);
+  if (!s.penalty.pairs().empty()) {
+    s.penalty.evaluate(worker.part(s.penalty.pairs().size()), {h, softbody::PenaltyContact::max_damped / h});
     watch.add(pairs);
     worker.barrier();
     watch.add(wait);
@@ -163,7 +163,7 @@ Times measure(World& world, const softbody::Snapshot& start, FrameFacts& facts) 
   times[whole] = world.last_step().total_ms;
   const softbody::Batch& batch = *s.crew.moving().front();
   facts = {.particles = n,
-           .pairs = s.penalty.pairs.size(),
+           .pairs = s.penalty.pairs().size(),
            .batch_bytes = 2 * vector * batch.values(),
            .substeps = substeps,
            .alone = 2 * s.crew.alone().size() > s.crew.moving().size(),

@@ -2,6 +2,7 @@
 // A world's solver and its parts, for tests and benchmarks of the solver.
 
 #include "softbody/world/world_parts.h"
+#include "tests/support/penalty_test_access.h"
 
 namespace softbody {
 
@@ -23,21 +24,25 @@ struct WorldTestAccess {
   }
   /// J, that the penalty pairs of the last frame hold now.
   static double penalty_energy(const World& world) {
-    const PenaltyContact& last = solver(world).penalty_contact();
+    PenaltyContact now = solver(world).penalty_contact();
+    PenaltyPairs& pairs = PenaltyTestAccess::pairs(now);
     const State& state = world.state();
+    const std::vector<Index>& first = world.parts_->particles.bodies.first;
     double sum = 0;
-    for (std::size_t i = 0; i < last.pairs.size(); ++i) {
-      PenaltyPair p = last.pairs[i];
-      const std::vector<Index>& first = world.parts_->particles.bodies.first;
-      p.slot_a = std::uint32_t(state.slot(p.body_a, p.contact.a - first[p.body_a]));
-      p.slot_b = std::uint32_t(state.slot(p.body_b, p.contact.b - first[p.body_b]));
-      p.offset = glm::vec3(state.body(p.body_a).origin - state.body(p.body_b).origin);
-      sum += last.energy(p, field(state.x));
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const BodyId a = pairs.body_a[i], b = pairs.body_b[i];
+      pairs.slot_a[i] = std::uint32_t(state.slot(a, pairs.contact[i].a - first[a]));
+      pairs.slot_b[i] = std::uint32_t(state.slot(b, pairs.contact[i].b - first[b]));
+      const glm::vec3 offset(state.body(a).origin - state.body(b).origin);
+      for (int k = 0; k < 3; ++k) pairs.offset[std::size_t(k)][i] = offset[k];
+      sum += now.energy(i, field(state.x));
     }
     return sum;
   }
   /// m, of the penalty force: grows slowly towards the tolerance.
-  static float penalty_thickness(const World& world) { return world.parts_->solver.penalty_contact().layer.thickness; }
+  static float penalty_thickness(const World& world) {
+    return world.parts_->solver.penalty_contact().layer().thickness;
+  }
 };
 
 /// The parts of a solver with which a benchmark takes a frame by itself, stage by stage.

@@ -2,7 +2,7 @@
 
 #include "app/reference/reference_body.h"
 #include "app/report/stability/results.h"
-#include "softbody/forces/bound.h"
+#include "softbody/mechanics/bound.h"
 #include "softbody/world/measures.h"
 
 namespace app::report {

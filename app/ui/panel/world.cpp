@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 
 #include "app/ui/panel/panel.h"
-#include "softbody/forces/material_keys.h"
+#include "softbody/mechanics/material_keys.h"
 
 namespace app::ui {
 namespace {

@@ -15,7 +15,7 @@ namespace softbody {
 namespace HWY_NAMESPACE {
 namespace {
 
-using namespace body;
+using namespace simd;
 using V = Lane<float, register_lanes<float>>;
 constexpr std::size_t step = lanes_of<V>;
 

@@ -13,9 +13,14 @@ void for_each_value(Pairs& p, const Use& use) {
   for (auto* values : {&p.stiffness, &p.friction, &p.damped_mass, &p.restitution}) use(*values);
 }
 
-glm::vec3 read(const VectorArray& array, std::size_t i) { return softbody::read(field(array), i); }
-void write(VectorArray& array, std::size_t i, const glm::vec3& value) {
-  array[0][i] = value.x, array[1][i] = value.y, array[2][i] = value.z;
+/// Calls use(array) for all arrays.
+template <class Pairs, class Use>
+void for_each_array(Pairs& p, const Use& use) {
+  use(p.contact);
+  for (auto* bodies : {&p.body_a, &p.body_b}) use(*bodies);
+  for (auto* slots : {&p.slot_a, &p.slot_b}) use(*slots);
+  for (auto* particles : {&p.a, &p.b}) use(*particles);
+  for_each_value(p, use);
 }
 
 }  // namespace
@@ -32,36 +37,16 @@ void PenaltyPairs::resize(std::size_t count) {
   for_each_value(*this, [&](auto& array) { array.resize(whole); });
 }
 
-void PenaltyPairs::push_back(const PenaltyPair& p) {
-  const std::size_t i = size();
-  resize(i + 1);
-  contact[i] = p.contact;
-  body_a[i] = p.body_a, body_b[i] = p.body_b;
-  slot_a[i] = p.slot_a, slot_b[i] = p.slot_b;
-  write(offset, i, p.offset), write(normal, i, p.normal), write(stretch, i, p.stretch);
-  stiffness[i] = p.stiffness, friction[i] = p.friction, damped_mass[i] = p.damped_mass;
-  restitution[i] = p.restitution;
-}
-
-PenaltyPair PenaltyPairs::operator[](std::size_t i) const {
-  return {.contact = contact[i],
-          .body_a = body_a[i],
-          .body_b = body_b[i],
-          .slot_a = slot_a[i],
-          .slot_b = slot_b[i],
-          .offset = read(offset, i),
-          .normal = read(normal, i),
-          .stiffness = stiffness[i],
-          .friction = friction[i],
-          .damped_mass = damped_mass[i],
-          .restitution = restitution[i],
-          .stretch = read(stretch, i)};
+void PenaltyPairs::keep(const std::vector<std::size_t>& which) {
+  for_each_array(*this, [&](auto& array) {
+    for (std::size_t i = 0; i < which.size(); ++i) array[i] = array[which[i]];
+  });
+  resize(which.size());
 }
 
 std::size_t PenaltyPairs::bytes() const {
-  std::size_t sum = bytes_of(contact) + bytes_of(body_a) + bytes_of(body_b) + bytes_of(slot_a) + bytes_of(slot_b) +
-                    bytes_of(a) + bytes_of(b);
-  for_each_value(*this, [&](const auto& array) { sum += bytes_of(array); });
+  std::size_t sum = 0;
+  for_each_array(*this, [&](const auto& array) { sum += bytes_of(array); });
   return sum;
 }
 

@@ -11,7 +11,7 @@ namespace softbody {
 namespace HWY_NAMESPACE {
 namespace {
 
-using namespace body;
+using namespace simd;
 using V = Wide<double, implicit_lanes>;
 
 /// The unknowns of a run, once what stands before it is known; two rows below it at a time keep the processor busy.

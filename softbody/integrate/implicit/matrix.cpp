@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "softbody/forces/equilibrium.h"
-#include "softbody/forces/visit.h"
+#include "softbody/mechanics/make_body_model.h"
+#include "softbody/mechanics/visit.h"
 #include "softbody/model/scene_error.h"
 
 namespace softbody {
@@ -27,12 +27,12 @@ using Shape = std::vector<glm::dvec3>;
 enum class Tension { exact, pulling };
 
 /// Returns the shape in which the body is in balance, or its starting shape if none is found.
-Shape balanced_shape(const BodyModel& p) {
-  if (p.forces->pressure <= 0) return p.start;
+Shape balanced_shape(const BodyModel& model) {
+  if (model.forces->pressure <= 0) return model.start;
   try {
-    return find_equilibrium(p, p.start);
+    return find_equilibrium(model, model.start);
   } catch (const SceneError&) {
-    return p.start;
+    return model.start;
   }
 }
 
@@ -91,7 +91,7 @@ struct Assemble {
       }
   }
 
-  void operator()(Offset c, const body::Vec<double>&, const auto& law) const { add_to_diagonal(c.i, law.stiffness); }
+  void operator()(Offset c, const simd::Vec<double>&, const auto& law) const { add_to_diagonal(c.i, law.stiffness); }
   void operator()(Path c, const auto& law) const { add_to_diagonal(c.i, law.damping / h); }
   void add_to_diagonal(Index i, double value) const {
     for (int axis = 0; axis < (rotates ? 3 : 1); ++axis) {
@@ -101,15 +101,15 @@ struct Assemble {
   }
 };
 
-Sparse assemble(const BodyModel& p, const Shape& x, double h, bool rotates, Tension tension) {
+Sparse assemble(const BodyModel& model, const Shape& x, double h, bool rotates, Tension tension) {
   const int n = int(x.size()), axes = rotates ? 3 : 1;
   Entries entries;
   std::array<std::vector<double>, 3> component;
   for (int k = 0; k < 3; ++k)
     for (const glm::dvec3& place : x) component[std::size_t(k)].push_back(place[k]);
-  visit_all(p, {component[0].data(), component[1].data(), component[2].data()},
-            Assemble{p, x, h, rotates, tension, entries});
-  for (int i = 0; i < axes * n; ++i) entries.emplace_back(i, i, p.particle_mass / (h * h));
+  visit_all(model, {component[0].data(), component[1].data(), component[2].data()},
+            Assemble{model, x, h, rotates, tension, entries});
+  for (int i = 0; i < axes * n; ++i) entries.emplace_back(i, i, model.particle_mass / (h * h));
   Sparse a(axes * n, axes * n);
   a.setFromTriplets(entries.begin(), entries.end());
   return a;
@@ -154,10 +154,10 @@ CholeskyFactor copy(const Eigen::SimplicialLLT<Sparse>& llt) {
 }
 
 /// dV/dx
-Eigen::VectorXd volume_gradient(const BodyModel& p, const Shape& x) {
-  const auto n = static_cast<Eigen::Index>(p.mesh.vertices.size());
+Eigen::VectorXd volume_gradient(const BodyModel& model, const Shape& x) {
+  const auto n = static_cast<Eigen::Index>(model.mesh.vertices.size());
   Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * n);
-  for (const auto& [i, j, k] : p.mesh.triangles) {
+  for (const auto& [i, j, k] : model.mesh.triangles) {
     const glm::dvec3 sixth = glm::cross(x[j] - x[i], x[k] - x[i]) / 6.0;
     for (const Index corner : {i, j, k})
       for (int axis = 0; axis < 3; ++axis) g[axis * n + Eigen::Index(corner)] += sixth[axis];
@@ -174,24 +174,25 @@ struct ImplicitMatrix::Factored {
   std::vector<std::vector<double>> columns;  // of particle j: its three columns, or its one
 };
 
-ImplicitMatrix::ImplicitMatrix(const BodyModel& p, double h, const ImplicitMatrix* other)
-    : rotates_(p.mesh.closed),
-      balanced_(other ? other->balanced_ : std::make_shared<const Shape>(balanced_shape(p))),
+ImplicitMatrix::ImplicitMatrix(const BodyModel& model, double h, const ImplicitMatrix* other)
+    : rotates_(model.mesh.closed),
+      balanced_(other ? other->balanced_ : std::make_shared<const Shape>(balanced_shape(model))),
       factored_(std::make_unique<Factored>()) {
   const Shape& x = *balanced_;
   for (const Tension tension : {Tension::exact, Tension::pulling}) {
-    Sparse a = assemble(p, x, h, rotates_, tension);
+    Sparse a = assemble(model, x, h, rotates_, tension);
     // So little mass that rounding hides it: directions need not be that exact.
     if (tension == Tension::pulling) a.diagonal().array() += 1e-12 * a.diagonal().maxCoeff();
     // A body's own springs set the scale, but as a whole it has to feel no more than the solver can bring to rest.
     const Eigen::VectorXd diagonal = a.diagonal();
     const double mean = std::accumulate(diagonal.begin(), diagonal.end(), 0.0) / double(diagonal.size());
-    contact_stiffness_ = std::min(2 * mean, 1000 * p.material[Material::mass] / (h * h));
+    contact_stiffness_ = std::min(2 * mean, 1000 * model.material[Material::mass] / (h * h));
     factored_->llt.compute(a);
     if (factored_->llt.info() == Eigen::Success) break;
   }
   if (factored_->llt.info() != Eigen::Success)
-    throw SceneError("material '" + p.material.name + "': its stiffness, damping and mass make no matrix that can be " +
+    throw SceneError("material '" + model.material.name +
+                     "': its stiffness, damping and mass make no matrix that can be " +
                      "factored; use values closer to one another");
   factor_ = copy(factored_->llt);
   factored_->once = std::vector<std::once_flag>(x.size());
@@ -199,9 +200,9 @@ ImplicitMatrix::ImplicitMatrix(const BodyModel& p, double h, const ImplicitMatri
   glm::dvec3 mean(0.0);
   for (const glm::dvec3& place : x) mean += place / double(x.size());
   for (const glm::dvec3& place : x) shape_.push_back(place - mean);
-  if (p.forces->pressure <= 0 || !rotates_) return;
-  const Eigen::VectorXd g = volume_gradient(p, x), response = factored_->llt.solve(g);
-  const double slope = volume_pull(p, volume(x, p.mesh.triangles)).slope;
+  if (model.forces->pressure <= 0 || !rotates_) return;
+  const Eigen::VectorXd g = volume_gradient(model, x), response = factored_->llt.solve(g);
+  const double slope = volume_pull(model, volume(x, model.mesh.triangles)).slope;
   gas_.assign(g.begin(), g.end());
   gas_response_.assign(response.begin(), response.end());
   gas_weight_ = slope / (1 + slope * std::inner_product(g.begin(), g.end(), response.begin(), 0.0));

@@ -25,7 +25,7 @@ class ImplicitMatrix {
   ImplicitMatrix(const BodyModel& model, double h, const ImplicitMatrix* other = nullptr);
   ~ImplicitMatrix();
 
-  /// Returns true if components are coupled (unknown k * particles + i), in the frame of the starting shape. Else the
+  /// Returns true if components are coupled (unknown k * particles + i), in the axes of the starting shape. Else the
   /// factor serves each of them.
   bool rotates() const { return rotates_; }
   const CholeskyFactor& factor() const { return factor_; }
@@ -37,7 +37,7 @@ class ImplicitMatrix {
 
   double contact_stiffness() const { return contact_stiffness_; }  // N/m, about that of one particle
 
-  /// Returns how particle i moves (m/N) under a force on particle j, in the matrix's frame. Works out what belongs to j
+  /// Returns how particle i moves (m/N) under a force on particle j, in the matrix's axes. Works out what belongs to j
   /// once, on whatever thread asks first.
   glm::dmat3 compliance(Index i, Index j) const;
 

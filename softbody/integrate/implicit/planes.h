@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/law.h"
-#include "softbody/integrate/implicit/work.h"
+#include "softbody/integrate/implicit/problem.h"
 
 namespace softbody {
 
@@ -36,11 +36,11 @@ glm::dvec3 stop_at(std::span<const PlaneContact> planes, std::size_t lane, doubl
   return shift;
 }
 
-/// Returns the lanes in which a point ends behind one of work.planes.
-LaneMask behind_planes(const ImplicitWork& work);
+/// Returns the lanes in which a point ends behind one of its planes.
+LaneMask behind_planes(const ImplicitBodies& bodies);
 
 /// Moves each point of the lanes that ends behind its planes in front of them. A solve that has not converged leaves
 /// such points.
-void clear_planes(ImplicitWork& work, LaneMask which, double h);
+void clear_planes(ImplicitBodies& bodies, LaneMask which, double h);
 
 }  // namespace softbody

@@ -5,6 +5,7 @@
 #include <array>
 #include <bitset>
 #include <span>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -77,22 +78,38 @@ struct LinearPenaltyPair {
   }
 };
 
-/// What is solved in one step, in the frames of the lanes.
+/// The bodies in all lanes in the world, at the start and at the end of a step, and what touches them.
+struct ImplicitBodies {
+  explicit ImplicitBodies(const BodyModel& model) {
+    for (Lanes* field : {&x, &v, &end_x, &end_v}) field->resize(3 * model.mesh.vertices.size() * implicit_lanes);
+  }
+
+  Lanes x, v, end_x, end_v;                      // m and m/s
+  std::vector<PlaneContact> planes;              // ordered by lanes ...
+  std::vector<LinearPenaltyPair> penalty_pairs;  // ... these in any order
+};
+
+/// The start of a step in the axes of the lanes (implicit/moving_axes.h).
+struct ImplicitStart {
+  Lanes x, v;     // m and m/s
+  Lanes a;        // m/s^2, what acts beside the forces
+  Lanes carried;  // m, how far the axes carry particles that keep their places in them
+  std::array<float, implicit_lanes> moves{};
+};
+
+/// What is solved in one step, in the axes of the lanes.
 struct ImplicitProblem {
   const BodyModel& model;
   const ImplicitMatrix& matrix;
-  double h;                          // s
-  const float* moves;                // lanes values
-  const Lanes *x, *v;                // at the start
-  const Lanes* a;                    // m/s^2, what acts beside the forces
-  const Lanes* frame_displacement;   // m, what particles move without leaving their places here (implicit/frames.h)
-  double frame_time;                 // s, in which they do
+  double h;  // s
+  const ImplicitStart& start;
+  double carry_time;                 // s, in which the axes do so
   std::span<PlaneContact> planes{};  // ordered by lanes; their forces are filled in
   std::span<const LinearPenaltyPair> penalty_pairs{};
 
   /// Returns the displacement (m) in this step of a particle whose position is now in `now`.
   glm::dvec3 displacement(const Lanes& now, std::size_t at) const {
-    return read(now, at) - read(*x, at) + read(*frame_displacement, at);
+    return read(now, at) - read(start.x, at) + read(start.carried, at);
   }
   glm::dvec3 displacement(const Lanes& now, const BodyPoint& point) const {
     return point.mean([&](std::size_t at) { return displacement(now, at); });

@@ -6,7 +6,7 @@
 
 #include "softbody/contact/law.h"
 #include "softbody/integrate/implicit/attempts.h"
-#include "softbody/integrate/implicit/contact_search.h"
+#include "softbody/integrate/implicit/step_contacts.h"
 
 namespace softbody {
 namespace {
@@ -17,52 +17,56 @@ LaneMask moving_lanes(const ImplicitBatch& b) {
   return moving;
 }
 
-void read_start(const ImplicitBatch& b, ImplicitWork& work) {
-  for (std::size_t at = 0; at < work.x.size() / 3; ++at) {
+void read_start(const ImplicitBatch& b, ImplicitBodies& bodies) {
+  for (std::size_t at = 0; at < bodies.x.size() / 3; ++at) {
     const bool taken = b.first_lane + at % implicit_lanes < std::size_t(b.batch.used);
-    write(work.x, at, taken ? glm::dvec3(read(b.x, b.slot(at))) : glm::dvec3(0.0));
-    write(work.v, at, taken ? glm::dvec3(read(b.v, b.slot(at))) : glm::dvec3(0.0));
+    write(bodies.x, at, taken ? glm::dvec3(read(b.x, b.slot(at))) : glm::dvec3(0.0));
+    write(bodies.v, at, taken ? glm::dvec3(read(b.v, b.slot(at))) : glm::dvec3(0.0));
   }
 }
 
-void write_end(const ImplicitWork& work, LaneMask moving, double h, const ImplicitBatch& b,
+void write_end(const ImplicitBodies& bodies, LaneMask moving, double h, const ImplicitBatch& b,
                const ImplicitResult& result) {
   const BodyField mean{result.mean, 0, 1}, rest{result.rest, 0, 1};
-  for (std::size_t at = 0; at < work.x.size() / 3; ++at) {
+  for (std::size_t at = 0; at < bodies.x.size() / 3; ++at) {
     if (!moving[at % implicit_lanes]) continue;
-    const glm::dvec3 mean_v = (read(work.end_x, at) - read(work.x, at)) / h;
+    const glm::dvec3 mean_v = (read(bodies.end_x, at) - read(bodies.x, at)) / h;
     mean.set(b.slot(at), mean_v);
-    rest.set(b.slot(at), read(work.end_v, at) - mean_v);
+    rest.set(b.slot(at), read(bodies.end_v, at) - mean_v);
   }
 }
 
-void add_impulses(const ImplicitStep& step, const ImplicitWork& work, const ImplicitBatch& b,
-                  const ImplicitResult& result) {
+/// Adds what solids have done to the bodies in the step.
+void add_solid_impulses(const ImplicitStep& step, const ImplicitBodies& bodies, const ImplicitBatch& b,
+                        const ImplicitResult& result) {
   const BodyField sum{result.solids.impulse, b.first_lane, 1};
-  for (const PlaneContact& c : work.planes) {
+  for (const PlaneContact& c : bodies.planes) {
     const std::size_t own = c.point.lane(), lane = b.first_lane + own;
     const double push = glm::dot(c.force, c.normal);
     if (push == 0) continue;
     sum.add(own, step.h * push * c.normal);
     // At the end of the step: until then the spin takes the point along its circle.
     const auto of_point = [&](const Lanes& v) { return c.point.mean([&](std::size_t at) { return read(v, at); }); };
-    const glm::dvec3 whole = step.frames.start(own).velocity;
-    const double before = glm::dot(whole + step.frames.leave(own, of_point(work.v) - whole), c.normal);
-    const double after = glm::dot(of_point(work.end_v), c.normal);
+    const glm::dvec3 whole = step.axes.start(own).velocity;
+    const double before = glm::dot(whole + step.axes.leave(own, of_point(bodies.v) - whole), c.normal);
+    const double after = glm::dot(of_point(bodies.end_v), c.normal);
     result.solids.returned[lane] += float(law::bounce_energy(step.h * push, before, after, c.restitution));
     result.solids.energy[lane] += float(push * c.out());
   }
+}
+
+/// Adds what the penalty pairs with restitution have done in a step of h.
+void add_pair_impacts(const ImplicitBodies& bodies, const ImplicitBatch& b, double h) {
   if (!b.penalty.bounces()) return;
-  for (const LinearPenaltyPair& s : work.penalty_pairs) {
-    const PenaltyPair pair = b.penalty.pairs[s.end.pair];
-    if (pair.restitution <= 0) continue;
-    const glm::dvec3 moved = read(work.end_x, s.at) - read(work.x, s.at);
+  for (const LinearPenaltyPair& s : bodies.penalty_pairs) {
+    if (b.penalty.pairs().restitution[s.end.pair] <= 0) continue;
+    const glm::dvec3 moved = read(bodies.end_x, s.at) - read(bodies.x, s.at);
     const double push = glm::dot(s.force_after(moved), s.normal);
-    const double before = glm::dot(s.start_separation, s.normal) / step.h;
-    const double after = glm::dot(read(work.end_v, s.at) - s.partner / step.h, s.normal);
-    const double impulse = s.share * step.h * push;
+    const double before = glm::dot(s.start_separation, s.normal) / h;
+    const double after = glm::dot(read(bodies.end_v, s.at) - s.partner / h, s.normal);
+    const double impulse = s.share * h * push;
     const glm::dvec3 apart = double(s.end.sign()) * (moved - s.partner);
-    const double stored = b.penalty.energy(pair, b.x, apart) - b.penalty.energy(pair, b.x);
+    const double stored = b.penalty.energy(s.end.pair, b.x, apart) - b.penalty.energy(s.end.pair, b.x);
     b.penalty.add_impact(s.end, impulse, law::bounce_energy(impulse, before, after, 1.0) - s.share * stored);
   }
 }
@@ -70,47 +74,50 @@ void add_impulses(const ImplicitStep& step, const ImplicitWork& work, const Impl
 }  // namespace
 
 void ImplicitSteps::retain(const std::function<bool(const BodyModel&)>& in_use) {
-  matrices_.retain(in_use);
-  for (auto& of_thread : work_) std::erase_if(of_thread, [&](const auto& entry) { return !in_use(*entry.first); });
+  std::erase_if(models_, [&](const auto& entry) { return !in_use(*entry.first); });
 }
 
 void ImplicitSteps::prepare(const std::shared_ptr<const BodyModel>& model, double h, int threads) {
-  if (work_.size() < std::size_t(threads)) work_.resize(std::size_t(threads));
-  for (std::size_t t = 0; t < std::size_t(threads); ++t) work_[t].try_emplace(model, *model, kernels_);
-  for (const double length : {h, implicit_stage * h}) matrices_.prepare(model, length);
+  auto& [matrices, work] = models_[model];
+  while (work.size() < std::size_t(threads)) work.emplace_back(*model, kernels_);
+  for (const double length : {h, implicit_stage * h}) matrices.prepare(*model, length);
 }
 
 void ImplicitSteps::advance(int thread, ImplicitBatch batch, const ImplicitResult& result, double h) {
-  const auto found = work_[std::size_t(thread)].find(batch.batch.model);
-  assert(found != work_[std::size_t(thread)].end());
+  const auto found = models_.find(batch.batch.model);
+  assert(found != models_.end());
   for (; batch.first_lane < std::size_t(batch.batch.used); batch.first_lane += implicit_lanes)
-    advance_part(found->second, batch, result, h);
+    advance_part(found->second, thread, batch, result, h);
 }
 
-void ImplicitSteps::advance_part(ImplicitWork& work, const ImplicitBatch& b, const ImplicitResult& result, double h) {
+void ImplicitSteps::advance_part(OfModel& own, int thread, const ImplicitBatch& b, const ImplicitResult& result,
+                                 double h) {
   const LaneMask moving = moving_lanes(b);
   if (moving.none()) return;
-  read_start(b, work);
-  const BodyModel& model = *b.batch.model;
-  ImplicitStep step{model,
-                    matrices_.at(model, h),
-                    matrices_.at(model, implicit_stage * h),
+  auto& [solver, bodies, start] = own.work[std::size_t(thread)];
+  read_start(b, bodies);
+  ImplicitStep step{*b.batch.model,
+                    own.matrices.at(h),
+                    own.matrices.at(implicit_stage * h),
                     h,
                     b.gravity,
-                    ImplicitFrames(work.x, work.v, moving, h, b.gravity)};
-  step.in_contact = find_planes(b, step.frames, moving, h, work) | find_penalty_pairs(b, moving, h, work);
+                    MovingAxes(bodies.x, bodies.v, moving, h, b.gravity),
+                    solver,
+                    start};
+  step.in_contact = find_planes(b, step.axes, bodies) | find_penalty_pairs(b, moving, h, bodies);
   LaneMask open = moving;
-  for (const ImplicitAttempt& attempt : implicit_attempts)
-    if (open.any()) open &= ~attempt.advance(step, work, open);
+  for (const auto attempt : implicit_attempts)
+    if (open.any()) open &= ~attempt(step, bodies, open);
   assert(open.none());
-  write_end(work, moving, h, b, result);
-  add_impulses(step, work, b, result);
+  write_end(bodies, moving, h, b, result);
+  add_solid_impulses(step, bodies, b, result);
+  add_pair_impacts(bodies, b, h);
 }
 
 double ImplicitSteps::take_work() {
   double sum = 0;
-  for (auto& of_thread : work_)
-    for (auto& [model, work] : of_thread) sum += work.solver.take_work();
+  for (auto& [model, own] : models_)
+    for (Work& work : own.work) sum += work.solver.take_work();
   return sum;
 }
 

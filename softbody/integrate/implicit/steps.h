@@ -11,7 +11,7 @@
 #include "softbody/contact/solid_law.h"
 #include "softbody/forces/penalty_contact.h"
 #include "softbody/integrate/implicit/matrices.h"
-#include "softbody/integrate/implicit/work.h"
+#include "softbody/integrate/implicit/quasi_newton.h"
 
 namespace softbody {
 
@@ -52,15 +52,25 @@ class ImplicitSteps {
   /// Takes a step of h, which must be prepared, of all lanes of a batch. Threads may take steps of different batches at
   /// the same time.
   void advance(int thread, ImplicitBatch batch, const ImplicitResult& result, double h);
-  /// Returns the work of all threads since the last call, see ImplicitSolver::take_work().
+  /// Returns the work of all threads since the last call, see QuasiNewton::take_work().
   double take_work();
 
  private:
-  void advance_part(ImplicitWork& work, const ImplicitBatch& part, const ImplicitResult& result, double h);
+  /// What a thread computes with while it takes steps of one body model.
+  struct Work {
+    Work(const BodyModel& model, const ImplicitKernels& kernels) : solver(model, kernels), bodies(model) {}
+    QuasiNewton solver;
+    ImplicitBodies bodies;
+    ImplicitStart start;
+  };
+  struct OfModel {
+    ImplicitMatrices matrices;
+    std::vector<Work> work;  // of each thread
+  };
+  static void advance_part(OfModel& own, int thread, const ImplicitBatch& part, const ImplicitResult& result, double h);
 
   const ImplicitKernels& kernels_;
-  ImplicitMatrices matrices_;
-  std::vector<std::map<std::shared_ptr<const BodyModel>, ImplicitWork>> work_;  // of each thread
+  std::map<std::shared_ptr<const BodyModel>, OfModel> models_;
 };
 
 }  // namespace softbody

@@ -120,27 +120,27 @@ class Bullet final : public Stepper {
   }
 
   void add_body(BodyId b) {
-    const softbody::BodyModel& p = mirror_.model(b);
+    const softbody::BodyModel& model = mirror_.model(b);
     std::vector<btVector3> x;
-    for (const glm::dvec3& v : p.start) x.push_back(vector(mirror_.scene().bodies[b].position + v));
-    const std::vector<btScalar> mass(x.size(), btScalar(p.particle_mass));
+    for (const glm::dvec3& v : model.start) x.push_back(vector(mirror_.scene().bodies[b].position + v));
+    const std::vector<btScalar> mass(x.size(), btScalar(model.particle_mass));
     auto body = std::make_unique<btSoftBody>(&world_.getWorldInfo(), int(x.size()), x.data(), mass.data());
-    add_links(*body, softbody::springs<softbody::StructuralSprings>(p), p.particle_mass);
-    add_links(*body, softbody::springs<softbody::BendSprings>(p), p.particle_mass);
-    for (const softbody::Triangle& t : p.mesh.triangles) body->appendFace(int(t[0]), int(t[1]), int(t[2]));
+    add_links(*body, softbody::springs<softbody::StructuralSprings>(model), model.particle_mass);
+    add_links(*body, softbody::springs<softbody::BendSprings>(model), model.particle_mass);
+    for (const softbody::Triangle& t : model.mesh.triangles) body->appendFace(int(t[0]), int(t[1]), int(t[2]));
     soft_.push_back(std::move(body));
-    configure(*soft_.back(), p);
+    configure(*soft_.back(), model);
     world_.addSoftBody(soft_.back().get());
   }
 
-  void configure(btSoftBody& body, const softbody::BodyModel& p) {
+  void configure(btSoftBody& body, const softbody::BodyModel& model) {
     constexpr btScalar margin = 0.02;  // m; two of them fit between bodies at the start
     constexpr int clusters = 16;
     body.getCollisionShape()->setMargin(margin);
-    body.m_cfg.kDF = btScalar(p.material[softbody::contact::friction]);
+    body.m_cfg.kDF = btScalar(model.material[softbody::contact::friction]);
     body.m_cfg.kKHR = 1;  // with the default, 0.1, vertices sink 0.2 R into the solids
-    if (const auto* gas = softbody::gas_of(p))
-      body.m_cfg.kPR = btScalar(gas->amount - gas->ambient * p.start_volume);  // right at the start's volume
+    if (const auto* gas = softbody::gas_of(model))
+      body.m_cfg.kPR = btScalar(gas->amount - gas->ambient * model.start_volume);  // right at the start's volume
     body.m_cfg.collisions = btSoftBody::fCollision::SDF_RS;
     body.m_cfg.collisions |=
         contact_ == SoftContact::clusters ? btSoftBody::fCollision::CL_SS : btSoftBody::fCollision::VF_SS;
@@ -151,7 +151,7 @@ class Bullet final : public Stepper {
     body.updateArea(false);
     int i = 0;
     for (const auto* springs :
-         {&softbody::springs<softbody::StructuralSprings>(p), &softbody::springs<softbody::BendSprings>(p)})
+         {&softbody::springs<softbody::StructuralSprings>(model), &softbody::springs<softbody::BendSprings>(model)})
       for (const softbody::Spring& s : *springs) {
         body.m_links[i].m_rl = btScalar(s.rest);
         body.m_links[i].m_c1 = btScalar(s.rest * s.rest);

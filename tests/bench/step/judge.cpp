@@ -34,11 +34,11 @@ std::vector<std::string> failures(const Figures& f) {
 Judge::Judge(const softbody::World& start) : energy_(energy_of(softbody::measure(start))) {
   radius_ = std::numeric_limits<double>::infinity();
   for (softbody::BodyId b = 0; b < start.bodies().count(); ++b) {
-    const softbody::BodyModel& p = start.model(b);
-    const double mass = p.particle_mass * double(p.mesh.vertices.size());
+    const softbody::BodyModel& model = start.model(b);
+    const double mass = model.particle_mass * double(model.mesh.vertices.size());
     mass_ += mass;
-    scale_ += mass * 9.81 * p.radius;
-    radius_ = std::min(radius_, p.radius);
+    scale_ += mass * 9.81 * model.radius;
+    radius_ = std::min(radius_, model.radius);
   }
 }
 

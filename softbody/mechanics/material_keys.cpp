@@ -1,4 +1,4 @@
-#include "softbody/forces/material_keys.h"
+#include "softbody/mechanics/material_keys.h"
 
 #include <algorithm>
 #include <vector>

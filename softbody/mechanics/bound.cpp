@@ -1,4 +1,4 @@
-#include "softbody/forces/bound.h"
+#include "softbody/mechanics/bound.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/visit.h"
+#include "softbody/mechanics/visit.h"
 
 namespace softbody {
 namespace {
@@ -87,27 +87,27 @@ double pair_bound(std::size_t particles, std::span<const WeightedPair> pairs) {
   return std::max(first.bound, largest_eigenvalue(laplacian, start(Eigen::Index(particles), true)).bound);
 }
 
-void ModelForces::set_bounds(std::size_t particles) {
+void set_bounds(ModelForces& all, std::size_t particles) {
   std::vector<WeightedPair> stiffness, damping;
   for_each_force(Forces{}, [&]<class F>(Name<F>) {
     if constexpr (HasElements<F>) {
-      const auto& own = of<F>();
+      const auto& own = all.of<F>();
       if (!own) return;
       if constexpr (F::coordinate == Coordinate::length)
         for (const auto& law : own->template elements<double>()) {
           stiffness.push_back({law.i, law.j, law.stiffness});
           damping.push_back({law.i, law.j, law.damping});
         }
-      if constexpr (F::coordinate == Coordinate::volume) pressure += own->scale();
-      if constexpr (F::coordinate == Coordinate::offset) offset_stiffness += own->stiffness / 2;
-      if constexpr (F::coordinate == Coordinate::path) path_damping += own->damping / 2;
+      if constexpr (F::coordinate == Coordinate::volume) all.pressure += own->scale();
+      if constexpr (F::coordinate == Coordinate::offset) all.offset_stiffness += own->stiffness / 2;
+      if constexpr (F::coordinate == Coordinate::path) all.path_damping += own->damping / 2;
     }
   });
-  pair_stiffness = pair_bound(particles, stiffness) / 2;
-  pair_damping = pair_bound(particles, damping) / 2;
+  all.pair_stiffness = pair_bound(particles, stiffness) / 2;
+  all.pair_damping = pair_bound(particles, damping) / 2;
 }
 
-double damping_bound(const BodyModel& p) { return p.forces->pair_damping + p.forces->path_damping; }
+double damping_bound(const BodyModel& model) { return model.forces->pair_damping + model.forces->path_damping; }
 
 double stable_step(double k_m, double c_m) {
   // Twice the sum of a row bounds a spring matrix: each spring stands on its diagonal and beside it (Gershgorin).
@@ -117,9 +117,9 @@ double stable_step(double k_m, double c_m) {
   return 0.8 * (2 / omega) / (std::sqrt(1 + z * z) + z);  // sqrt(1 + z^2) - z, but exact for large z too
 }
 
-double stiffness_per_mass(const BodyModel& p, const SurfaceShape& surface, Volumes volumes) {
-  const ModelForces& f = *p.forces;
-  const double others = f.pair_stiffness / p.particle_mass + f.offset_stiffness / p.particle_mass;
+double stiffness_per_mass(const BodyModel& model, const SurfaceShape& surface, Volumes volumes) {
+  const ModelForces& f = *model.forces;
+  const double others = f.pair_stiffness / model.particle_mass + f.offset_stiffness / model.particle_mass;
   if (f.pressure <= 0) return others;
   // Gas: F_i = P A_i with the gauge pressure P, A_i = dV/dx_i. Its matrix is -dP/dV A A^T, of norm s = -dP/dV sum
   // |A_i|^2, plus P d2V/dx2. Breathing, which the first is about, hardly stretches pairs: L being their Laplacian, l
@@ -128,19 +128,19 @@ double stiffness_per_mass(const BodyModel& p, const SurfaceShape& surface, Volum
   // the larger root of x^2 - (l + s) x + s (l - q). In the second part, particles i and j of an edge are joined by a
   // sixth of the line between the two corners opposite, which is at most the medians from there to the edge together:
   // a row is at most two medians a face at i.
-  const Jet pull = volume_pull(p, surface.volume);
+  const Jet pull = volume_pull(model, surface.volume);
   const double l = 2 * f.pair_stiffness, s = pull.slope * surface.area2;
   const double q = surface.area2 > 0 ? std::min(l, surface.stretch / surface.area2) : 0;
   const double both = (l + s) / 2 + std::sqrt((l - s) * (l - s) / 4 + s * q);
-  const double turned = std::abs(pull.value) * p.largest_degree * surface.two_medians / 6;
-  return others + (turned + (volumes == Volumes::explicit_ ? both - l : 0)) / (2 * p.particle_mass);
+  const double turned = std::abs(pull.value) * model.largest_degree * surface.two_medians / 6;
+  return others + (turned + (volumes == Volumes::explicit_ ? both - l : 0)) / (2 * model.particle_mass);
 }
 
-SurfaceShape measure_surface(const BodyModel& p, const std::vector<glm::dvec3>& vertices) {
-  if (p.forces->pressure <= 0) return {};
-  SurfaceShape s{.volume = volume(vertices, p.mesh.triangles)};
+SurfaceShape measure_surface(const BodyModel& model, const std::vector<glm::dvec3>& vertices) {
+  if (model.forces->pressure <= 0) return {};
+  SurfaceShape s{.volume = volume(vertices, model.mesh.triangles)};
   std::vector<glm::dvec3> area(vertices.size(), glm::dvec3(0));
-  for (const auto& [i, j, k] : p.mesh.triangles) {
+  for (const auto& [i, j, k] : model.mesh.triangles) {
     const glm::dvec3 a = vertices[i], b = vertices[j], c = vertices[k], third = glm::cross(b - a, c - a) / 6.0;
     for (const Index corner : {i, j, k}) area[corner] += third;
     const auto square = [](const glm::dvec3& v) { return glm::dot(v, v); };
@@ -148,7 +148,7 @@ SurfaceShape measure_surface(const BodyModel& p, const std::vector<glm::dvec3>& 
     s.two_medians = std::max(s.two_medians, std::sqrt(2 * std::max({of_a + of_b, of_b + of_c, of_c + of_a})));
   }
   for (const glm::dvec3& a : area) s.area2 += glm::dot(a, a);
-  visit_forces<Coordinate::length>(p, {}, [&](Length c, const auto& law) {
+  visit_forces<Coordinate::length>(model, {}, [&](Length c, const auto& law) {
     const glm::dvec3 d = area[c.i] - area[c.j];
     s.stretch += law.stiffness * glm::dot(d, d);
   });

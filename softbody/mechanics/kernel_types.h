@@ -3,8 +3,8 @@
 
 #include <tuple>
 
-#include "softbody/forces/bound.h"
 #include "softbody/forces/model_forces.h"
+#include "softbody/mechanics/bound.h"
 
 namespace softbody {
 
@@ -29,12 +29,12 @@ struct Moving {
 };
 
 /// Dampers see how far particles have gone since the start of an implicit step of h seconds. They act along the
-/// directions that their coordinates had then, so that the damping has a potential. `frame`: what particles go without
-/// leaving their places in a frame that moves with the body, in `frame_time` seconds.
+/// directions that their coordinates had then, so that the damping has a potential. `carried`: how far
+/// axes that move with the body carry particles that keep their places in them, in `carry_time` seconds.
 struct SinceStart {
   double inverse_h;  // 1/s
-  Field<const double> x, frame;
-  double inverse_frame_time;  // 1/s
+  Field<const double> x, carried;
+  double inverse_carry_time;  // 1/s
 };
 
 /// XPBD's displacements d in a step of h seconds that started at x0.

@@ -1,4 +1,4 @@
-#include "softbody/integrate/implicit/contact_search.h"
+#include "softbody/integrate/implicit/step_contacts.h"
 
 #include <algorithm>
 #include <cassert>
@@ -12,11 +12,11 @@
 namespace softbody {
 namespace {
 
-/// Returns the surface of a solid as seen from x, in the frame of the body in a lane.
+/// Returns the surface of a solid as seen from x, in the coordinates of the body in a lane.
 SurfaceAt<double> surface_from(const SolidArguments& s, std::size_t lane, const glm::dvec3& x) {
   const glm::dvec3 from = x - glm::dvec3(s.place[lane]);
-  const body::Vec<double> d{from.x, from.y, from.z};
-  return body::surface_at(s.shape, d);
+  const simd::Vec<double> d{from.x, from.y, from.z};
+  return simd::surface_at(s.shape, d);
 }
 
 /// Returns the point that a row keeps off a solid, in a lane of a step.
@@ -46,33 +46,33 @@ bool is_same(const PlaneContact& a, const PlaneContact& b) {
 
 }  // namespace
 
-LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, LaneMask moving, double h,
-                     ImplicitWork& work) {
+LaneMask find_planes(const ImplicitBatch& b, const MovingAxes& axes, ImplicitBodies& bodies) {
   LaneMask in_contact;
-  work.planes.clear();
+  bodies.planes.clear();
   const auto add_plane = [&](const PlaneContact& c) {
     const glm::dvec3 meant = c.point.mean(
-        [&](std::size_t at) { return frames.free_displacement(c.point.lane(), read(work.x, at), read(work.v, at)); });
+        [&](std::size_t at) { return axes.free_displacement(c.point.lane(), read(bodies.x, at), read(bodies.v, at)); });
     if (glm::dot(meant, c.normal) < c.min_displacement) in_contact.set(c.point.lane());
-    work.planes.push_back(c);
+    bodies.planes.push_back(c);
   };
   for (std::size_t lane = 0; lane < implicit_lanes; ++lane) {
-    if (!moving[lane]) continue;
+    if (!axes.active()[lane]) continue;
     const std::size_t own = b.first_lane + lane;  // in the batch
     for (const SolidArguments& s : b.near_solids) {
       if (!(s.near >> own & 1u)) continue;
-      for (std::size_t at = lane; at < work.x.size() / 3; at += implicit_lanes) {
-        const SurfaceAt<double> surface = surface_from(s, own, read(work.x, at));
+      for (std::size_t at = lane; at < bodies.x.size() / 3; at += implicit_lanes) {
+        const SurfaceAt<double> surface = surface_from(s, own, read(bodies.x, at));
         const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
-        add_plane({{{at}}, double(s.friction), double(s.restitution), normal, law::min_move(surface.distance, h)});
+        add_plane(
+            {{{at}}, double(s.friction), double(s.restitution), normal, law::min_move(surface.distance, axes.step())});
       }
     }
-    const std::size_t first = work.planes.size();
+    const std::size_t first = bodies.planes.size();
     for (const ContactRow& row : b.features) {
       if (row.slot[0] % std::size_t(b.batch.width) != own) continue;
       const PlaneContact c{point_of(row, b.batch.width, lane), double(row.friction), double(row.restitution),
-                           glm::dvec3(row.normal), double(row.target) * h};
-      if (std::ranges::none_of(std::span(work.planes).subspan(first),
+                           glm::dvec3(row.normal), double(row.target) * axes.step()};
+      if (std::ranges::none_of(std::span(bodies.planes).subspan(first),
                                [&](const PlaneContact& other) { return is_same(c, other); }))
         add_plane(c);
     }
@@ -80,26 +80,30 @@ LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, LaneM
   return in_contact;
 }
 
-LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, ImplicitWork& work) {
+LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, ImplicitBodies& bodies) {
   LaneMask in_contact;
-  work.penalty_pairs.clear();
+  bodies.penalty_pairs.clear();
   const auto velocity = [&](std::size_t slot) { return glm::dvec3(read(b.v, slot)); };
   for (const PenaltyEnd& end : b.ends) {
-    const PenaltyPair pair = b.penalty.pairs[end.pair];
+    const PenaltyPairs& pairs = b.penalty.pairs();
+    const std::uint32_t i = end.pair;
     const auto [slot, other_slot] =
-        end.at_b ? std::pair(pair.slot_b, pair.slot_a) : std::pair(pair.slot_a, pair.slot_b);
+        end.at_b ? std::pair(pairs.slot_b[i], pairs.slot_a[i]) : std::pair(pairs.slot_a[i], pairs.slot_b[i]);
     const std::size_t in_batch = slot - b.batch.base, lane = in_batch % std::size_t(b.batch.width) - b.first_lane;
     if (lane >= implicit_lanes || !moving[lane]) continue;
     const std::size_t at = in_batch / std::size_t(b.batch.width) * implicit_lanes + lane;
-    const PenaltyContact::Slopes slopes = b.penalty.slopes(pair, b.x, b.v, float(h));
+    const PenaltyContact::Slopes slopes = b.penalty.slopes(i, b.x, b.v, float(h));
     if (slopes.spring <= 0) continue;
-    LinearPenaltyPair s{.end = end, .at = at, .normal = double(end.sign()) * glm::dvec3(pair.normal), .slopes = slopes};
-    s.force = double(end.sign()) * glm::dvec3(b.penalty.force[end.pair]);
-    s.friction = double(pair.friction);
-    if (b.is_moving(end.at_b ? pair.body_a : pair.body_b)) s.partner = h * velocity(other_slot), s.share = 0.5;
+    LinearPenaltyPair s{.end = end,
+                        .at = at,
+                        .normal = double(end.sign()) * glm::dvec3(read(field(pairs.normal), i)),
+                        .slopes = slopes};
+    s.force = b.penalty.force(end);
+    s.friction = double(pairs.friction[i]);
+    if (b.is_moving(end.at_b ? pairs.body_a[i] : pairs.body_b[i])) s.partner = h * velocity(other_slot), s.share = 0.5;
     s.start_separation = h * velocity(slot) - s.partner;
-    s.max_work = b.penalty.max_work(pair, b.x, glm::length(s.partner));
-    work.penalty_pairs.push_back(s);
+    s.max_work = b.penalty.max_work(i, b.x, glm::length(s.partner));
+    bodies.penalty_pairs.push_back(s);
     in_contact.set(lane);
   }
   return in_contact;

@@ -2,7 +2,7 @@
 // The elements of the forces inside one body, in double: at(element, law) is called for each, of offsets
 // at(element, place, law).
 
-#include "softbody/forces/kernels/kernel_bodies.h"
+#include "softbody/mechanics/kernel_bodies.h"
 
 namespace softbody {
 
@@ -13,8 +13,8 @@ void visit_forces(const BodyModel& model, Field<const double> x, const At& at) {
     if constexpr (((coordinate_of<F>() == coordinates) || ...))
       if (const auto* d = data<F>(model)) {
         HeldOf<F, double> held{};
-        body::hold<F, double, one_lane>(*d, x, 1, held);
-        body::visit<F, double>(model, *d, held, at);
+        simd::hold<F, double, one_lane>(*d, x, 1, held);
+        simd::visit<F, double>(model, *d, held, at);
       }
   });
 }

@@ -1,7 +1,7 @@
 #pragma once
 // The forces that a plan takes.
 
-#include "softbody/forces/kernels/kernels.h"
+#include "softbody/mechanics/kernels.h"
 
 namespace softbody {
 
@@ -15,29 +15,29 @@ struct ForceBound {
 class ForceSet {
  public:
   /// The objects of forces without elements; they must outlive this.
-  using Objects = std::tuple<const PenaltyContact&, const Hand&>;
+  using Objects = std::tuple<PenaltyContact&, Hand&>;
   explicit ForceSet(const Objects& objects) : objects_(objects) {}
 
   void set_plan(const ForceMask& taken) { taken_ = taken; }
 
   /// Adds all forces on the bodies of a batch.
-  void add(const ForceBatch& batch) const;
+  void add(const ForceBatch& batch);
   /// The same without those that project() or kick() stands for.
-  void add_unprojected(const ForceBatch& batch) const;
+  void add_unprojected(const ForceBatch& batch);
   /// Changes velocities by all forces in a substep, v += h (f / m + g). Forces must be 0. After it, they are scratch,
   /// or 0 if the positions have moved, too.
-  void advance(const ForceBatch& batch, const Advance& how, LaneVolumes& volumes) const;
+  void advance(const ForceBatch& batch, const Advance& how, LaneVolumes& volumes);
   /// Changes velocities that contacts have changed since advance(), so that they fit the pressure at the end again.
   void press_again(const ForceBatch& batch, LaneVolumes& volumes) const;
   /// XPBD, on the displacements d in a step that started at x0, when the positions are x0 + d. It uses the forces as
   /// scratch. Forces that depend on the volume come first: what they move, the others see.
   void project(const ForceBatch& batch, Field<const float> x0, Field<float> d) const;
   /// Changes velocities by what some forces do in steps that are not made of forces alone.
-  void kick(const ForceBatch& batch) const;
+  void kick(const ForceBatch& batch);
 
  private:
   template <class Takes>
-  void add_if(const ForceBatch& batch, Takes takes) const;
+  void add_if(const ForceBatch& batch, Takes takes);
 
   Objects objects_;
   ForceMask taken_;

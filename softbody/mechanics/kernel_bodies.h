@@ -11,14 +11,14 @@
 #include <algorithm>
 #include <span>
 
-#include "softbody/forces/kernels/kernel_types.h"
 #include "softbody/forces/spring_law.h"
+#include "softbody/mechanics/kernel_types.h"
 #include "softbody/state/lane_math.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace softbody {
 namespace HWY_NAMESPACE {
-namespace body {
+namespace simd {
 
 /// m^2: its inverse is finite, and times a pull of 0 it is 0.
 template <class Real>
@@ -151,7 +151,7 @@ struct AddForces {
 
   HWY_INLINE void operator()(Volume, const auto& law) const {
     Real volume[lanes]{}, gauge[lanes]{};
-    body::volume<V, width>(b.model.mesh.triangles, b.x, volume);
+    simd::volume<V, width>(b.model.mesh.triangles, b.x, volume);
     for (int l = 0; l < std::min(b.used, lanes_of<V>); ++l) gauge[l] = static_cast<Real>(-law.pull(double(volume[l])));
     push_faces<V, width>(b.model.mesh.triangles, b.x, gauge, b.f);
   }
@@ -167,7 +167,7 @@ struct AddForces {
       store(b.f, i, load<V>(b.f, i) - V(static_cast<Real>(law.damping)) * load<V>(motion.v, i));
     } else if constexpr (std::is_same_v<Motion, SinceStart>) {
       const Vec<V> rate = V(motion.inverse_h) * (load<V>(b.x, i) - load<V>(motion.x, i)) +
-                          V(motion.inverse_frame_time) * load<V>(motion.frame, i);
+                          V(motion.inverse_carry_time) * load<V>(motion.carried, i);
       store(b.f, i, load<V>(b.f, i) - V(law.damping) * rate);
     }
   }
@@ -357,7 +357,7 @@ struct Project {
     double square[lanes]{}, largest[lanes]{};
     std::fill_n(unit, lanes, 1.0f);
     for (std::size_t at = 0; at < size; at += width) store(p.scratch, at, Vec<V>{});
-    body::volume<V, width>(b.model.mesh.triangles, b.x, volume);
+    simd::volume<V, width>(b.model.mesh.triangles, b.x, volume);
     push_faces<V, width>(b.model.mesh.triangles, b.x, unit, p.scratch);
     for (const float* gradient : {p.scratch.x, p.scratch.y, p.scratch.z})
       for (std::size_t at = 0; at < size; at += width)
@@ -468,7 +468,7 @@ struct AddStored {
   HWY_INLINE void operator()(Path, const auto&) const {}  // only damps
 };
 
-}  // namespace body
+}  // namespace simd
 }  // namespace HWY_NAMESPACE
 }  // namespace softbody
 HWY_AFTER_NAMESPACE();

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "softbody/forces/kernels/kernel_types.h"
+#include "softbody/mechanics/kernel_types.h"
 
 namespace softbody {
 
@@ -12,7 +12,7 @@ namespace softbody {
 struct ForceKernels {
   std::array<void (*)(const LaneBodies<float>&, const Moving&), force_count> add;
   std::array<void (*)(const LaneBodies<float>&, const Projection&), force_count> project;
-  /// Changes the velocities v by a substep of all forces, see body::kick() and body::press(). f: what forces without
+  /// Changes the velocities v by a substep of all forces, see simd::kick() and simd::press(). f: what forces without
   /// elements do, and those of offsets and paths; after it, A, or 0 if the positions have moved, too.
   void (*advance)(const LaneBodies<float>&, const KickArguments&, const Advance&, Field<float> v, LaneVolumes&);
   /// Finds the implicit pressure again, for velocities that contacts have changed since. f: A.

@@ -1,17 +1,17 @@
-#include "softbody/forces/kernels/kernels.h"
+#include "softbody/mechanics/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "softbody/forces/kernels/kernels.cpp"
+#define HWY_TARGET_INCLUDE "softbody/mechanics/kernels.cpp"
 #include <hwy/foreach_target.h>
 
-#include "softbody/forces/kernels/kernel_bodies.h"
+#include "softbody/mechanics/kernel_bodies.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace softbody {
 namespace HWY_NAMESPACE {
 namespace {
 
-using namespace body;
+using namespace simd;
 
 /// The kernels of one width: each run of lanes on its own.
 template <int width>

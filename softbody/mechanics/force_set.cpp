@@ -1,4 +1,4 @@
-#include "softbody/forces/force_set.h"
+#include "softbody/mechanics/force_set.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ LaneBodies<float> lanes_of(const ForceBatch& b) {
 
 /// takes(Name<F>{}): whether a force of the plan is added.
 template <class Takes>
-void ForceSet::add_if(const ForceBatch& b, Takes takes) const {
+void ForceSet::add_if(const ForceBatch& b, Takes takes) {
   const ForceKernels& kernels = force_kernels(b.batch.width);
   const LaneBodies<float> bodies = lanes_of(b);
   const Moving motion{field(b.state.v, b.batch.base)};
@@ -24,19 +24,19 @@ void ForceSet::add_if(const ForceBatch& b, Takes takes) const {
     if constexpr (HasElements<F>)
       kernels.add[index_of<F>](bodies, motion);
     else
-      std::get<const F&>(objects_).add(b);
+      std::get<F&>(objects_).add(b);
   });
 }
 
-void ForceSet::add(const ForceBatch& b) const {
+void ForceSet::add(const ForceBatch& b) {
   add_if(b, [](auto) { return true; });
 }
 
-void ForceSet::add_unprojected(const ForceBatch& b) const {
+void ForceSet::add_unprojected(const ForceBatch& b) {
   add_if(b, []<class F>(Name<F>) { return is_unprojected<F>(); });
 }
 
-void ForceSet::advance(const ForceBatch& b, const Advance& how, LaneVolumes& volumes) const {
+void ForceSet::advance(const ForceBatch& b, const Advance& how, LaneVolumes& volumes) {
   add_if(b, []<class F>(Name<F>) {
     return coordinate_of<F>() != Coordinate::length && coordinate_of<F>() != Coordinate::volume && !Kicks<F>;
   });
@@ -61,31 +61,31 @@ void ForceSet::project(const ForceBatch& b, Field<const float> x0, Field<float> 
     });
 }
 
-void ForceSet::kick(const ForceBatch& b) const {
+void ForceSet::kick(const ForceBatch& b) {
   for_each_force(Forces{}, [&]<class F>(Name<F>) {
     if constexpr (Kicks<F>)
-      if (taken_[index_of<F>]) std::get<const F&>(objects_).kick(b);
+      if (taken_[index_of<F>]) std::get<F&>(objects_).kick(b);
   });
 }
 
 ForceBound bound_of(const Batch& b, Field<const float> x, bool projects) {
-  const BodyModel& p = *b.model;
+  const BodyModel& model = *b.model;
   if (projects) {
-    const double unprojected = p.forces->offset_stiffness / p.particle_mass;
+    const double unprojected = model.forces->offset_stiffness / model.particle_mass;
     return {unprojected, unprojected};
   }
-  const double springs = stiffness_per_mass(p, {});
-  ForceBound bound{springs, springs, damping_bound(p) / p.particle_mass};
-  if (p.forces->pressure <= 0) return bound;
+  const double springs = stiffness_per_mass(model, {});
+  ForceBound bound{springs, springs, damping_bound(model) / model.particle_mass};
+  if (model.forces->pressure <= 0) return bound;
   VectorArray area;
   for (auto& component : area) component.resize(b.values());
   SurfaceShape shapes[lanes];
-  force_kernels(b.width).measure_surfaces({p, b.used, x, field(area)}, shapes);
+  force_kernels(b.width).measure_surfaces({model, b.used, x, field(area)}, shapes);
   for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
     if (b.moves[l] <= 0) continue;
-    bound.stiffness = std::max(bound.stiffness, stiffness_per_mass(p, shapes[l]));
-    bound.implicit_volume = std::max(bound.implicit_volume, stiffness_per_mass(p, shapes[l], Volumes::implicit_));
-    bound.volume_change = std::max(bound.volume_change, std::abs(shapes[l].volume / p.start_volume - 1));
+    bound.stiffness = std::max(bound.stiffness, stiffness_per_mass(model, shapes[l]));
+    bound.implicit_volume = std::max(bound.implicit_volume, stiffness_per_mass(model, shapes[l], Volumes::implicit_));
+    bound.volume_change = std::max(bound.volume_change, std::abs(shapes[l].volume / model.start_volume - 1));
   }
   return bound;
 }

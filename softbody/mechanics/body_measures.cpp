@@ -1,11 +1,11 @@
-#include "softbody/forces/body_measures.h"
+#include "softbody/mechanics/body_measures.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/kernels/kernels.h"
+#include "softbody/mechanics/kernels.h"
 #include "softbody/state/state.h"
 
 namespace softbody {
@@ -42,20 +42,20 @@ class WideMotion {
   LaneArray<double> values_;
 };
 
-BodyMeasures measures_of(const BodyModel& p, const MotionSums& sums, std::size_t lane, const glm::dvec3& origin,
+BodyMeasures measures_of(const BodyModel& model, const MotionSums& sums, std::size_t lane, const glm::dvec3& origin,
                          const glm::dvec3& gravity) {
-  const double mass = p.particle_mass;
+  const double mass = model.particle_mass;
   const glm::dvec3 place(sums.place.x[lane], sums.place.y[lane], sums.place.z[lane]);
   const glm::dvec3 velocity(sums.velocity.x[lane], sums.velocity.y[lane], sums.velocity.z[lane]);
   BodyMeasures m;
   m.energy = {.kinetic = mass / 2 * sums.square[lane],
               .elastic = sums.elastic[lane],
               .gas = sums.gas[lane],
-              .gravity = -mass * glm::dot(gravity, double(p.mesh.vertices.size()) * origin + place)};
+              .gravity = -mass * glm::dot(gravity, double(model.mesh.vertices.size()) * origin + place)};
   m.momentum = mass * velocity;
   m.power = glm::dot(gravity, m.momentum) - sums.growth[lane];
-  m.closed = p.mesh.closed;
-  if (m.closed) m.volume_ratio = sums.volume[lane] / p.start_volume;
+  m.closed = model.mesh.closed;
+  if (m.closed) m.volume_ratio = sums.volume[lane] / model.start_volume;
   m.largest_strain = sums.strain[lane];
   m.max_speed = std::sqrt(sums.fastest2[lane]);
   m.finite = std::isfinite(sums.square[lane]) && std::isfinite(glm::dot(place, place));

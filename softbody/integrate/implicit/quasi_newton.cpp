@@ -1,4 +1,4 @@
-#include "softbody/integrate/implicit/solver.h"
+#include "softbody/integrate/implicit/quasi_newton.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,19 +18,20 @@ constexpr int max_iterations = 40, iterations_of_round = 12;
 
 }  // namespace
 
-ImplicitSolver::ImplicitSolver(const BodyModel& p, const ImplicitKernels& kernels)
+QuasiNewton::QuasiNewton(const BodyModel& model, const ImplicitKernels& kernels)
     : kernels_(kernels),
       forces_(implicit_force_kernels()),
-      particles_(p.mesh.vertices.size()),
+      particles_(model.mesh.vertices.size()),
       stride_(particles_ * implicit_lanes),
       minimiser_(particles_, kernels) {
   for (Lanes* v : {&target_, &x_, &push_, &scratch_}) v->resize(3 * stride_);
 }
 
-/// Starts where the frame leads: what is stiff ends there but for little, and what is soft is there after one step.
-void ImplicitSolver::predict(const ImplicitProblem& p) {
-  for (std::size_t i = 0; i < 3 * stride_; ++i) target_[i] = (*p.x)[i] + p.h * (*p.v)[i] + p.h * p.h * (*p.a)[i];
-  x_ = *p.x;
+/// Starts where the axes lead: what is stiff ends there but for little, and what is soft is there after one step.
+void QuasiNewton::predict(const ImplicitProblem& p) {
+  const ImplicitStart& s = p.start;
+  for (std::size_t i = 0; i < 3 * stride_; ++i) target_[i] = s.x[i] + p.h * s.v[i] + p.h * p.h * s.a[i];
+  x_ = s.x;
   stop_at_planes(p);
   max_step_.fill(0);  // by a radius and the way to the target: the gradient is not usable farther out
   for (std::size_t i = 0; i < 3 * stride_; ++i)
@@ -39,7 +40,7 @@ void ImplicitSolver::predict(const ImplicitProblem& p) {
 }
 
 /// Stops each body as a whole where its planes stop it. Behind them, it would start far inside the solid.
-void ImplicitSolver::stop_at_planes(const ImplicitProblem& p) {
+void QuasiNewton::stop_at_planes(const ImplicitProblem& p) {
   LaneMask any;
   for (const PlaneContact& c : p.planes) any.set(c.point.lane());
   for (std::size_t l = 0; l < implicit_lanes; ++l) {
@@ -53,7 +54,7 @@ void ImplicitSolver::stop_at_planes(const ImplicitProblem& p) {
 }
 
 /// Sets the rotation of the matrix to that of each body's shape as predicted.
-void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
+void QuasiNewton::fit_rotation(const ImplicitProblem& p) {
   for (std::size_t l = 0; l < implicit_lanes; ++l) {
     const LaneView x{x_, l};
     glm::dmat3 covariance(0.0);
@@ -65,18 +66,18 @@ void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
 }
 
 /// Sets g to the gradient at x: the mass times (x - target) / h^2, less the forces.
-void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g) {
+void QuasiNewton::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g) {
   std::fill(g.begin(), g.end(), 0.0);
   forces_.add({p.model, implicit_lanes, field(x), field(g)}, held_,
-              {1 / p.h, field(*p.x), field(*p.frame_displacement), 1 / p.frame_time});
+              {1 / p.h, field(p.start.x), field(p.start.carried), 1 / p.carry_time});
   add_contact_forces(p, x, g);
   const double inertia = p.model.particle_mass / (p.h * p.h);
   for (std::size_t i = 0; i < 3 * stride_; i += implicit_lanes)
     for (std::size_t l = 0; l < implicit_lanes; ++l)
-      g[i + l] = double(p.moves[l]) * (inertia * (x[i + l] - target_[i + l]) - g[i + l]);
+      g[i + l] = double(p.start.moves[l]) * (inertia * (x[i + l] - target_[i + l]) - g[i + l]);
 }
 
-void ImplicitSolver::add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f) {
+void QuasiNewton::add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f) {
   constexpr double work_of_a_force = 1.0 / 32;  // of an iteration for one particle in all lanes, about
   work_ += double(p.planes.size() + p.penalty_pairs.size()) * work_of_a_force;
   for (const PlaneContact& c : p.planes)  // most of them are far off
@@ -86,7 +87,7 @@ void ImplicitSolver::add_contact_forces(const ImplicitProblem& p, const Lanes& x
 }
 
 /// Sets q to A^-1 q.
-void ImplicitSolver::apply_matrix(const ImplicitProblem& p, Lanes& q) {
+void QuasiNewton::apply_matrix(const ImplicitProblem& p, Lanes& q) {
   if (!p.matrix.rotates()) {
     for (std::size_t k = 0; k < 3; ++k) kernels_.substitute(p.matrix.factor(), q.data() + k * stride_, scratch_.data());
     return;
@@ -102,7 +103,7 @@ void ImplicitSolver::apply_matrix(const ImplicitProblem& p, Lanes& q) {
   kernels_.turn(particles_, rotation_, false, field(q));
 }
 
-glm::dmat3 ImplicitSolver::rotation(const ImplicitProblem& p, std::size_t lane) const {
+glm::dmat3 QuasiNewton::rotation(const ImplicitProblem& p, std::size_t lane) const {
   glm::dmat3 r(1.0);
   for (int c = 0; c < 3 && p.matrix.rotates(); ++c)
     for (int row = 0; row < 3; ++row) r[c][row] = rotation_[3 * c + row][lane];
@@ -111,7 +112,7 @@ glm::dmat3 ImplicitSolver::rotation(const ImplicitProblem& p, std::size_t lane) 
 
 /// Moves x to where the forces are in balance with the contact forces as they are held. Returns true if all lanes have
 /// converged.
-bool ImplicitSolver::minimise(const ImplicitProblem& p, int iterations) {
+bool QuasiNewton::minimise(const ImplicitProblem& p, int iterations) {
   const Objective objective{[&](const Lanes& x, Lanes& g) { gradient(p, x, g); },
                             [&](Lanes& q) { apply_matrix(p, q); }};
   return minimiser_.minimise(objective, x_, max_step_, 1e-9 * p.model.radius, iterations);
@@ -119,7 +120,7 @@ bool ImplicitSolver::minimise(const ImplicitProblem& p, int iterations) {
 
 /// Brings the contact forces of the lanes up to date with the positions, and these with the forces' changes. Returns
 /// how far (m) these have moved a point at most, or infinity where no forces are found.
-PerLane ImplicitSolver::update_contact_forces(const ImplicitProblem& p, LaneMask which) {
+PerLane QuasiNewton::update_contact_forces(const ImplicitProblem& p, LaneMask which) {
   PerLane moved{}, once;
   push_.assign(push_.size(), 0.0);
   for (std::size_t first = 0, end = 0; first < p.planes.size(); first = end) {
@@ -137,7 +138,7 @@ PerLane ImplicitSolver::update_contact_forces(const ImplicitProblem& p, LaneMask
 
 /// Solves in rounds that each leave a fraction of the error where the matrix says what the body does. Returns the lanes
 /// in which they have come to an end.
-LaneMask ImplicitSolver::solve_contact(const ImplicitProblem& p) {
+LaneMask QuasiNewton::solve_contact(const ImplicitProblem& p) {
   constexpr int max_rounds = 30, look_every = 2;
   constexpr double enough_progress = 0.25;  // of the moves are left: where it is more, the end would not be reached
   constexpr double anything = std::numeric_limits<double>::infinity();  // m
@@ -161,7 +162,7 @@ LaneMask ImplicitSolver::solve_contact(const ImplicitProblem& p) {
 }
 
 /// Solves robustly rather than exactly: forces and positions at the end need not be in balance.
-void ImplicitSolver::solve_contact_by_springs(const ImplicitProblem& p) {
+void QuasiNewton::solve_contact_by_springs(const ImplicitProblem& p) {
   constexpr int max_rounds = 8;
   contact_.start(true);
   for (int round = 0; round < max_rounds; ++round) {
@@ -177,7 +178,7 @@ void ImplicitSolver::solve_contact_by_springs(const ImplicitProblem& p) {
   }
 }
 
-const Lanes& ImplicitSolver::solve(const ImplicitProblem& p) {
+const Lanes& QuasiNewton::solve(const ImplicitProblem& p) {
   minimiser_.forget();
   predict(p);
   if (p.matrix.rotates()) fit_rotation(p);

@@ -19,6 +19,9 @@ struct WeightedPair {
 /// result is never more than Gershgorin's bound, twice the largest sum of the weights at one particle.
 double pair_bound(std::size_t particles, std::span<const WeightedPair> pairs);
 
+/// Works out the bounds that ModelForces holds from its data.
+void set_bounds(ModelForces& forces, std::size_t particles);
+
 /// Properties of a body's present shape for the bound of forces that depend on the volume. A = dV/dx.
 struct SurfaceShape {
   double volume = 0;       // m^3

@@ -4,8 +4,8 @@
 //
 //   m (X - y) / h^2 = f(X) + damping + contacts,   y = x + h v + h^2 a,
 //
-// in a frame that moves with the body (implicit/frames.h), where a is what is felt there: springs, gas and dampers know
-// no other place or direction than each other's.
+// in axes that move with the body (implicit/moving_axes.h), where a is what is felt there: springs, gas and dampers
+// know no other place or direction than each other's.
 //
 // It goes by gradients (implicit/minimiser.h) around a prefactored matrix (implicit/matrix.h), so that no energy, and
 // no logarithm of it, is needed. Contact with solids is implicit, too (Otaduy et al. 2009, "Implicit contact handling
@@ -14,18 +14,18 @@
 
 #include <utility>
 
-#include "softbody/forces/kernels/kernels.h"
 #include "softbody/integrate/implicit/contact_forces.h"
 #include "softbody/integrate/implicit/kernels.h"
 #include "softbody/integrate/implicit/minimiser.h"
 #include "softbody/integrate/implicit/problem.h"
+#include "softbody/mechanics/kernels.h"
 #include "softbody/state/lanes.h"
 
 namespace softbody {
 
-class ImplicitSolver {
+class QuasiNewton {
  public:
-  ImplicitSolver(const BodyModel& model, const ImplicitKernels& kernels);
+  QuasiNewton(const BodyModel& model, const ImplicitKernels& kernels);
 
   /// Solves a step and returns the positions at its end.
   const Lanes& solve(const ImplicitProblem& problem);

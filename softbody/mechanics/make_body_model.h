@@ -1,5 +1,5 @@
 #pragma once
-// The shape in which springs and gas pressure are in balance.
+// Makes body models of meshes and materials, and finds the shape in which springs and gas pressure are in balance.
 
 #include "softbody/model/body_model.h"
 
@@ -13,5 +13,13 @@ std::vector<glm::dvec3> find_equilibrium(const BodyModel& model, const std::vect
 /// Returns a body model that starts in equilibrium if its material says so. Throws SceneError if no equilibrium is
 /// found.
 std::shared_ptr<const BodyModel> make_body_model(const MeshSource& mesh, const Material& material);
+
+/// Returns a body model whose starting shape is the mesh itself, whether or not that is in equilibrium.
+std::shared_ptr<BodyModel> make_unbalanced_body_model(const MeshSource& mesh, const Material& material);
+
+/// Returns a body model of the same mesh with another material. It keeps the starting shape, which is in equilibrium
+/// only for the material that it was found for. `source`: the source of the model's mesh.
+std::shared_ptr<const BodyModel> with_material(const BodyModel& model, const MeshSource& source,
+                                               const Material& material);
 
 }  // namespace softbody

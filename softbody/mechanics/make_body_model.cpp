@@ -1,11 +1,12 @@
-#include "softbody/forces/equilibrium.h"
+#include "softbody/mechanics/make_body_model.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "softbody/forces/deformation.h"
-#include "softbody/forces/gas.h"
-#include "softbody/forces/visit.h"
+#include "softbody/forces/model_forces.h"
+#include "softbody/mechanics/bound.h"
+#include "softbody/mechanics/deformation.h"
+#include "softbody/mechanics/visit.h"
 #include "softbody/model/scene_error.h"
 
 namespace softbody {
@@ -14,7 +15,7 @@ namespace {
 /// One body by itself, in double precision.
 class Relaxation {
  public:
-  Relaxation(const BodyModel& p, const std::vector<glm::dvec3>& from) : model_(p), size_(from.size()) {
+  Relaxation(const BodyModel& model, const std::vector<glm::dvec3>& from) : model_(model), size_(from.size()) {
     for (auto* field : {&x_, &v_, &f_})
       for (auto& component : *field) component.assign(size_, 0.0);
     for (std::size_t i = 0; i < from.size(); ++i)
@@ -25,7 +26,7 @@ class Relaxation {
     for (auto& component : f_) std::fill(component.begin(), component.end(), 0.0);
     const LaneBodies<double> alone{model_, 1, field(x_), field(f_)};
     const Still still;
-    visit_all(model_, alone.x, body::AddForces<double, one_lane, Still>{alone, still});
+    visit_all(model_, alone.x, simd::AddForces<double, one_lane, Still>{alone, still});
   }
 
   double largest_force() const {
@@ -72,6 +73,21 @@ class Relaxation {
   double kinetic_ = 0;
 };
 
+/// Sets everything that depends on the material, except the starting shape.
+void give_material(BodyModel& model, const MeshSource& source, const Material& material) {
+  model.material = material;
+  if (!material.given(Material::thickness)) model.material[Material::thickness] = 0.01 * model.radius;
+  model.particle_mass = material[Material::mass] / double(model.mesh.vertices.size());
+  auto forces = std::make_shared<ModelForces>();
+  for_each_force(Forces{}, [&]<class F>(Name<F>) {
+    if constexpr (requires { F::adapt(model.material, model.mesh); }) F::adapt(model.material, model.mesh);
+    if constexpr (HasElements<F>) forces->of<F>() = F::make(model, source);
+  });
+  set_bounds(*forces, model.mesh.vertices.size());
+  model.forces = forces;
+  model.start_energy = stored_energy(model, model.start);
+}
+
 }  // namespace
 
 std::vector<glm::dvec3> find_equilibrium(const BodyModel& model, const std::vector<glm::dvec3>& from) {
@@ -92,12 +108,25 @@ std::vector<glm::dvec3> find_equilibrium(const BodyModel& model, const std::vect
                    "gas_pressure towards ambient_pressure, raise the stiffness, or set start_in_equilibrium = false");
 }
 
+std::shared_ptr<BodyModel> make_unbalanced_body_model(const MeshSource& source, const Material& material) {
+  auto p = make_body_mesh(source);
+  give_material(*p, source, material);
+  return p;
+}
+
 std::shared_ptr<const BodyModel> make_body_model(const MeshSource& mesh, const Material& material) {
   auto p = make_unbalanced_body_model(mesh, material);
   if (material[Material::start_in_equilibrium] == 0 || p->forces->pressure <= 0) return p;
   p->start = find_equilibrium(*p, p->mesh.vertices);
   p->start_volume = volume(p->start, p->mesh.triangles);
   p->start_energy = stored_energy(*p, p->start);
+  return p;
+}
+
+std::shared_ptr<const BodyModel> with_material(const BodyModel& model, const MeshSource& source,
+                                               const Material& material) {
+  auto p = std::make_shared<BodyModel>(model);
+  give_material(*p, source, material);
   return p;
 }
 
