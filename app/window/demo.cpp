@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <future>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -71,11 +72,11 @@ auto picture_key(const Session& session, const ui::UiState& ui, const glm::mat4&
 using PictureKey = std::invoke_result_t<decltype(picture_key), const Session&, const ui::UiState&, glm::mat4, float>;
 
 /// Returns what the interface shows that may change without input, apart from the contents of Activity.
-auto interface_key(const Session& session, const ui::UiState& ui) {
+auto interface_key(const Session& session) {
   return std::tuple(session.simulation.revision(), session.comparison.reports(), session.surfaces.reports(),
-                    session.simulation.notice.text(), ui.exporter.message(), ui.exporter.finishing());
+                    session.simulation.notice.text(), session.exporter.message(), session.exporter.finishing());
 }
-using InterfaceKey = std::invoke_result_t<decltype(interface_key), const Session&, const ui::UiState&>;
+using InterfaceKey = std::invoke_result_t<decltype(interface_key), const Session&>;
 
 class Demo {
  public:
@@ -88,11 +89,11 @@ class Demo {
     apply(preferences_.is_new() ? first_preferences(window_size()) : preferences_.stored(), session_, ui_);
     ui_.story = ui_.story_at_start && !options.scene_given;
     store_preferences();
-    for (const std::string& mesh : options.meshes) ui_.import.drop({mesh}, session_);  // each for itself: no frames
+    for (const std::string& mesh : options.meshes) session_.import.drop({mesh});  // each for itself: no frames
   }
 
   void run() {
-    while (graphics_->window.is_open() && !ui_.quit) {
+    while (graphics_->window.is_open() && !quits_) {
       const double wait = schedule_.wait(now(), session_.awaits_answer());
       if (graphics_->window.poll(wait)) schedule_.input(now());
       const double elapsed = timer_.tick();
@@ -105,7 +106,8 @@ class Demo {
     }
     store_preferences(true);
     // A search for a mesh's equilibrium could keep the program running for minutes after its window is closed.
-    if (ui_.import.busy() && !ui_.exporter.recording() && !ui_.exporter.finishing()) std::quick_exit(EXIT_SUCCESS);
+    const session::Exporter& exporter = session_.exporter;
+    if (session_.import.busy() && !exporter.recording() && !exporter.finishing()) std::quick_exit(EXIT_SUCCESS);
   }
 
  private:
@@ -115,7 +117,7 @@ class Demo {
     const double moving = interrupted ? std::min(elapsed, 1.0 / 60) : elapsed;
     seconds_ += elapsed - moving;
     if (interrupted) session_.let_pass(elapsed - moving);
-    if (schedule_.due(now()) || interface_key(session_, ui_) != shown_ || graphics_->window.context_lost())
+    if (schedule_.due(now()) || interface_key(session_) != shown_ || graphics_->window.context_lost())
       return frame(moving);
     seconds_ += moving;
     session_.let_pass(moving);
@@ -148,26 +150,35 @@ class Demo {
     session_.simulation.notice.set("the graphics driver was reset: the window was made anew, nothing else was lost");
   }
 
-  void handle_keys() {
-    for (const engine::KeyPress& key : graphics_->gui.take_key_presses())
-      if (ui::handle_key(key.key, key.repeat, session_, ui_, key.mods) ||
-          ui::handle_key(key.fallback_key, key.repeat, session_, ui_, key.mods))
-        seconds_ += key_hint_seconds;
+  /// Returns what the keys ask for that were pressed.
+  ui::Requests requests_by_keys() {
+    ui::Requests requests;
+    for (const engine::KeyPress& key : graphics_->gui.take_key_presses()) {
+      std::optional<ui::Request> request = ui::request_by_key(session_, key.key, key.repeat, key.mods);
+      if (!request) request = ui::request_by_key(session_, key.fallback_key, key.repeat, key.mods);
+      if (!request) continue;
+      requests.push_back(std::move(*request));
+      seconds_ += key_hint_seconds;
+    }
+    return requests;
   }
 
   /// Begins a frame of the Gui and handles the input of mouse and keyboard.
   void handle_input(double elapsed) {
     graphics_->gui.begin_frame();
-    handle_keys();
-    interface_.draw(session_, ui_, graphics_->gui.scale(), seconds_);
+    std::vector<ui::WindowRequest> requests = ui::carry_out(requests_by_keys(), session_, ui_);
+    const ui::Requests drawn = interface_.draw(session_, ui_, graphics_->gui.scale(), seconds_);
+    std::ranges::copy(ui::carry_out(drawn, session_, ui_), std::back_inserter(requests));
     const engine::Viewport viewport = scene_viewport();
-    move_camera(viewport, elapsed);
-    handle_requests(viewport);
+    move_by_mouse(viewport);
+    follow_tour();
+    for (const ui::WindowRequest& request : requests) carry_out(request, viewport);
+    camera_.advance(elapsed);
   }
 
   void draw_frame(double elapsed) {
     seconds_ += elapsed;
-    ui_.import.drop(graphics_->window.take_dropped_files(), session_);
+    session_.import.drop(graphics_->window.take_dropped_files());
     // Handles all waiting input in this frame, a click at a time, so that a slow world does not delay typing and
     // clicks.
     handle_input(elapsed);
@@ -181,12 +192,12 @@ class Demo {
                     graphics_->gui.scale());
     ui_.view = render::SceneView::view(camera_, viewport.size);
     graphics_->gui.end_frame();
-    const InterfaceKey before = std::exchange(shown_, interface_key(session_, ui_));
+    const InterfaceKey before = std::exchange(shown_, interface_key(session_));
     settling_ = before != shown_;
-    ui_.exporter.frame(session_, [this](bool with_panel, const std::optional<glm::uvec2>& size) {
+    session_.exporter.frame([this](bool with_panel, const std::optional<glm::uvec2>& size) {
       return size ? picture_of(glm::ivec2(*size)) : picture(with_panel);
     });
-    if (!ui_.quit) advance(elapsed);  // while the driver draws
+    if (!quits_) advance(elapsed);  // while the driver draws
     drawing_ms += time_ms([&] { present(viewport); });
     graphics_->canvas.add_timing(elapsed, 1e-3 * drawing_ms);
     store_preferences();
@@ -198,9 +209,9 @@ class Demo {
 
   /// What goes on after the frame that was just drawn.
   Activity activity() const {
-    return {.moving = !still_ || ui_.exporter.recording() || ImGui::IsAnyMouseDown(),
-            .counting = !session_.stands_still() || interface_.shows_sweep(ui_),
-            .reporting = ui_.import.busy() || ui_.exporter.finishing(),
+    return {.moving = !still_ || session_.exporter.recording() || ImGui::IsAnyMouseDown(),
+            .counting = !session_.stands_still() || (ui_.lower == ui::LowerView::sweep && session_.sweep().running),
+            .reporting = session_.import.busy() || session_.exporter.finishing(),
             .typing = graphics_->gui.wants_keyboard(),
             .next_change = settling_ ? 0 : ui::seconds_to_hint_change(seconds_)};
   }
@@ -208,8 +219,8 @@ class Demo {
   /// Runs long steps in a thread of their own. Meanwhile the camera can move; clicks and keys wait for the next frame.
   void advance(double elapsed) {
     const auto advance = [&] {
-      if (ui_.exporter.recording())
-        session_.advance_one(elapsed, ui_.exporter.may_step());
+      if (session_.exporter.recording())
+        session_.advance_one(elapsed, session_.exporter.may_step());
       else
         session_.advance(elapsed, waited_);
     };
@@ -293,21 +304,22 @@ class Demo {
     return {{lo.x, graphics_->window.framebuffer_size().y - hi.y}, glm::max(hi - lo, 0)};
   }
 
-  void move_camera(const engine::Viewport& viewport, double elapsed) {
-    if (ui_.reset_camera || shown_scene_ != session_.world().scene().key) {
-      if (!shown_scene_.empty() && !ui_.reset_camera) ui_.story = false;  // another scene was asked for
+  /// Begins with the scene's own camera, and moves it by the mouse.
+  void move_by_mouse(const engine::Viewport& viewport) {
+    if (shown_scene_ != session_.world().scene().key) {
+      if (!shown_scene_.empty()) ui_.story = false;  // another scene was asked for
       shown_scene_ = session_.world().scene().key;
-      camera_ = graphics_->view.camera(session_.world(), viewport.size);
-      fitted_ = viewport.size;
-      ui_.reset_camera = false;
-      orbit_before_tour_.reset();
+      reset_camera(viewport.size);
     }
     refit(viewport.size);
-    mouse_.update(read_mouse(top_left(viewport), !graphics_->gui.wants_mouse()), session_, camera_, viewport.size);
-    if (const auto solid = mouse_.take_pressed_solid()) ui_.solid = *solid;
-    frame_tour(viewport);
+    mouse_.update(read_mouse(top_left(viewport), !graphics_->gui.wants_mouse()), session_, ui_, camera_, viewport.size);
     if (mouse_.can_drag()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-    camera_.advance(elapsed);
+  }
+
+  void reset_camera(glm::ivec2 size) {
+    camera_ = graphics_->view.camera(session_.world(), size);
+    fitted_ = size;
+    orbit_before_tour_.reset();
   }
 
   /// Keeps the extent of what the camera shows when the size of the scene's area changes. The tour frames it itself.
@@ -317,14 +329,10 @@ class Demo {
     fitted_ = size;
   }
 
-  /// Moves the camera for the tour, and back when the tour is closed.
-  void frame_tour(const engine::Viewport& viewport) {
+  /// Remembers the camera before the tour, and moves it back when the tour is closed.
+  void follow_tour() {
     if (ui_.tour.open() && !orbit_before_tour_) orbit_before_tour_ = camera_.orbit();
     if (!ui_.tour.open() && orbit_before_tour_) camera_.glide_to(*std::exchange(orbit_before_tour_, std::nullopt));
-    if (ui_.tour.take_overview_request() && orbit_before_tour_) camera_.glide_to(*orbit_before_tour_);
-    if (!ui_.tour.take_framing_request()) return;
-    const render::Highlight& highlight = *ui_.tour.highlight();
-    camera_.glide_to(highlight.centre, tour_radius_factor * highlight.radius, viewport.size);
   }
 
   /// Returns the viewport's top left corner in pixels from the window's top left corner.
@@ -332,19 +340,35 @@ class Demo {
     return {viewport.origin.x, graphics_->window.framebuffer_size().y - viewport.origin.y - viewport.size.y};
   }
 
-  /// Handles the requests of panel and keys that need the camera.
-  void handle_requests(const engine::Viewport& viewport) {
-    if (std::exchange(ui_.throw_body, false)) {
-      const engine::Ray ray = mouse_.ray(camera_, viewport.size);
-      const float distance = render::distance_to_scene(ray, session_.world(), session_.simulation.drawn().shown)
-                                 .value_or(camera_.orbit().distance);
-      session_.bodies.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.origin + distance * ray.direction));
+  void carry_out(const ui::WindowRequest& request, const engine::Viewport& viewport) {
+    switch (request.task) {
+      case ui::WindowTask::quit:
+        quits_ = true;
+        break;
+      case ui::WindowTask::reset_camera:
+        reset_camera(viewport.size);
+        break;
+      case ui::WindowTask::show_selected_body:
+        if (session_.bodies.selected()) focus_on(*session_.bodies.selected(), session_, camera_, viewport.size);
+        break;
+      case ui::WindowTask::throw_body: {
+        const engine::Ray ray = mouse_.ray(camera_, viewport.size);
+        const float distance = render::distance_to_scene(ray, session_.world(), session_.simulation.drawn().shown)
+                                   .value_or(camera_.orbit().distance);
+        session_.bodies.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.origin + distance * ray.direction));
+        break;
+      }
+      case ui::WindowTask::keep_in_sight:
+        camera_.glide_back_to_show(glm::vec3(request.centre), joined_margin * static_cast<float>(request.radius),
+                                   viewport.size);
+        break;
+      case ui::WindowTask::frame_highlight:
+        if (const render::Highlight* highlight = ui_.tour.highlight())
+          camera_.glide_to(highlight->centre, tour_radius_factor * highlight->radius, viewport.size);
+        break;
+      case ui::WindowTask::show_as_before_tour:
+        if (orbit_before_tour_) camera_.glide_to(*orbit_before_tour_);
     }
-    if (std::exchange(ui_.focus_body, false) && session_.bodies.selected())
-      focus_on(*session_.bodies.selected(), session_, camera_, viewport.size);
-    if (const auto joined = ui_.import.take_joined())
-      camera_.glide_back_to_show(glm::vec3(joined->centre), joined_margin * static_cast<float>(joined->radius),
-                                 viewport.size);
   }
 
   void draw_scene(const engine::Viewport& viewport) {
@@ -352,7 +376,7 @@ class Demo {
     if (viewport.size.x <= 0 || viewport.size.y <= 0) return;
     const PictureKey key = picture_key(session_, ui_, camera_.view(), pixel_scale());
     still_ = (session_.simulation.clock.paused || session_.world().all_at_rest()) && key == drawn_;
-    const bool fine = still_ || ui_.exporter.wants_shown_picture();
+    const bool fine = still_ || session_.exporter.wants_shown_picture();
     graphics_->canvas.update(viewport.size, key != drawn_, fine, [&](const engine::Viewport& whole) {
       draw_world(camera_, whole, pixel_scale(whole, viewport));
     });
@@ -387,7 +411,7 @@ class Demo {
   InterfaceKey shown_{};             // by the last frame
   bool settling_ = false;            // shown_ is new: windows take another frame to fit their contents
   bool still_ = false;               // the picture of the last frame is that of the frame before
-  bool hidden_ = false;
+  bool hidden_ = false, quits_ = false;
   bool waited_ = false;  // for events, on purpose, before the present frame
   FrameTimer timer_;
   FrameSchedule schedule_{now()};

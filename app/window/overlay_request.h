@@ -3,7 +3,7 @@
 
 #include "app/render/scene_view.h"
 #include "app/session/session.h"
-#include "app/ui/panel/ui_state.h"
+#include "app/ui/state/ui_state.h"
 
 namespace app::window {
 

@@ -80,7 +80,7 @@ Preferences first_preferences(glm::ivec2 size) {
 }
 
 Preferences preferences_of(const Session& session, const ui::UiState& ui, glm::ivec2 size) {
-  Preferences p{size, ui, ui.exporter.with_panel, session.simulation.clock.slow_factor,
+  Preferences p{size, ui, session.exporter.with_panel, session.simulation.clock.slow_factor,
                 session.comparison.choice.methods};
   p.shown.overlays = ui.tour.saved_overlays().value_or(ui.overlays);
   return p;
@@ -89,7 +89,7 @@ Preferences preferences_of(const Session& session, const ui::UiState& ui, glm::i
 void apply(const Preferences& p, Session& session, ui::UiState& ui) {
   static_cast<ui::Remembered&>(ui) = p.shown;
   session.simulation.clock.slow_factor = p.slow_factor;
-  ui.exporter.with_panel = p.picture_with_panel;
+  session.exporter.with_panel = p.picture_with_panel;
   session.comparison.choice.methods = p.methods;
 }
 

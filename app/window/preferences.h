@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/session/session.h"
-#include "app/ui/panel/ui_state.h"
+#include "app/ui/state/ui_state.h"
 
 namespace app::window {
 

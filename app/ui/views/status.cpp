@@ -69,12 +69,13 @@ std::string reference_sentence(const compare::CompareReport& report) {
   return report.reference_note.empty() ? text : text + ": " + report.reference_note;
 }
 
-float draw_status(Widgets& w, Session& session, FloatingBox& box, const ScreenRect& area, bool& explained, bool& open) {
+float draw_status(Widgets& w, const Session& session, bool explained, FloatingBox& box, const ScreenRect& area) {
   const float side = ImGui::GetFrameHeight();
   box.begin(w, "Status", area, box_width(w, area), false);
   const ImVec2 top = ImGui::GetCursorScreenPos();
   ImGui::SetCursorScreenPos({top.x + ImGui::GetContentRegionAvail().x - side, top.y});
-  if (w.button("x###Close lights", "Puts the lights away (L). Drag the box to move it.", side)) open = false;
+  if (w.button("x###Close lights", "Puts the lights away (L). Drag the box to move it.", side))
+    w.ask([](Session&, UiState& ui) { ui.lights = false; });
   ImGui::SetCursorScreenPos(top);
   ImGui::PushTextWrapPos(ImGui::GetContentRegionMax().x - side);
   draw_coverage_light(w, session, explained);

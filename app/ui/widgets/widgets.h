@@ -14,6 +14,7 @@
 
 #include "app/base/text.h"
 #include "app/base/time_series.h"
+#include "app/ui/state/requests.h"
 
 namespace app::ui {
 
@@ -78,21 +79,32 @@ struct Axis {
 /// Returns an axis around all values of a series, at least `min_length` long (> 0). It rarely changes.
 Axis axis_around(const TimeSeries& series, float min_length);
 
-/// The widgets of one frame. Labels are unique; they are ImGui's identifiers too.
+/// The widgets of one frame, and what the user asks for by them. Labels are unique; they are ImGui's identifiers too.
 class Widgets {
  public:
-  /// `sections` stores which sections are open, from frame to frame.
-  Widgets(float scale, InputState& input, std::map<std::string, bool>& sections, WidgetRecorder* recorder = nullptr)
-      : scale_(scale), usual_alpha_(ImGui::GetStyle().Alpha), input_(input), sections_(sections), recorder_(recorder) {
+  /// `sections`: UiState::sections, which are open.
+  Widgets(float scale, InputState& input, const std::map<std::string, bool>& sections, Requests& requests,
+          WidgetRecorder* recorder = nullptr)
+      : scale_(scale),
+        usual_alpha_(ImGui::GetStyle().Alpha),
+        input_(input),
+        sections_(sections),
+        requests_(requests),
+        recorder_(recorder) {
     input_.update(px(3));
   }
+
+  /// Asks for a change of the session or of what the window shows. It is carried out after the drawing.
+  void ask(std::function<void(session::Session&, UiState&)> change) { requests_.emplace_back(std::move(change)); }
+  void ask(WindowTask task) { requests_.emplace_back(WindowRequest{task}); }
 
   /// Converts design pixels to ImGui units.
   float px(float design) const { return design * scale_; }
 
   bool button(const char* label, const char* tooltip, float width = 0);
   bool radio(const char* label, bool active, const char* tooltip);
-  bool checkbox(const char* label, bool& value, const char* tooltip);
+  /// Returns true if the value should be the other one.
+  bool checkbox(const char* label, bool value, const char* tooltip);
   /// Draws a title with a close button, whose label is "Close " and the title's identifier. True if it is clicked.
   bool closable_heading(const char* label, const char* tooltip);
   /// Draws the heading of a section that folds. True if it is open.
@@ -181,7 +193,8 @@ class Widgets {
 
   float scale_, usual_alpha_;
   InputState& input_;
-  std::map<std::string, bool>& sections_;
+  const std::map<std::string, bool>& sections_;
+  Requests& requests_;
   WidgetRecorder* recorder_;
 };
 
