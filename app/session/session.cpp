@@ -31,8 +31,8 @@ void Session::let_pass(double elapsed) {
 }
 
 bool Session::stands_still() const {
-  if (simulation.clock.paused) return simulation.clock.stands_still();
-  return simulation.has_come_to_rest() && ghost_.at_rest();
+  if (simulation.clock.paused) return !simulation.clock.owes_single_step();
+  return simulation.has_long_been_at_rest() && ghost_.at_rest();
 }
 
 bool Session::awaits_answer() const {

@@ -89,7 +89,7 @@ bool Simulation::step(Player& player) {
   return stepped;
 }
 
-bool Simulation::has_come_to_rest() const {
+bool Simulation::has_long_been_at_rest() const {
   if (last_revision_ != revision_ || rest_steps_ < TimeSeries::capacity) return false;
   const auto is_past = [this](const softbody::Caption& caption) { return caption.frame <= world().frame(); };
   return world().all_at_rest() && (!as_scripted_ || std::ranges::all_of(world().scene().captions, is_past));
@@ -97,10 +97,6 @@ bool Simulation::has_come_to_rest() const {
 
 float Simulation::between() const {
   return world().all_at_rest() ? 1.0f : static_cast<float>(clock.fraction(world().frame_time()));
-}
-
-compare::DrawnMeshes Simulation::drawn(bool whole_steps) const {
-  return {world(), before_last_step_, whole_steps ? 1.0f : between()};
 }
 
 const std::string& Simulation::caption() const {

@@ -82,15 +82,15 @@ class Simulation {
   /// How far a picture is on the way from before_last_step() to the present, 0 .. 1: below 1 only in slow motion, which
   /// would jerk otherwise.
   float between() const;
-  /// `whole_steps`: as if between() were 1.
-  compare::DrawnMeshes drawn(bool whole_steps = false) const;
+  compare::DrawnMeshes drawn(float part) const { return {world(), before_last_step_, part}; }
+  compare::DrawnMeshes drawn() const { return drawn(between()); }
   /// The scene's sentence for this moment. Empty if there is none, or the user changed bodies.
   const std::string& caption() const;
   /// Changes whenever positions or contacts may have changed: not with steps of a world at rest.
   std::uint64_t revision() const { return revision_; }
   /// Returns true if steps would change nothing but the number of the frame: all bodies have been at rest for as long
   /// as curves last, and no caption is still to come.
-  bool has_come_to_rest() const;
+  bool has_long_been_at_rest() const;
   /// Another number after each SimulationObserver::replaced().
   std::uint64_t world_number() const { return world_number_; }
 

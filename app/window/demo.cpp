@@ -21,9 +21,9 @@
 #include "app/window/frame_schedule.h"
 #include "app/window/frame_timer.h"
 #include "app/window/graphics.h"
-#include "app/window/overlay_request.h"
 #include "app/window/preferences.h"
 #include "app/window/scene_mouse.h"
+#include "app/window/scene_picture.h"
 #include "engine/context.h"
 #include "engine/gl.h"
 
@@ -59,22 +59,11 @@ std::unique_ptr<Session> open_session(const DemoOptions& options, Graphics& grap
   return opening.get();
 }
 
-/// Returns everything that the picture of the scene depends on. view: of the camera; scale: of lines and points.
-auto picture_key(const Session& session, const ui::UiState& ui, const glm::mat4& view, float scale) {
-  const render::Overlays& shown = ui.overlays;
-  return std::tuple(session.simulation.revision(), session.ghost().revision(),
-                    shown_misses(session, ui) ? session.comparison.reports() : 0,
-                    shown.true_surfaces ? session.surfaces.reports() : 0, ui.tour.highlight_revision(),
-                    session.comparison.choice.misses_of, shown, session.inspector.selected_bucket(),
-                    session.inspector.selected_cell(), session.bodies.selected(), session.simulation.grabbed(), view,
-                    scale, shows_present_state(session, shown) ? 1.0f : session.simulation.between());
-}
-using PictureKey = std::invoke_result_t<decltype(picture_key), const Session&, const ui::UiState&, glm::mat4, float>;
-
 /// Returns what the interface shows that may change without input, apart from the contents of Activity.
 auto interface_key(const Session& session) {
   return std::tuple(session.simulation.revision(), session.comparison.reports(), session.surfaces.reports(),
-                    session.simulation.notice.text(), session.exporter.message(), session.exporter.finishing());
+                    session.simulation.notice.text(), session.exporter.message(), session.exporter.finishing(),
+                    session.sweep().running);
 }
 using InterfaceKey = std::invoke_result_t<decltype(interface_key), const Session&>;
 
@@ -187,13 +176,15 @@ class Demo {
       handle_input(0);
     }
     const engine::Viewport viewport = scene_viewport();
-    double drawing_ms = time_ms([&] { draw_scene(viewport); });
-    ui::draw_labels(scene_labels(session_, ui_), camera_, viewport.size, interface_.scene_area(),
+    const ScenePicture scene = scene_picture(session_, ui_, camera_, pixel_scale());
+    bool moving = false;
+    double drawing_ms = time_ms([&] { moving = draw_scene(scene, viewport); });
+    ui::draw_labels(scene_labels(session_, ui_.tour, scene), camera_, viewport.size, interface_.scene_area(),
                     graphics_->gui.scale());
     ui_.view = render::SceneView::view(camera_, viewport.size);
     graphics_->gui.end_frame();
     const InterfaceKey before = std::exchange(shown_, interface_key(session_));
-    settling_ = before != shown_;
+    const bool has_news = before != shown_;
     session_.exporter.frame([this](bool with_panel, const std::optional<glm::uvec2>& size) {
       return size ? picture_of(glm::ivec2(*size)) : picture(with_panel);
     });
@@ -201,19 +192,20 @@ class Demo {
     drawing_ms += time_ms([&] { present(viewport); });
     graphics_->canvas.add_timing(elapsed, 1e-3 * drawing_ms);
     store_preferences();
-    const Activity next = activity();
+    const Activity next = activity(moving, has_news);
     ui_.picture_interval = seconds_to_next_frame(next);
     schedule_.drawn(now(), next);
     timer_.limit_rate();
   }
 
-  /// What goes on after the frame that was just drawn.
-  Activity activity() const {
-    return {.moving = !still_ || session_.exporter.recording() || ImGui::IsAnyMouseDown(),
+  /// Returns what goes on after the frame that was just drawn. has_news: of the interface, whose windows take another
+  /// frame to fit their contents.
+  Activity activity(bool moving, bool has_news) const {
+    return {.moving = moving || session_.exporter.recording() || ImGui::IsAnyMouseDown(),
             .counting = !session_.stands_still() || (ui_.lower == ui::LowerView::sweep && session_.sweep().running),
             .reporting = session_.import.busy() || session_.exporter.finishing(),
             .typing = graphics_->gui.wants_keyboard(),
-            .next_change = settling_ ? 0 : ui::seconds_to_hint_change(seconds_)};
+            .next_change = has_news ? 0 : ui::seconds_to_hint_change(seconds_)};
   }
 
   /// Runs long steps in a thread of their own. Meanwhile the camera can move; clicks and keys wait for the next frame.
@@ -240,7 +232,7 @@ class Demo {
     if (graphics_->window.left_button_down())
       mouse_.orbit_between_frames(graphics_->window.cursor() - top_left(viewport), camera_, viewport.size);
     camera_.advance(elapsed);
-    if (camera_.view() == std::exchange(std::get<glm::mat4>(*drawn_), camera_.view())) return;
+    if (camera_ == std::exchange(drawn_->camera, camera_)) return;
     graphics_->canvas.update(viewport.size, true, false, [&](const engine::Viewport& whole) {
       graphics_->view.redraw(camera_, whole, pixel_scale(whole, viewport));
     });
@@ -269,19 +261,20 @@ class Demo {
   /// Draws the scene in another size, with what the camera frames.
   engine::Image picture_of(glm::ivec2 size) {
     const engine::Viewport shown = scene_viewport(), whole{{0, 0}, size};
-    engine::Camera camera = camera_;
-    render::SceneView::refit(camera, glm::max(shown.size, 1), size);
+    ScenePicture scene = scene_picture(session_, ui_, camera_, pixel_scale());
+    render::SceneView::refit(scene.camera, glm::max(shown.size, 1), size);
+    if (shown.size.y > 0) scene.scale = pixel_scale(whole, shown);
     const engine::Framebuffer target(size);
     target.bind();
-    draw_world(camera, whole, shown.size.y > 0 ? pixel_scale(whole, shown) : pixel_scale());
+    draw_world(scene, whole);
     engine::Image image = target.read();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     return image;
   }
 
-  void draw_world(const engine::Camera& camera, const engine::Viewport& whole, float scale) {
-    graphics_->view.draw(session_.world(), overlay_request(session_, ui_), camera, whole, scale,
-                         session_.simulation.drawn(shows_present_state(session_, ui_.overlays)));
+  void draw_world(const ScenePicture& scene, const engine::Viewport& whole) {
+    graphics_->view.draw(session_.world(), overlay_request(session_, ui_.tour, scene), scene.camera, whole, scene.scale,
+                         session_.simulation.drawn(scene.between));
   }
 
   /// Returns the size that the window would have on a screen of ordinary density.
@@ -371,17 +364,20 @@ class Demo {
     }
   }
 
-  void draw_scene(const engine::Viewport& viewport) {
-    still_ = true;
-    if (viewport.size.x <= 0 || viewport.size.y <= 0) return;
-    const PictureKey key = picture_key(session_, ui_, camera_.view(), pixel_scale());
-    still_ = (session_.simulation.clock.paused || session_.world().all_at_rest()) && key == drawn_;
-    const bool fine = still_ || session_.exporter.wants_shown_picture();
-    graphics_->canvas.update(viewport.size, key != drawn_, fine, [&](const engine::Viewport& whole) {
-      draw_world(camera_, whole, pixel_scale(whole, viewport));
+  /// Draws the scene if its picture has changed. Returns true if it has, or if the bodies move.
+  bool draw_scene(const ScenePicture& scene, const engine::Viewport& viewport) {
+    if (viewport.size.x <= 0 || viewport.size.y <= 0) return false;
+    const bool changed = drawn_ != scene;
+    const bool moving = changed || !(session_.simulation.clock.paused || session_.world().all_at_rest());
+    const bool fine = !moving || session_.exporter.wants_shown_picture();
+    graphics_->canvas.update(viewport.size, changed, fine, [&](const engine::Viewport& whole) {
+      ScenePicture stretched = scene;
+      stretched.scale = pixel_scale(whole, viewport);
+      draw_world(stretched, whole);
     });
     ui_.render_scale = graphics_->canvas.render_scale();
-    drawn_ = key;
+    drawn_ = scene;
+    return moving;
   }
 
   float pixel_scale() const { return std::max(graphics_->window.content_scale(), graphics_->window.pixel_ratio()); }
@@ -405,12 +401,10 @@ class Demo {
   engine::Camera camera_;
   SceneMouse mouse_;
   std::optional<engine::Orbit> orbit_before_tour_;
-  glm::ivec2 fitted_{0};             // the viewport's size that camera_ is fitted to
-  std::string shown_scene_;          // that camera_ was set up for
-  std::optional<PictureKey> drawn_;  // what the canvas shows
-  InterfaceKey shown_{};             // by the last frame
-  bool settling_ = false;            // shown_ is new: windows take another frame to fit their contents
-  bool still_ = false;               // the picture of the last frame is that of the frame before
+  glm::ivec2 fitted_{0};               // the viewport's size that camera_ is fitted to
+  std::string shown_scene_;            // that camera_ was set up for
+  std::optional<ScenePicture> drawn_;  // what the canvas shows
+  InterfaceKey shown_{};               // by the last frame
   bool hidden_ = false, quits_ = false;
   bool waited_ = false;  // for events, on purpose, before the present frame
   FrameTimer timer_;

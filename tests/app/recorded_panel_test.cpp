@@ -2,7 +2,7 @@
 
 #include "app/ui/panel/panel.h"
 #include "app/ui/shortcuts.h"
-#include "app/window/overlay_request.h"
+#include "app/window/scene_picture.h"
 #include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
 #include "tests/app/recorded_bodies.h"
@@ -70,7 +70,7 @@ TEST_F(RecordedPanel, DrawsNoOverlayThatNeedsASolverButKeepsTheChoice) {
   rig.ui.overlays.springs = rig.ui.overlays.surface_contacts = rig.ui.overlays.contacts = true;
   const render::Overlays chosen = rig.ui.overlays;
   rig.frames(1);
-  const render::Overlays drawn = window::overlay_request(rig.session, rig.ui).shown;
+  const render::Overlays drawn = window::scene_picture(rig.session, rig.ui, {}, 1).shown;
   EXPECT_FALSE(drawn.springs || drawn.surface_contacts);
   EXPECT_TRUE(drawn.contacts);
   EXPECT_EQ(rig.ui.overlays, chosen) << "for the next scene, and for the preferences";

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "app/window/overlay_request.h"
+#include "app/window/scene_picture.h"
 #include "engine/resources.h"
 
 namespace soak {
@@ -27,12 +27,12 @@ void DemoRig::frame(bool draw) {
   const bool over_scene = !gui_.wants_mouse();
   mouse_.update(app::window::read_mouse({}, over_scene), session, ui, camera_, input.display_size);
   camera_.advance(input.seconds);
+  const app::window::ScenePicture picture = app::window::scene_picture(session, ui, camera_, 1);
   if (draw)
-    canvas_.update(input.display_size, true, session.exporter.wants_shown_picture(),
-                   [this](const engine::Viewport& whole) {
-                     view_.draw(session.world(), app::window::overlay_request(session, ui), camera_, whole, 1,
-                                session.simulation.drawn(app::window::shows_present_state(session, ui.overlays)));
-                   });
+    canvas_.update(input.display_size, true, session.exporter.wants_shown_picture(), [&](const auto& whole) {
+      view_.draw(session.world(), app::window::overlay_request(session, ui.tour, picture), camera_, whole, 1,
+                 session.simulation.drawn(picture.between));
+    });
   target_.bind();
   gui_.end_frame();
   gui_.draw();
