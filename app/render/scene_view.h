@@ -42,9 +42,6 @@ struct OverlayRequest : OverlayChoice {
 
 class SceneView {
  public:
-  static constexpr std::size_t max_boxes = 20'000;  // of each kind; the others are not drawn
-  static constexpr float max_shown_strain = 0.2f;   // change of length / rest length at the ends of the colour scale
-
   /// threads: prepare a picture. Requires a current context. Throws engine::ShaderError.
   explicit SceneView(const std::filesystem::path& shaders, int threads = 1) : renderer_(shaders), workers_(threads) {}
 

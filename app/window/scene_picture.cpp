@@ -45,7 +45,8 @@ render::OverlayRequest overlay_request(const Session& session, const ui::Tour& t
   request.missed = missed_in(picture, session);
   request.shown.missed = request.missed != nullptr;
   if (picture.bucket) request.bucket = session.inspector.bucket();
-  if (request.shown.boxes || request.shown.cells || request.bucket) request.debug = &session.inspector.shown_geometry();
+  if (render::shows(request.shown, render::OverlayBasis::table) || request.bucket)
+    request.debug = &session.inspector.shown_geometry();
   if (request.shown.areas) request.areas = session.inspector.search_areas();
   if (request.shown.surface_contacts) request.surface_contacts = session.inspector.surface_contacts();
   if (const softbody::World* world = session.simulated(); world && request.shown.contacts)

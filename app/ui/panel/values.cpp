@@ -203,7 +203,8 @@ struct ValueWidgets {
 
 void draw_values(Widgets& w, const Session& session, const UiState& ui, bool of_detection) {
   // A setting is enabled if the driving method, the structure shown (§2) or the comparison uses it.
-  const bool structure_shown = ui.hash_table || ui.tour.open() || ui.overlays.boxes || ui.overlays.cells;
+  const bool structure_shown =
+      ui.hash_table || ui.tour.open() || render::shows(ui.overlays, render::OverlayBasis::table);
   const bool needed = structure_shown || session.inspector.selected_bucket() || session.comparison.choice.on ||
                       session.comparison.choice.with_paper || session.comparison.choice.with_misses;
   const ValueWidgets widgets{w, session, needed};

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/base/text.h"
-#include "app/render/overlay_shapes.h"
+#include "app/render/overlays.h"
 #include "app/render/palette.h"
 #include "app/ui/tour/steps.h"
 
