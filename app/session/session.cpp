@@ -26,7 +26,7 @@ void Session::advance(double elapsed, bool waited) {
 }
 
 void Session::let_pass(double elapsed) {
-  simulation.let_pass(elapsed);
+  simulation.notice.age(elapsed);
   exchange();
 }
 

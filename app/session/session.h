@@ -23,7 +23,6 @@ class Session : private SimulationObserver {
   /// key. Throws SceneError.
   Session(files::Opened opened, const std::filesystem::path& scene_folder, int threads, std::string scene_name = "");
   Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
 
   Simulation simulation;
   RunAhead run_ahead;

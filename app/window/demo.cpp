@@ -274,7 +274,7 @@ class Demo {
 
   void draw_world(const ScenePicture& scene, const engine::Viewport& whole) {
     graphics_->view.draw(session_.world(), overlay_request(session_, ui_.tour, scene), scene.camera, whole, scene.scale,
-                         session_.simulation.drawn(scene.between));
+                         drawn_meshes(session_, scene));
   }
 
   /// Returns the size that the window would have on a screen of ordinary density.

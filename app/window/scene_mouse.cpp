@@ -109,7 +109,7 @@ void SceneMouse::drag(const MouseInput& in, Session& session, engine::Camera& ca
   drag_length_ += glm::length(in.moved);
   if (drag_length_ >= max_click_length) {  // a click moves nothing
     const engine::Ray ray = camera.pick_ray(in.at, size);
-    const auto held = session.simulation.grabbed();
+    const auto held = grabbed(session.simulation);
     if (drag_ == Drag::body && held) session.simulation.pull_to(on_facing_plane(ray, camera, held->target));
     // In another world the solids may be others.
     if (drag_ == Drag::solid && session.simulation.world_number() == held_solid_->world_number) {

@@ -19,7 +19,7 @@ ScenePicture scene_picture(const Session& session, const ui::UiState& ui, const 
   picture.shown = ui.drawn_overlays(session);
   picture.bucket_cell = session.inspector.selected_cell();
   picture.selected_body = session.bodies.selected();
-  picture.grab = session.simulation.grabbed();
+  picture.grab = grabbed(session.simulation);
   picture.bucket = session.inspector.selected_bucket();
   picture.world = session.simulation.revision();
   picture.highlight = ui.tour.highlight_revision();
@@ -60,12 +60,16 @@ render::OverlayRequest overlay_request(const Session& session, const ui::Tour& t
   return request;
 }
 
+compare::DrawnMeshes drawn_meshes(const Session& session, const ScenePicture& picture) {
+  return {session.world(), session.simulation.before_last_step(), picture.between};
+}
+
 std::vector<render::SceneLabel> scene_labels(const Session& session, const ui::Tour& tour,
                                              const ScenePicture& picture) {
   std::vector<render::SceneLabel> labels;
   if (const render::Highlight* highlight = tour.highlight()) labels = highlight->labels;
   if (const auto* missed = missed_in(picture, session))
-    std::ranges::copy(render::miss_marks(session.world(), *missed, session.simulation.drawn(picture.between).shown),
+    std::ranges::copy(render::miss_marks(session.world(), *missed, drawn_meshes(session, picture).shown),
                       std::back_inserter(labels));
   return labels;
 }

@@ -28,6 +28,9 @@ ScenePicture scene_picture(const Session& session, const ui::UiState& ui, const 
 /// Returns what the picture is drawn from, for SceneView::draw(). It is valid until the next step.
 render::OverlayRequest overlay_request(const Session& session, const ui::Tour& tour, const ScenePicture& picture);
 
+/// Returns the positions at which bodies are in the picture. They are valid until the next step.
+compare::DrawnMeshes drawn_meshes(const Session& session, const ScenePicture& picture);
+
 /// Returns the labels in the picture: those of the tour, and the marks of the missed contacts.
 std::vector<render::SceneLabel> scene_labels(const Session& session, const ui::Tour& tour, const ScenePicture& picture);
 

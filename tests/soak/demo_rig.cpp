@@ -31,7 +31,7 @@ void DemoRig::frame(bool draw) {
   if (draw)
     canvas_.update(input.display_size, true, session.exporter.wants_shown_picture(), [&](const auto& whole) {
       view_.draw(session.world(), app::window::overlay_request(session, ui.tour, picture), camera_, whole, 1,
-                 session.simulation.drawn(picture.between));
+                 app::window::drawn_meshes(session, picture));
     });
   target_.bind();
   gui_.end_frame();
