@@ -217,12 +217,12 @@ void Import::import_each() {
   open_next();
 }
 
-std::optional<Import::JoinedAt> Import::update() {
-  std::optional<JoinedAt> joined;
+bool Import::update() {
+  bool has_joined = false;
   if (auto answer = reader_.take(); answer && !std::exchange(progress_, nullptr)->cancelled)
-    joined = take(std::move(*answer));
+    has_joined = take(std::move(*answer));
   open_next();
-  return joined;
+  return has_joined;
 }
 
 /// Begins to read the first of the files that wait, if nothing else is read or asked.
@@ -235,7 +235,8 @@ void Import::open_next() {
   open();
 }
 
-std::optional<Import::JoinedAt> Import::take(FileReader::Answer answer) {
+/// Returns true if it is a mesh that has joined the scene.
+bool Import::take(FileReader::Answer answer) {
   if (std::vector<std::string> files = std::exchange(together_, {}); !files.empty()) {
     if (auto* world = std::get_if<FileReader::World>(&answer)) {
       frames_.emplace(Frames{std::move(files), std::move(*world)});
@@ -250,7 +251,7 @@ std::optional<Import::JoinedAt> Import::take(FileReader::Answer answer) {
   } else {
     enter(std::move(std::get<FileReader::World>(answer)));
   }
-  return std::nullopt;
+  return false;
 }
 
 void Import::enter(FileReader::World answer) {
@@ -262,7 +263,7 @@ void Import::enter(FileReader::World answer) {
   }
 }
 
-std::optional<Import::JoinedAt> Import::join(FileReader::Mesh read) {
+bool Import::join(FileReader::Mesh read) {
   const std::string name = read.mesh.file.path.filename().string();
   std::vector<std::string> lines = lines_about(read, simulation_.world());
   Material material = imported_material(read.mesh.imported->findings.extent);
@@ -273,10 +274,11 @@ std::optional<Import::JoinedAt> Import::join(FileReader::Mesh read) {
   if (notice.is_error()) {
     refuse(name + ": " + notice.text());
     notice.clear();  // once is enough
-    return std::nullopt;
+    return false;
   }
+  joined_ = place;
   add({.lines = std::move(lines)});
-  return place;
+  return true;
 }
 
 }  // namespace app::session

@@ -104,9 +104,11 @@ class Import {
   /// they are meshes that fit together as frames, question() asks first whether to play them; the rest shape that an
   /// export of motion writes beside them is no frame. Files that are dropped meanwhile wait for the answer.
   void drop(const std::vector<std::string>& files);
-  /// Takes what has been read, and begins with the next file that waits. Call it once a frame. Returns a sphere around
-  /// the place where a mesh has joined since the last call: it may be out of sight.
-  std::optional<JoinedAt> update();
+  /// Takes what has been read, and begins with the next file that waits. Call it once a frame. Returns true if a mesh
+  /// has joined the scene.
+  bool update();
+  /// Returns a sphere around the place where the last mesh has joined, which may be out of sight.
+  const std::optional<JoinedAt>& joined() const { return joined_; }
 
   /// Returns the question whether to play the files that were dropped, or to import each; empty if there is none.
   std::string question() const;
@@ -142,9 +144,9 @@ class Import {
   void add(FileReport file_report);
   void refuse(const std::string& why);
   void read(decltype(FileReader::Question::file) file);
-  std::optional<JoinedAt> take(FileReader::Answer answer);
+  bool take(FileReader::Answer answer);
   void enter(FileReader::World answer);
-  std::optional<JoinedAt> join(FileReader::Mesh read);
+  bool join(FileReader::Mesh read);
 
   Simulation& simulation_;
   SceneControls& scenes_;
@@ -155,6 +157,7 @@ class Import {
   std::vector<std::string> dropped_;   // not yet loaded
   std::vector<std::string> together_;  // what is read now, if it may be frames
   std::optional<Frames> frames_;       // what question() is about
+  std::optional<JoinedAt> joined_;
   std::chrono::steady_clock::time_point began_;
   std::shared_ptr<FileReader::Progress> progress_;  // of what is read; nullptr: nothing is
   BackgroundWorker<FileReader> reader_;

@@ -129,9 +129,8 @@ std::optional<Request> request_by_key(const Session& session, int key, bool repe
     if (key != shortcut.key && (shortcut.other_key == 0 || key != shortcut.other_key)) continue;
     if ((mods & shortcut.mods) != shortcut.mods || (mods & ~shortcut.mods) & other_mods) continue;
     if (repeat && !shortcut.repeats) return std::nullopt;
-    const auto* task = std::get_if<WindowTask>(&shortcut.act);
-    return with_solver(session, shortcut.needs_solver, shortcut.text,
-                       task ? Request(WindowRequest{*task}) : Request(std::get<0>(shortcut.act)));
+    const auto request = [](const auto& act) { return Request(act); };
+    return with_solver(session, shortcut.needs_solver, shortcut.text, std::visit(request, shortcut.act));
   }
   return std::nullopt;
 }

@@ -155,13 +155,13 @@ class Demo {
   /// Begins a frame of the Gui and handles the input of mouse and keyboard.
   void handle_input(double elapsed) {
     graphics_->gui.begin_frame();
-    std::vector<ui::WindowRequest> requests = ui::carry_out(requests_by_keys(), session_, ui_);
+    std::vector<ui::WindowTask> tasks = ui::carry_out(requests_by_keys(), session_, ui_);
     const ui::Requests drawn = interface_.draw(session_, ui_, graphics_->gui.scale(), seconds_);
-    std::ranges::copy(ui::carry_out(drawn, session_, ui_), std::back_inserter(requests));
+    std::ranges::copy(ui::carry_out(drawn, session_, ui_), std::back_inserter(tasks));
     const engine::Viewport viewport = scene_viewport();
     move_by_mouse(viewport);
     follow_tour();
-    for (const ui::WindowRequest& request : requests) carry_out(request, viewport);
+    for (const ui::WindowTask task : tasks) carry_out(task, viewport.size);
     camera_.advance(elapsed);
   }
 
@@ -333,35 +333,27 @@ class Demo {
     return {viewport.origin.x, graphics_->window.framebuffer_size().y - viewport.origin.y - viewport.size.y};
   }
 
-  void carry_out(const ui::WindowRequest& request, const engine::Viewport& viewport) {
-    switch (request.task) {
-      case ui::WindowTask::quit:
-        quits_ = true;
-        break;
-      case ui::WindowTask::reset_camera:
-        reset_camera(viewport.size);
-        break;
-      case ui::WindowTask::show_selected_body:
-        if (session_.bodies.selected()) focus_on(*session_.bodies.selected(), session_, camera_, viewport.size);
-        break;
-      case ui::WindowTask::throw_body: {
-        const engine::Ray ray = mouse_.ray(camera_, viewport.size);
-        const float distance = render::distance_to_scene(ray, session_.world(), session_.simulation.drawn().shown)
-                                   .value_or(camera_.orbit().distance);
-        session_.bodies.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.origin + distance * ray.direction));
-        break;
-      }
-      case ui::WindowTask::keep_in_sight:
-        camera_.glide_back_to_show(glm::vec3(request.centre), joined_margin * static_cast<float>(request.radius),
-                                   viewport.size);
-        break;
-      case ui::WindowTask::frame_highlight:
-        if (const render::Highlight* highlight = ui_.tour.highlight())
-          camera_.glide_to(highlight->centre, tour_radius_factor * highlight->radius, viewport.size);
-        break;
-      case ui::WindowTask::show_as_before_tour:
-        if (orbit_before_tour_) camera_.glide_to(*orbit_before_tour_);
-    }
+  void carry_out(ui::WindowTask task, glm::ivec2 size) {
+    using Task = ui::WindowTask;
+    const auto& selected = session_.bodies.selected();
+    const auto& joined = session_.import.joined();
+    const render::Highlight* highlight = ui_.tour.highlight();
+    if (task == Task::quit) quits_ = true;
+    if (task == Task::reset_camera) reset_camera(size);
+    if (task == Task::show_selected_body && selected) focus_on(*selected, session_, camera_, size);
+    if (task == Task::throw_body) throw_body(size);
+    if (task == Task::show_joined && joined)
+      camera_.glide_back_to_show(glm::vec3(joined->centre), joined_margin * static_cast<float>(joined->radius), size);
+    if (task == Task::show_highlight && highlight)
+      camera_.glide_to(highlight->centre, tour_radius_factor * highlight->radius, size);
+    if (task == Task::show_as_before_tour && orbit_before_tour_) camera_.glide_to(*orbit_before_tour_);
+  }
+
+  void throw_body(glm::ivec2 size) {
+    const engine::Ray ray = mouse_.ray(camera_, size);
+    const float distance = render::distance_to_scene(ray, session_.world(), session_.simulation.drawn().shown)
+                               .value_or(camera_.orbit().distance);
+    session_.bodies.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.origin + distance * ray.direction));
   }
 
   /// Draws the scene if its picture has changed. Returns true if it has, or if the bodies move.

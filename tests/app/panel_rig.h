@@ -131,7 +131,7 @@ class PanelRig {
 
  private:
   void carry_out(const ui::Requests& requests) {
-    for (const ui::WindowRequest& request : ui::carry_out(requests, session, ui)) tasks.push_back(request.task);
+    for (const ui::WindowTask task : ui::carry_out(requests, session, ui)) tasks.push_back(task);
   }
 
   engine::HeadlessContext context_;  // first: the others need it

@@ -49,7 +49,7 @@ TEST(Shortcuts, ActAsTheHelpSays) {
   }
   tap('H');
   EXPECT_FALSE(ui.panel);
-  const auto task = [&](int key) { return std::get<ui::WindowRequest>(*ui::request_by_key(session, key, false)).task; };
+  const auto task = [&](int key) { return std::get<ui::WindowTask>(*ui::request_by_key(session, key, false)); };
   EXPECT_TRUE(task('C') == ui::WindowTask::reset_camera);
   tap('?');
   EXPECT_TRUE(ui.help);
@@ -132,7 +132,7 @@ TEST(Shortcuts, ActWithControlShiftAndDelete) {
   EXPECT_TRUE(handle_key('Z', false, session, ui, GLFW_MOD_CONTROL));
   const auto request = ui::request_by_key(session, 'B', false);
   ASSERT_TRUE(request);
-  EXPECT_TRUE(std::get<ui::WindowRequest>(*request).task == ui::WindowTask::throw_body);
+  EXPECT_TRUE(std::get<ui::WindowTask>(*request) == ui::WindowTask::throw_body);
   session.bodies.select(0);
   EXPECT_TRUE(handle_key(GLFW_KEY_ESCAPE, false, session, ui));
   EXPECT_FALSE(session.bodies.selected());

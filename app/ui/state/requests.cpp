@@ -4,18 +4,17 @@
 
 namespace app::ui {
 
-std::vector<WindowRequest> carry_out(const Requests& requests, session::Session& session, UiState& ui) {
-  std::vector<WindowRequest> for_window;
+std::vector<WindowTask> carry_out(const Requests& requests, session::Session& session, UiState& ui) {
+  std::vector<WindowTask> for_window;
   for (const Request& request : requests)
-    if (const auto* of_window = std::get_if<WindowRequest>(&request))
-      for_window.push_back(*of_window);
+    if (const auto* task = std::get_if<WindowTask>(&request))
+      for_window.push_back(*task);
     else
       std::get<0>(request)(session, ui);
-  if (const auto joined = session.import.update())
-    for_window.push_back({WindowTask::keep_in_sight, joined->centre, joined->radius});
+  if (session.import.update()) for_window.push_back(WindowTask::show_joined);
   const Tour::Camera camera = ui.tour.update(session, &ui.view);
-  if (camera.overview) for_window.push_back({WindowTask::show_as_before_tour});
-  if (camera.framing) for_window.push_back({WindowTask::frame_highlight});
+  if (camera.overview) for_window.push_back(WindowTask::show_as_before_tour);
+  if (camera.framing) for_window.push_back(WindowTask::show_highlight);
   session.comparison.choice.on = ui.lower == LowerView::comparison;
   session.comparison.choice.with_paper = ui.marks_story();
   session.comparison.choice.with_misses = ui.overlays.missed;

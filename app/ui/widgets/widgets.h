@@ -96,7 +96,7 @@ class Widgets {
 
   /// Asks for a change of the session or of what the window shows. It is carried out after the drawing.
   void ask(std::function<void(session::Session&, UiState&)> change) { requests_.emplace_back(std::move(change)); }
-  void ask(WindowTask task) { requests_.emplace_back(WindowRequest{task}); }
+  void ask(WindowTask task) { requests_.emplace_back(task); }
 
   /// Converts design pixels to ImGui units.
   float px(float design) const { return design * scale_; }
