@@ -16,11 +16,11 @@ constexpr int max_resolution = 3000;                         // particles: more 
 constexpr float narrow_column = 78, file_button_width = 62;  // design pixels
 
 /// Draws a field with a button at its right. True if Enter is pressed or the button is clicked.
-bool field_with_button(Widgets& w, const char* label, std::string& value, const char* hint, const char* tooltip,
-                       const char* button, const char* button_tooltip) {
+bool field_with_button(Widgets& w, const char* label, const std::string& value, const char* hint, const char* tooltip,
+                       std::string& (*place)(Session&, UiState&), const char* button, const char* button_tooltip) {
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - w.px(file_button_width) - gap);
-  const bool entered = w.text_field(label, value, hint, tooltip);
+  const bool entered = w.text_field(label, value, hint, tooltip, place);
   ImGui::SameLine(0, gap);
   return w.button(button, button_tooltip, w.px(file_button_width)) || entered;
 }
@@ -33,14 +33,12 @@ void draw_problem(Widgets& w, const char* label, const std::string& problem) {
 void draw_open(Widgets& w, const session::Import& import) {
   w.row_label("Open", w.px(narrow_column));
   ImGui::BeginDisabled(import.busy());
-  std::string path = import.path;
-  const bool load = field_with_button(
-      w, "File to open", path, "mesh.obj or scene.toml",
-      "An OBJ or PLY file, which joins the scene as a soft body, or a scene file, which replaces it. You can also drop "
-      "files on the window.",
-      "Load", "Reads the file.");
-  if (path != import.path) w.ask([path](Session& s, UiState&) { s.import.path = path; });
-  if (load) w.ask([](Session& s, UiState&) { s.import.load(); });
+  if (field_with_button(
+          w, "File to open", import.path, "mesh.obj or scene.toml",
+          "An OBJ or PLY file, which joins the scene as a soft body, or a scene file, which replaces "
+          "it. You can also drop files on the window.",
+          [](Session& s, UiState&) -> std::string& { return s.import.path; }, "Load", "Reads the file."))
+    w.ask([](Session& s, UiState&) { s.import.load(); });
   ImGui::EndDisabled();
   draw_problem(w, "Load problem", import.problem());
 }
@@ -107,15 +105,13 @@ void draw_save(Widgets& w, const Session& session, const UiState& ui, bool saved
   w.row_label("Save as", w.px(narrow_column));
   const session::SceneFile& own = session.simulation.loaded.file;
   const bool as_named = saved && own.is_at(ui.save_as) && !own.changed_on_disk();
-  std::string file = ui.save_as;
-  const bool entered = field_with_button(
-      w, "Scene file", file, "scene.toml",
-      "The scene with all settings in use but the integrator, and the camera as it is. Bodies that you dropped, threw "
-      "or loaded are in it, each in the frame in which it came; what you pulled or deleted is as it was, so that their "
-      "places need not be free then.",
-      as_named ? "Saved###Save" : "Save", as_named ? "The file holds the scene as it is." : "Writes the file.");
-  if (file != ui.save_as) w.ask([file](Session&, UiState& state) { state.save_as = file; });
-  if (entered)
+  if (field_with_button(
+          w, "Scene file", ui.save_as, "scene.toml",
+          "The scene with all settings in use but the integrator, and the camera as it is. Bodies that "
+          "you dropped, threw or loaded are in it, each in the frame in which it came; what you pulled or "
+          "deleted is as it was, so that their places need not be free then.",
+          [](Session&, UiState& state) -> std::string& { return state.save_as; }, as_named ? "Saved###Save" : "Save",
+          as_named ? "The file holds the scene as it is." : "Writes the file."))
     w.ask([](Session& s, UiState& state) {
       state.save_question.set(state.save_as, s.scenes.question_before_save(state.save_as));
       if (state.save_question.about(state.save_as).empty()) save(s, state);
@@ -239,10 +235,9 @@ void draw_files(Widgets& w, const Session& session, const UiState& ui) {
 void draw_export(Widgets& w, const Session& session, const UiState&) {
   const session::Exporter& exporter = session.exporter;
   w.row_label("Folder", w.px(narrow_column));
-  std::string folder = exporter.folder;
-  w.text_field("Output folder", folder, "the current one",
-               "Where all of this goes. Names end in the next free number; nothing is overwritten.");
-  if (folder != exporter.folder) w.ask([folder](Session& s, UiState&) { s.exporter.folder = folder; });
+  w.text_field("Output folder", exporter.folder, "the current one",
+               "Where all of this goes. Names end in the next free number; nothing is overwritten.",
+               [](Session& s, UiState&) -> std::string& { return s.exporter.folder; });
   w.row_label("Take", w.px(narrow_column));
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
   if (w.button("Picture", "A PNG file of the scene as it shows, in the size below (P).", width))

@@ -157,12 +157,13 @@ bool Widgets::section(const char* label, bool open_at_first) {
   return register_item(open, label, nullptr);
 }
 
-bool Widgets::text_field(const char* label, std::string& value, const char* hint, const char* tooltip) {
+bool Widgets::text_field(const char* label, const std::string& value, const char* hint, const char* tooltip,
+                         std::string& (*place)(session::Session&, UiState&)) {
   std::array<char, 4096> typed{};  // the longest path
   value.copy(typed.data(), typed.size() - 1);
   if (ImGui::InputTextWithHint(fmt::format("##{}", label).c_str(), hint, typed.data(), typed.size(),
                                ImGuiInputTextFlags_AutoSelectAll))
-    value = typed.data();
+    ask([=, text = std::string(typed.data())](session::Session& s, UiState& ui) { place(s, ui) = text; });
   return register_item(ImGui::IsItemDeactivated() && is_pressed(ImGuiKey_Enter), label, tooltip);
 }
 
