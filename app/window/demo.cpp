@@ -283,9 +283,8 @@ class Demo {
   }
 
   void store_preferences(bool last = false) {
-    preferences_.store(preferences_of(session_, ui_, window_size()), seconds_, last);
-    if (std::string problem = preferences_.take_problem(); !problem.empty())
-      session_.simulation.notice.set(std::move(problem));
+    const std::string problem = preferences_.store(preferences_of(session_, ui_, window_size()), seconds_, last);
+    if (!problem.empty()) session_.simulation.notice.set(problem);
   }
 
   engine::Viewport scene_viewport() const {

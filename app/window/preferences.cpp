@@ -117,13 +117,13 @@ PreferencesFile::PreferencesFile(fs::path file) : file_(std::move(file)) {
   pending_ = stored_;
 }
 
-void PreferencesFile::store(const Preferences& now, double seconds, bool last) {
-  if (file_.empty()) return;
+std::string PreferencesFile::store(const Preferences& now, double seconds, bool last) {
+  if (file_.empty()) return {};
   if (!(now == pending_)) {
     pending_ = now;
     pending_since_ = seconds;
   }
-  if (pending_ == stored_ || (!last && seconds - pending_since_ < settling)) return;
+  if (pending_ == stored_ || (!last && seconds - pending_since_ < settling)) return std::exchange(problem_, {});
   stored_ = pending_;  // also if writing fails: the problem is reported once per change, not once per frame
   try {
     fs::create_directories(file_.parent_path());
@@ -131,6 +131,7 @@ void PreferencesFile::store(const Preferences& now, double seconds, bool last) {
   } catch (const std::exception& error) {
     problem_ = "preferences cannot be kept: " + std::string(error.what());
   }
+  return std::exchange(problem_, {});
 }
 
 }  // namespace app::window

@@ -46,8 +46,7 @@ TEST_F(FullDisk, LeavesThePreferencesUnchanged) {
   window::Preferences other;
   other.slow_factor = 0.5;
   const tests::FullDisk full(too_little);
-  file.store(other, 0, true);
-  EXPECT_NE(file.take_problem().find("cannot be written"), std::string::npos);
+  EXPECT_NE(file.store(other, 0, true).find("cannot be written"), std::string::npos);
   expect_unchanged("preferences.toml", saved);
 }
 
