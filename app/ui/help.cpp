@@ -86,7 +86,7 @@ void draw_help(Widgets& w, const ScreenRect& area) {
   ImGui::Spacing();
   if (w.button("Close", "Closes the help (F1 or Esc).", w.px(80))) open = false;
   ImGui::End();
-  if (!open) w.ask([](Session&, UiState& ui) { ui.help = false; });
+  if (!open) w.ask([](UiState& ui) { ui.help = false; });
 }
 
 }  // namespace app::ui

@@ -29,7 +29,7 @@ void draw_frames(Widgets& w, const session::Player& player) {
   ImGui::BeginDisabled(last == 0);
   if (w.slider("Time line", frame, 0, last, fmt::format("frame %d of {}", grouped(std::uint64_t(last))).c_str(),
                "Drag it to any frame; frames count from 0. It pauses there."))
-    w.ask([frame](Session& s, UiState&) { s.simulation.rewind_to(frame); });
+    w.ask([frame](Session& s) { s.simulation.rewind_to(frame); });
   ImGui::EndDisabled();
 }
 
@@ -38,11 +38,11 @@ void draw_speed(Widgets& w, const Session& session) {
   const double frame_time = session.world().frame_time();
   double rate = session.simulation.clock.speed / frame_time;
   if (w.checkbox("Loop", session.simulation.loop, "Begins again after the last frame, and else pauses there."))
-    w.ask([](Session& s, UiState&) { s.simulation.loop = !s.simulation.loop; });
+    w.ask([](Session& s) { s.simulation.loop = !s.simulation.loop; });
   ImGui::SameLine();
   ImGui::SetNextItemWidth(w.px(speed_width));
   if (w.slider("Speed", rate, 1, 240, "%.0f frames/s", "How many frames are shown each second.", true))
-    w.ask([speed = rate * frame_time](Session& s, UiState&) { s.simulation.clock.speed = speed; });
+    w.ask([speed = rate * frame_time](Session& s) { s.simulation.clock.speed = speed; });
   ImGui::SameLine();
 }
 
@@ -61,9 +61,7 @@ void draw_past(Widgets& w, const Session& session) {
                            past.snapshots().size(), static_cast<double>(past.bytes()) / (1 << 20),
                            session::Rewind::max_bytes >> 20)
                    .c_str()))
-    w.ask([to = past.snapshots()[static_cast<std::size_t>(place)].frame](Session& s, UiState&) {
-      s.simulation.rewind_to(to);
-    });
+    w.ask([to = past.snapshots()[static_cast<std::size_t>(place)].frame](Session& s) { s.simulation.rewind_to(to); });
   ImGui::EndDisabled();
 }
 
@@ -94,13 +92,13 @@ void draw_time_line(Widgets& w, const Session& session, const ScreenRect& area) 
   ImGui::PopStyleVar();
   if (w.button(session.simulation.clock.paused ? "Resume###Pause" : "Pause###Pause",
                "Pauses or resumes the simulation (Space).", w.px(button_width)))
-    w.ask([](Session& s, UiState&) { s.simulation.clock.paused = !s.simulation.clock.paused; });
+    w.ask([](Session& s) { s.simulation.clock.paused = !s.simulation.clock.paused; });
   ImGui::SameLine();
   const session::Player* player = session.simulation.player();
   if (w.button("Step",
                player ? "Shows the next frame, then pauses (N)." : "Simulates one frame of 1/60 s, then pauses (N).",
                w.px(button_width)))
-    w.ask([](Session& s, UiState&) { s.simulation.clock.single_step(); });
+    w.ask([](Session& s) { s.simulation.clock.single_step(); });
   ImGui::SameLine();
   if (player) draw_speed(w, session);
   const float room = ImGui::GetContentRegionAvail().x;

@@ -31,15 +31,14 @@ Requests UserInterface::draw(const Session& session, const UiState& ui, float sc
   if (!layout_.tour && layout_.panel_covers_scene) draw_import_report(widgets, session.import, layout_.scene);
   if (ui.help) draw_help(widgets, layout_.scene);
   const bool popup_open = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-  if (popup_open != ui.popup_open)
-    widgets.ask([popup_open](Session&, UiState& state) { state.popup_open = popup_open; });
+  if (popup_open != ui.popup_open) widgets.ask([popup_open](UiState& state) { state.popup_open = popup_open; });
   return requests;
 }
 
 void UserInterface::show_field_problem(Widgets& widgets) {
   const auto problem = std::exchange(input_.field_problem, std::nullopt);
   if (!problem) return;
-  widgets.ask([now = *problem, before = field_problem_](Session& session, UiState&) {
+  widgets.ask([now = *problem, before = field_problem_](Session& session) {
     session::Notice& notice = session.simulation.notice;
     if (!now.empty())
       notice.set(now);

@@ -17,11 +17,10 @@ void draw_drop_and_throw(Widgets& w, const Session& session) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
   ImGui::BeginDisabled(!session.bodies.can_drop());
-  if (w.button("Drop", "Drops another body from above (D).", width))
-    w.ask([](Session& s, UiState&) { s.bodies.drop(); });
+  if (w.button("Drop", "Drops another body from above (D).", width)) w.ask([](Session& s) { s.bodies.drop(); });
   ImGui::SameLine();
   if (w.button("Drop 20", "Drops twenty bodies side by side (Shift+D).", width))
-    w.ask([](Session& s, UiState&) { s.bodies.drop(session::BodyControls::many_drops); });
+    w.ask([](Session& s) { s.bodies.drop(session::BodyControls::many_drops); });
   ImGui::SameLine();
   if (w.button("Throw", "Throws a body from the camera, by B to where the mouse points, else to the middle.", width))
     w.ask(WindowTask::throw_body);
@@ -30,7 +29,7 @@ void draw_drop_and_throw(Widgets& w, const Session& session) {
   double speed = session.bodies.throw_speed;
   if (w.slider("Throw speed", speed, session::BodyControls::min_throw_speed, session::BodyControls::max_throw_speed,
                "%.0f m/s", "How fast bodies are thrown.", true))
-    w.ask([speed](Session& s, UiState&) { s.bodies.throw_speed = speed; });
+    w.ask([speed](Session& s) { s.bodies.throw_speed = speed; });
   ImGui::EndDisabled();
 }
 
@@ -94,7 +93,7 @@ void draw_bodies(Widgets& w, const Session& session) {
     w.ask(WindowTask::show_selected_body);
   if (has_solver) ImGui::SameLine();
   if (has_solver && w.button("Delete", "Takes the selected body out of the world (Del); Ctrl+Z brings it back.", width))
-    w.ask([](Session& s, UiState&) { s.bodies.remove_selected(); });
+    w.ask([](Session& s) { s.bodies.remove_selected(); });
   ImGui::EndDisabled();
 }
 

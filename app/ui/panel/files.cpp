@@ -38,7 +38,7 @@ void draw_open(Widgets& w, const session::Import& import) {
           "An OBJ or PLY file, which joins the scene as a soft body, or a scene file, which replaces "
           "it. You can also drop files on the window.",
           [](Session& s, UiState&) -> std::string& { return s.import.path; }, "Load", "Reads the file."))
-    w.ask([](Session& s, UiState&) { s.import.load(); });
+    w.ask([](Session& s) { s.import.load(); });
   ImGui::EndDisabled();
   draw_problem(w, "Load problem", import.problem());
 }
@@ -53,16 +53,16 @@ void draw_mesh_settings(Widgets& w, const session::Import& import) {
           "Size of meshes", size, session::Import::min_size, session::Import::max_size, "%.2f m",
           "The largest extent that the next mesh is scaled to, whatever its units are. The scenes' spheres have 1 m.",
           true))
-    w.ask([size](Session& s, UiState&) { s.import.size = size; });
+    w.ask([size](Session& s) { s.import.size = size; });
   ImGui::SameLine();
   if (w.checkbox("Z is up", import.z_is_up, "In the file; else y is. It holds for the next mesh."))
-    w.ask([](Session& s, UiState&) { s.import.z_is_up = !s.import.z_is_up; });
+    w.ask([](Session& s) { s.import.z_is_up = !s.import.z_is_up; });
   w.row_label("Weld", w.px(narrow_column));
   const double mm = 1e3 * double{import.size};  // of the mesh's size
   double weld = mm * import.weld;
   if (w.slider("Weld distance", weld, mm * session::Import::min_weld, mm * session::Import::max_weld, "%.4f mm",
                "Vertices of the next mesh that are no further apart become one. Raise it if seams stay open.", true))
-    w.ask([part = std::clamp(weld / mm, session::Import::min_weld, session::Import::max_weld)](Session& s, UiState&) {
+    w.ask([part = std::clamp(weld / mm, session::Import::min_weld, session::Import::max_weld)](Session& s) {
       s.import.weld = part;
     });
   w.row_label("Particles", w.px(narrow_column));
@@ -71,7 +71,7 @@ void draw_mesh_settings(Widgets& w, const session::Import& import) {
                  fmt::format("A mesh of more than {} vertices is simulated by {} particles; its vertices follow them.",
                              grouped(softbody::max_simulated_vertices), grouped(softbody::default_resolution))
                      .c_str()))
-    w.ask([automatic](Session& s, UiState&) { s.import.resolution = automatic ? softbody::default_resolution : 0; });
+    w.ask([automatic](Session& s) { s.import.resolution = automatic ? softbody::default_resolution : 0; });
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
   ImGui::BeginDisabled(automatic);
@@ -80,7 +80,7 @@ void draw_mesh_settings(Widgets& w, const session::Import& import) {
           "Particles of meshes", resolution, static_cast<int>(softbody::min_resolution), max_resolution, "%d",
           "How many particles simulate the next mesh if it has more vertices. More of them follow finer folds, and "
           "take longer."))
-    w.ask([resolution](Session& s, UiState&) { s.import.resolution = static_cast<std::size_t>(resolution); });
+    w.ask([resolution](Session& s) { s.import.resolution = static_cast<std::size_t>(resolution); });
   ImGui::EndDisabled();
 }
 
@@ -98,7 +98,7 @@ void draw_save_question(Widgets& w, const UiState& ui) {
   if (w.button("Replace", "Writes the scene over the file.", w.px(file_button_width))) w.ask(save);
   ImGui::SameLine();
   if (w.button("Cancel", "The file stays as it is.", w.px(file_button_width)))
-    w.ask([](Session&, UiState& state) { state.save_question.clear(); });
+    w.ask([](UiState& state) { state.save_question.clear(); });
 }
 
 void draw_save(Widgets& w, const Session& session, const UiState& ui, bool saved) {
@@ -126,9 +126,7 @@ void draw_copy_button(Widgets& w, const char* name, const std::string& command, 
   const std::string shown = command.size() > max_shown ? command.substr(0, max_shown) + " ..." : command;
   if (!w.button(name, shown.c_str(), width)) return;
   ImGui::SetClipboardText(command.c_str());
-  w.ask([purpose](Session& s, UiState&) {
-    s.simulation.notice.tell(std::string("Copied: the command that ") + purpose);
-  });
+  w.ask([purpose](Session& s) { s.simulation.notice.tell(std::string("Copied: the command that ") + purpose); });
 }
 
 void draw_command(Widgets& w, const Session& session, const softbody::Scene& used, bool saved) {
@@ -168,7 +166,7 @@ void draw_picture_size(Widgets& w, const session::Exporter& exporter) {
                     "Of pictures and videos of the scene without the panel. They show what the camera shows now.")) {
     for (std::size_t size = 0; size <= Exporter::own; ++size)
       if (w.combo_item(name_of(size).c_str(), size == exporter.size, nullptr))
-        w.ask([size](Session& s, UiState&) { s.exporter.size = size; });
+        w.ask([size](Session& s) { s.exporter.size = size; });
     ImGui::EndCombo();
   }
   if (exporter.size == Exporter::own && !exporter.with_panel) {
@@ -180,7 +178,7 @@ void draw_picture_size(Widgets& w, const session::Exporter& exporter) {
     ImGui::SameLine();
     ImGui::SetNextItemWidth(width);
     w.number_field("Picture height", size.y, Exporter::min_side, Exporter::max_side, "In pixels.");
-    if (size != exporter.own_size) w.ask([size](Session& s, UiState&) { s.exporter.own_size = size; });
+    if (size != exporter.own_size) w.ask([size](Session& s) { s.exporter.own_size = size; });
   }
   ImGui::EndDisabled();
 }
@@ -196,7 +194,7 @@ void draw_recording(Widgets& w, const session::Exporter& exporter) {
     for (std::size_t i = 0; i < session::recording_kinds.size(); ++i) {
       const session::RecordingKind& kind = session::recording_kinds[i];
       if (w.combo_item(text(kind.name).c_str(), i == exporter.kind, text(kind.tooltip).c_str()))
-        w.ask([i](Session& s, UiState&) { s.exporter.kind = i; });
+        w.ask([i](Session& s) { s.exporter.kind = i; });
     }
     ImGui::EndCombo();
   }
@@ -207,7 +205,7 @@ void draw_recording(Widgets& w, const session::Exporter& exporter) {
                "Every frame of the world from now on, until it is stopped. The world waits for the recording, so that "
                "no frame is lost.",
                w.px(file_button_width)))
-    w.ask([](Session& s, UiState&) { s.exporter.toggle_recording(); });
+    w.ask([](Session& s) { s.exporter.toggle_recording(); });
   ImGui::EndDisabled();
 }
 
@@ -241,16 +239,16 @@ void draw_export(Widgets& w, const Session& session, const UiState&) {
   w.row_label("Take", w.px(narrow_column));
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
   if (w.button("Picture", "A PNG file of the scene as it shows, in the size below (P).", width))
-    w.ask([](Session& s, UiState&) { s.exporter.picture_requested = true; });
+    w.ask([](Session& s) { s.exporter.picture_requested = true; });
   ImGui::SameLine();
   if (w.button("Curves", "The values of the panel's curves, as a CSV file.", width))
-    w.ask([](Session& s, UiState&) { s.exporter.write_curves(); });
+    w.ask([](Session& s) { s.exporter.write_curves(); });
   draw_recording(w, exporter);
   draw_picture_size(w, exporter);
   w.row_label("", w.px(narrow_column));
   if (w.checkbox("With the panel", exporter.with_panel,
                  "Pictures and videos show the whole window, else the scene alone."))
-    w.ask([](Session& s, UiState&) { s.exporter.with_panel = !s.exporter.with_panel; });
+    w.ask([](Session& s) { s.exporter.with_panel = !s.exporter.with_panel; });
   draw_message(w, exporter);
 }
 

@@ -30,34 +30,33 @@ void draw_scene(Widgets& w, const Session& session) {
     for (const session::SceneChoice& choice : session.scenes.choices())
       if (w.combo_item(choice.name.c_str(), choice.key == session.simulation.loaded.file.name(),
                        choice.look_at.c_str()))
-        w.ask([&choice](Session& s, UiState&) { s.scenes.choose(choice.key); });
+        w.ask([&choice](Session& s) { s.scenes.choose(choice.key); });
     ImGui::EndCombo();
   }
   ImGui::SameLine(0, gap);
   draw_tour_button(w, tour_button_width);
   ImGui::SameLine(0, gap);
-  if (w.button("?", "Shows the help: keys and mouse (F1).", help_width))
-    w.ask([](Session&, UiState& ui) { ui.help = !ui.help; });
+  if (w.button("?", "Shows the help: keys and mouse (F1).", help_width)) w.ask([](UiState& ui) { ui.help = !ui.help; });
 }
 
 void draw_time_controls(Widgets& w, const Session& session) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
   if (w.button("Reset", "Restarts the scene with the present settings and without added bodies (R).", width))
-    w.ask([](Session& s, UiState&) { s.simulation.reset(); });
+    w.ask([](Session& s) { s.simulation.reset(); });
   ImGui::SameLine();
   ImGui::BeginDisabled(!session.simulation.can_undo());
   if (w.button("Undo", "Undoes the last reset, choice of scene, change of bodies, or drag of a solid (Ctrl+Z).", width))
-    w.ask([](Session& s, UiState&) { s.simulation.undo(); });
+    w.ask([](Session& s) { s.simulation.undo(); });
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::BeginDisabled(!session.simulation.can_redo());
   if (w.button("Redo", "Brings back what the last undo took away (Ctrl+Y).", width))
-    w.ask([](Session& s, UiState&) { s.simulation.redo(); });
+    w.ask([](Session& s) { s.simulation.redo(); });
   ImGui::EndDisabled();
 
   if (w.checkbox("Slow motion", session.simulation.clock.slow_motion, "Runs the simulation slower than real time (S)."))
-    w.ask([](Session& s, UiState&) { s.simulation.clock.slow_motion = !s.simulation.clock.slow_motion; });
+    w.ask([](Session& s) { s.simulation.clock.slow_motion = !s.simulation.clock.slow_motion; });
   ImGui::SameLine(w.px(label_column + 20));
   ImGui::SetNextItemWidth(-FLT_MIN);
   ImGui::BeginDisabled(!session.simulation.clock.slow_motion);
@@ -65,7 +64,7 @@ void draw_time_controls(Widgets& w, const Session& session) {
   if (w.slider("Slow motion speed", percent, 100 * session::SimulationClock::min_slow_factor,
                100 * session::SimulationClock::max_slow_factor, "%.0f %% of real time", "The speed of slow motion.",
                true))
-    w.ask([factor = percent / 100](Session& s, UiState&) { s.simulation.clock.slow_factor = factor; });
+    w.ask([factor = percent / 100](Session& s) { s.simulation.clock.slow_factor = factor; });
   ImGui::EndDisabled();
 }
 
@@ -80,14 +79,14 @@ void draw_overlays(Widgets& w, const Session& session, const UiState& ui) {
     next_cell(i++);
     const std::string tooltip = std::string(row.tooltip) + " (" + row.shortcut + ")";
     if (w.checkbox(std::string(row.label).c_str(), ui.overlays.*row.shown, tooltip.c_str()))
-      w.ask([&row](Session&, UiState& state) { state.overlays.*row.shown = !(state.overlays.*row.shown); });
+      w.ask([&row](UiState& state) { state.overlays.*row.shown = !(state.overlays.*row.shown); });
   }
   next_cell(i++);
   if (w.checkbox("Hash table", ui.hash_table, "Shows the hash table: each square is a bucket (T)."))
     w.ask([](Session& s, UiState& state) { state.toggle_hash_table(s); });
   const auto lower = [&](const char* label, LowerView view, const char* tooltip) {
     next_cell(i++);
-    if (w.checkbox(label, ui.lower == view, tooltip)) w.ask([view](Session&, UiState& state) { state.toggle(view); });
+    if (w.checkbox(label, ui.lower == view, tooltip)) w.ask([view](UiState& state) { state.toggle(view); });
   };
   lower("Error vs run time###Error against run time", LowerView::sweep,
         "Plots error against run time of the shown methods with many settings, on one frame (E).");
@@ -96,10 +95,10 @@ void draw_overlays(Widgets& w, const Session& session, const UiState& ui) {
   next_cell(i++);
   if (w.checkbox("Paper vs exact###Story", ui.story,
                  "Counts and marks what the paper's method misses, and says why (W)."))
-    w.ask([](Session&, UiState& state) { state.set_story(!state.story); });
+    w.ask([](UiState& state) { state.set_story(!state.story); });
   next_cell(i++);
   if (w.checkbox("Status lights", ui.lights, "What to expect of the method and of the time step (L)."))
-    w.ask([](Session&, UiState& state) { state.lights = !state.lights; });
+    w.ask([](UiState& state) { state.lights = !state.lights; });
 }
 
 void draw_plan(Widgets& w, const Session& session, const UiState&) {

@@ -52,15 +52,14 @@ void draw_ghost(Widgets& w, const Session& session) {
   if (w.checkbox("Ghost world", session.ghost().world(),
                  "Simulates the same bodies with another integrator, and draws them translucent. A change of the world "
                  "restarts the ghost."))
-    w.ask([](Session& s, UiState&) {
+    w.ask([](Session& s) {
       const bool on = !s.ghost().world();
       s.choose_ghost(on ? std::optional(softbody::IntegratorChoice{"velocity-verlet", {}}) : std::nullopt);
     });
   if (!session.ghost().world()) return;
   softbody::IntegratorChoice choice = session.ghost().world()->integrator_choice();
   const int used = session.ghost().world()->last_step().substeps;
-  if (draw_integrator_choice(w, "Ghost ", choice, used))
-    w.ask([choice](Session& s, UiState&) { s.choose_ghost(choice); });
+  if (draw_integrator_choice(w, "Ghost ", choice, used)) w.ask([choice](Session& s) { s.choose_ghost(choice); });
   w.curve("Ghost distance", ghost_distance_text(session), session.ghost().distances(),
           {0, axis_end(session.ghost().distances().max(), 0.01f)}, render::ghost_colour,
           {"Root mean square distance between the vertices of the two worlds, over the radius of the body.", "radii"});
@@ -74,7 +73,7 @@ void draw_integrator(Widgets& w, const Session& session) {
   const int needed = std::max(session.simulation.stability().margin().needed, last.substeps);
   const int proposed = std::min(needed, softbody::max_fixed_substeps);
   if (draw_integrator_choice(w, "", choice, proposed))
-    w.ask([choice](Session& s, UiState&) { s.settings.set_integrator(choice); });
+    w.ask([choice](Session& s) { s.settings.set_integrator(choice); });
   const bool chosen = !last.integrator->automatic;  // not before the first step
   const std::string why = world.integrator_choice().integrator().automatic
                               ? "Chosen automatically: " + std::string(last.why) + "."
@@ -146,7 +145,7 @@ void draw_step_light(Widgets& w, const Session& session) {
                              blow_up->what, blow_up->frame),
                  true);
   if (w.button("Rewind to the last good frame", "Goes back to the last frame before the blow-up."))
-    w.ask([](Session& s, UiState&) { s.simulation.rewind_to(s.simulation.stability().last_good_frame()); });
+    w.ask([](Session& s) { s.simulation.rewind_to(s.simulation.stability().last_good_frame()); });
 }
 
 void draw_stability(Widgets& w, const Session& session, const UiState&) {
@@ -154,7 +153,7 @@ void draw_stability(Widgets& w, const Session& session, const UiState&) {
   draw_ghost(w, session);
   if (w.checkbox("Pause when a body explodes", session.simulation.pause_on_blow_up,
                  "Pauses in the first frame in which a body has more energy or speed than possible, and names it."))
-    w.ask([](Session& s, UiState&) { s.simulation.pause_on_blow_up = !s.simulation.pause_on_blow_up; });
+    w.ask([](Session& s) { s.simulation.pause_on_blow_up = !s.simulation.pause_on_blow_up; });
   const session::StabilityHistory& history = session.simulation.stability().history();
   for (const StabilityCurve& c : curves) {
     const TimeSeries& series = history.*c.series;

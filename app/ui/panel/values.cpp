@@ -214,7 +214,7 @@ void draw_values(Widgets& w, const Session& session, const UiState& ui, bool of_
     const bool changed = widgets.draw(key, value);
     ImGui::EndDisabled();
     if (changed)
-      w.ask([&key, value](Session& s, UiState&) {
+      w.ask([&key, value](Session& s) {
         s.simulation.change_scene(key.slider.text,
                                   [&](softbody::Scene& scene) { softbody::set_value(scene, key, value); });
       });
@@ -226,7 +226,7 @@ void draw_detection(Widgets& w, const Session& session, const UiState& ui) {
   ImGui::SameLine(w.px(label_column + 46));
   if (w.button("Restore settings", "Restores the method and settings of the scene file.",
                ImGui::GetContentRegionAvail().x))
-    w.ask([](Session& s, UiState&) { s.settings.restore_detection(); });
+    w.ask([](Session& s) { s.settings.restore_detection(); });
 }
 
 }  // namespace app::ui

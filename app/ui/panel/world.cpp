@@ -26,7 +26,7 @@ std::size_t choose(Widgets& w, const char* label, const char* tooltip, std::size
 }
 
 void ask_for_material(Widgets& w, std::size_t index, std::string_view what, const softbody::Material& material) {
-  w.ask([=](Session& session, UiState&) {
+  w.ask([=](Session& session) {
     session.simulation.change_scene(fmt::format("{} of {}", what, material.name),
                                     [&](softbody::Scene& scene) { scene.materials[index] = material; });
   });
@@ -58,7 +58,7 @@ void draw_material(Widgets& w, const Session& session, const UiState& ui) {
   const std::size_t chosen =
       choose(w, "Material", "The material to edit.", ui.material, all.size(),
              [&](std::size_t i) { return all[i].name.empty() ? "material " + std::to_string(i + 1) : all[i].name; });
-  if (chosen != ui.material) w.ask([chosen](Session&, UiState& state) { state.material = chosen; });
+  if (chosen != ui.material) w.ask([chosen](UiState& state) { state.material = chosen; });
   draw_preset(w, session, chosen);
   for (const softbody::Key* key : softbody::material_keys()) {
     const softbody::Slider& s = key->slider;
@@ -121,7 +121,7 @@ void draw_solids(Widgets& w, const Session& session, const UiState& ui) {
   const std::size_t chosen = choose(w, "Solid", "The solid to edit.", shown, order.size(),
                                     [&](std::size_t i) { return session::solid_name(solids, order[i]); });
   const std::size_t index = order[chosen];
-  if (chosen != shown) w.ask([index](Session&, UiState& state) { state.solid = index; });
+  if (chosen != shown) w.ask([index](UiState& state) { state.solid = index; });
   softbody::Solid solid = solids[index];
   if (w.checkbox("Enabled###Solid enabled", solid.enabled, "Bodies pass through a solid that is not enabled."))
     solid.enabled = !solid.enabled;
@@ -136,7 +136,7 @@ void draw_solids(Widgets& w, const Session& session, const UiState& ui) {
       "back.",
       false);
   ImGui::EndDisabled();
-  if (solid != solids[index]) w.ask([index, solid](Session& s, UiState&) { s.settings.set_solid(index, solid); });
+  if (solid != solids[index]) w.ask([index, solid](Session& s) { s.settings.set_solid(index, solid); });
 }
 
 }  // namespace
@@ -149,7 +149,7 @@ void draw_world(Widgets& w, const Session& session, const UiState& ui) {
   draw_solids(w, session, ui);
   if (w.button("Restore world", "Restores gravity, materials and solids of the scene file.",
                ImGui::GetContentRegionAvail().x))
-    w.ask([](Session& s, UiState&) { s.settings.restore_world(); });
+    w.ask([](Session& s) { s.settings.restore_world(); });
 }
 
 }  // namespace app::ui

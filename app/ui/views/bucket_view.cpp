@@ -28,7 +28,7 @@ void draw_group(Widgets& w, const Session& session, const compare::BucketContent
       fmt::format("Cell {}: {} of {}. Click to show its entries in blue, and those of other cells in orange (§2.2).",
                   cell, count_text(group.items.size(), bucket), bodies);
   if (w.combo_item(text.c_str(), chosen, tooltip.c_str()))
-    w.ask([at = group.cell](Session& s, UiState&) { s.inspector.select_cell(at); });
+    w.ask([at = group.cell](Session& s) { s.inspector.select_cell(at); });
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ void draw_bucket(Widgets& w, const Session& session) {
   w.figure("All buckets", sharing_text(session.inspector.table().sharing()),
            "The same pairs, summed over all buckets.");
   if (close || another)
-    w.ask([to = close ? std::nullopt : std::optional(number)](Session& s, UiState&) { s.inspector.select_bucket(to); });
+    w.ask([to = close ? std::nullopt : std::optional(number)](Session& s) { s.inspector.select_bucket(to); });
 }
 
 }  // namespace app::ui

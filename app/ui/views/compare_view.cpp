@@ -136,7 +136,7 @@ void draw_name(Widgets& w, const Grid& grid, const Row& row) {
   const bool clicked = ImGui::Selectable(text.c_str(), false, 0, {grid.right(name) - left, 0});
   ImGui::PopStyleColor();
   if (w.register_item(clicked, text.c_str(), tooltip.c_str()))
-    w.ask([&key = row.method.key](Session& s, UiState&) { s.settings.set_method(key); });
+    w.ask([&key = row.method.key](Session& s) { s.settings.set_method(key); });
 }
 
 void draw_time(const Widgets& w, const Session& session, const Grid& grid, const Row& row, const Scale& scale) {
@@ -223,7 +223,7 @@ void draw_header(Widgets& w, const Session& session, Grid& grid) {
   }
   ImGui::SetCursorScreenPos({grid.left(name), grid.top()});
   if (w.button("x###Close compare", "Closes the comparison (V).", grid.height()))
-    w.ask([](Session&, UiState& ui) { ui.lower = LowerView::none; });
+    w.ask([](UiState& ui) { ui.lower = LowerView::none; });
   ImGui::SameLine();
   ImGui::SetNextItemWidth(grid.right(name) - ImGui::GetCursorScreenPos().x);
   draw_shown_methods(w, session);

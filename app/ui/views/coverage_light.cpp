@@ -79,7 +79,7 @@ void draw_coverage_light(Widgets& w, const Session& session, bool explained) {
   const bool clicked = ImGui::IsItemClicked();
   w.register_item("Coverage", explained ? "Click to hide the meaning of the colours."
                                         : "Click to see what the colours mean (§2.2).");
-  if (clicked) w.ask([](Session&, UiState& ui) { ui.coverage_explained = !ui.coverage_explained; });
+  if (clicked) w.ask([](UiState& ui) { ui.coverage_explained = !ui.coverage_explained; });
   if (!explained) return;
   ImGui::Separator();
   for (const collide::Coverage each :

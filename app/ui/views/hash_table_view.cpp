@@ -80,7 +80,7 @@ void HashTableView::draw_squares(Widgets& w, const Session& session, float width
                                   grouped(square.fullest) + " with load " + grouped(square.load) + ". ";
     tooltip += click_tooltip;
     if (clicked)
-      w.ask([to = selected == square.fullest ? std::nullopt : std::optional(square.fullest)](Session& s, UiState&) {
+      w.ask([to = selected == square.fullest ? std::nullopt : std::optional(square.fullest)](Session& s) {
         s.inspector.select_bucket(to);
       });
   }

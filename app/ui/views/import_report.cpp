@@ -11,10 +11,10 @@ void draw_question(Widgets& w, const session::Import& import) {
   if (w.button("Play",
                "The frames run in place of the scene, and nothing is simulated. Undo (Ctrl+Z) brings the scene back.",
                w.px(80)))
-    w.ask([](Session& s, UiState&) { s.import.play(); });
+    w.ask([](Session& s) { s.import.play(); });
   ImGui::SameLine();
   if (w.button("Import", "Each file joins the scene as a soft body.", w.px(80)))
-    w.ask([](Session& s, UiState&) { s.import.import_each(); });
+    w.ask([](Session& s) { s.import.import_each(); });
   ImGui::SameLine();  // "Close" follows
 }
 
@@ -36,11 +36,11 @@ void draw_import_report(Widgets& w, const session::Import& import, const ScreenR
   if (import.busy()) {
     w.wrapped_text("Import progress", import.progress());
     if (w.button("Cancel###Cancel import", "Reads no further, and forgets the files that wait.", w.px(80)))
-      w.ask([](Session& s, UiState&) { s.import.cancel(); });
+      w.ask([](Session& s) { s.import.cancel(); });
   }
   if ((asks || (!import.report().empty() && !import.busy())) &&
       w.button("Close###Close import report", "Closes this report.", w.px(80)))
-    w.ask([](Session& s, UiState&) { s.import.dismiss_report(); });
+    w.ask([](Session& s) { s.import.dismiss_report(); });
   ImGui::End();
 }
 

@@ -29,7 +29,7 @@ void draw_check_box(Widgets& w, const Session& session, const std::string& label
   if (!w.register_item(ImGui::CheckboxFlags(label.c_str(), &state, all), label.c_str(), show_tooltip)) return;
   for (std::size_t m = 0; m < shown.size(); ++m)
     if (belongs(collide::method_table()[m])) shown[m] = state == all;
-  w.ask([shown](Session& s, UiState&) { s.comparison.choice.methods = shown; });
+  w.ask([shown](Session& s) { s.comparison.choice.methods = shown; });
 }
 
 void draw_method_line(Widgets& w, const Session& session, const collide::Method& method) {
@@ -40,7 +40,7 @@ void draw_method_line(Widgets& w, const Session& session, const collide::Method&
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   if (w.combo_item(method.name.c_str(), method.key == session.world().method().key, method.description.c_str()))
-    w.ask([&key = method.key](Session& s, UiState&) { s.settings.set_method(key); });
+    w.ask([&key = method.key](Session& s) { s.settings.set_method(key); });
   const StatusLight light = status_light(method);
   ImGui::SameLine(w.px(promise_column));
   w.dot(light.colour);

@@ -75,7 +75,7 @@ float draw_status(Widgets& w, const Session& session, bool explained, FloatingBo
   const ImVec2 top = ImGui::GetCursorScreenPos();
   ImGui::SetCursorScreenPos({top.x + ImGui::GetContentRegionAvail().x - side, top.y});
   if (w.button("x###Close lights", "Puts the lights away (L). Drag the box to move it.", side))
-    w.ask([](Session&, UiState& ui) { ui.lights = false; });
+    w.ask([](UiState& ui) { ui.lights = false; });
   ImGui::SetCursorScreenPos(top);
   ImGui::PushTextWrapPos(ImGui::GetContentRegionMax().x - side);
   draw_coverage_light(w, session, explained);

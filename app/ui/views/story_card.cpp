@@ -90,7 +90,7 @@ float StoryCard::draw(Widgets& w, const Session& session, const ScreenRect& area
   box_.begin(w, "Story", area, box_width(w, area), true);
   if (w.closable_heading("Contacts found in the same frame###story",
                          "Puts this card away (W or Esc). W brings it back."))
-    w.ask([](Session&, UiState& ui) { ui.set_story(false); });
+    w.ask([](UiState& ui) { ui.set_story(false); });
   draw_method(w, session.comparison, compare::method_index(collide::paper_method), " (the paper's)");
   if (const auto exact = exact_method(session)) draw_method(w, session.comparison, *exact, "");
   // The sentence has the same height whatever its length, so that the button does not move.

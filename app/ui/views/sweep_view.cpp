@@ -134,14 +134,14 @@ void draw_button(Widgets& w, const Session& session) {
   const float width = w.px(130);
   if (!session.sweep().running) {
     if (w.button("Sweep this frame###Sweep", sweep_tooltip, width))
-      w.ask([](Session& s, UiState&) { s.sweep_worker.start(s.world(), s.comparison.shown_methods()); });
+      w.ask([](Session& s) { s.sweep_worker.start(s.world(), s.comparison.shown_methods()); });
     return;
   }
   const bool cancelling = session.sweep_worker.cancelling();
   ImGui::BeginDisabled(cancelling);
   if (w.button(cancelling ? "Cancelling###Sweep" : "Cancel###Sweep", "Ends the sweep and keeps its results so far.",
                width))
-    w.ask([](Session& s, UiState&) { s.sweep_worker.cancel(); });
+    w.ask([](Session& s) { s.sweep_worker.cancel(); });
   ImGui::EndDisabled();
 }
 
@@ -216,7 +216,7 @@ void SweepView::draw_plot(Widgets& w, const Session& session, float height) {
   if (!under) return;
   const compare::SweepRow& row = session.sweep().report.rows[under->row];
   w.show_tooltip(point_tooltip(row).c_str());
-  if (clicked) w.ask([c = row.configuration](Session& s, UiState&) { apply(c, s); });
+  if (clicked) w.ask([c = row.configuration](Session& s) { apply(c, s); });
 }
 
 void SweepView::draw(Widgets& w, const Session& session, const ScreenRect& area) {
@@ -224,7 +224,7 @@ void SweepView::draw(Widgets& w, const Session& session, const ScreenRect& area)
   begin_dock("Error against run time###Sweep view", area, true, ImGuiWindowFlags_NoScrollbar);
   w.keep_tooltips_off();
   if (w.button("x###Close sweep", "Closes the plot (E). A sweep continues.", ImGui::GetFrameHeight()))
-    w.ask([](Session&, UiState& ui) { ui.lower = LowerView::none; });
+    w.ask([](UiState& ui) { ui.lower = LowerView::none; });
   ImGui::SameLine();
   draw_controls(w, session);
   const compare::MethodSet shown = session.comparison.shown_methods();

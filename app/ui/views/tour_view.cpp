@@ -25,7 +25,7 @@ void draw_corners(Widgets& w, const TourContext& context, const HashedCorner& sh
     const std::string number = std::to_string(i + 1);
     if (w.button(fmt::format("{}###Corner {}", number, number).c_str(),
                  "Shows the hash of this corner point of the box.", width))
-      w.ask([i](Session&, UiState& ui) { ui.tour.choose_corner(i); });
+      w.ask([i](UiState& ui) { ui.tour.choose_corner(i); });
     if (chosen) ImGui::PopStyleColor();
   }
 }
@@ -76,11 +76,11 @@ void draw_buttons(Widgets& w, const Tour& tour) {
   const float gap = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
   const bool first = tour.step() == 0, last = tour.step() + 1 == tour_steps().size();
   ImGui::BeginDisabled(first);
-  if (w.button("Back", "The page before (left arrow).", width)) w.ask([](Session&, UiState& ui) { ui.tour.back(); });
+  if (w.button("Back", "The page before (left arrow).", width)) w.ask([](UiState& ui) { ui.tour.back(); });
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::BeginDisabled(last);
-  if (w.button("Next", "The next page (right arrow).", width)) w.ask([](Session&, UiState& ui) { ui.tour.next(); });
+  if (w.button("Next", "The next page (right arrow).", width)) w.ask([](UiState& ui) { ui.tour.next(); });
   ImGui::EndDisabled();
   ImGui::SameLine();
   if (w.button("Close###Close tour",

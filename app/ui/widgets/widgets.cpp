@@ -153,7 +153,7 @@ bool Widgets::section(const char* label, bool open_at_first) {
   if (stored != sections_.end()) ImGui::SetNextItemOpen(stored->second, ImGuiCond_Once);
   const bool open = ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
   if (stored == sections_.end() || open != stored->second)
-    ask([name = std::string(label), open](session::Session&, UiState& ui) { ui.sections[name] = open; });
+    ask([name = std::string(label), open](UiState& ui) { ui.sections[name] = open; });
   return register_item(open, label, nullptr);
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -94,9 +95,17 @@ class Widgets {
     input_.update(px(3));
   }
 
-  /// Asks for a change of the session or of what the window shows. It is carried out after the drawing.
-  void ask(std::function<void(session::Session&, UiState&)> change) { requests_.emplace_back(std::move(change)); }
-  void ask(WindowTask task) { requests_.emplace_back(task); }
+  /// Asks for a task of the window, or for a change of the session, of what the window shows, or of both: a function of
+  /// Session&, UiState&, or both in this order. It is carried out after the drawing.
+  template <class Asked>
+  void ask(const Asked& asked) {
+    if constexpr (std::is_invocable_v<Asked, session::Session&>)
+      requests_.emplace_back([asked](session::Session& s, UiState&) { asked(s); });
+    else if constexpr (std::is_invocable_v<Asked, UiState&>)
+      requests_.emplace_back([asked](session::Session&, UiState& ui) { asked(ui); });
+    else
+      requests_.emplace_back(asked);
+  }
 
   /// Converts design pixels to ImGui units.
   float px(float design) const { return design * scale_; }
