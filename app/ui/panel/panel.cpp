@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include <fmt/core.h>
+
 namespace app::ui {
 namespace {
 
@@ -69,36 +71,28 @@ void draw_time_controls(Widgets& w, const Session& session) {
 }
 
 void draw_overlays(Widgets& w, const Session& session, const UiState& ui) {
-  const bool has_solver = session.simulated();
-  const auto next_cell = [&](std::size_t i) {
-    if (i % 2) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.54f);
-  };
   std::size_t i = 0;
-  for (const render::OverlayRow& row : render::overlay_table) {
-    if (row.needs_solver && !has_solver) continue;
-    next_cell(i++);
-    const std::string tooltip = std::string(row.tooltip) + " (" + row.shortcut + ")";
-    if (w.checkbox(std::string(row.label).c_str(), ui.overlays.*row.shown, tooltip.c_str()))
-      w.ask([&row](UiState& state) { state.overlays.*row.shown = !(state.overlays.*row.shown); });
-  }
-  next_cell(i++);
-  if (w.checkbox("Hash table", ui.hash_table, "Shows the hash table: each square is a bucket (T)."))
-    w.ask([](Session& s, UiState& state) { state.toggle_hash_table(s); });
-  const auto lower = [&](const char* label, LowerView view, const char* tooltip) {
-    next_cell(i++);
-    if (w.checkbox(label, ui.lower == view, tooltip)) w.ask([view](UiState& state) { state.toggle(view); });
+  const auto flag = [&](const char* label, bool shown, const char* tooltip, const auto& change) {
+    if (i++ % 2) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.54f);
+    if (w.checkbox(label, shown, tooltip)) w.ask(change);
   };
-  lower("Error vs run time###Error against run time", LowerView::sweep,
-        "Plots error against run time of the shown methods with many settings, on one frame (E).");
-  lower("Compare methods", LowerView::comparison,
-        "Shows the cost and the misses of methods side by side, on the same frame (V).");
-  next_cell(i++);
-  if (w.checkbox("Paper vs exact###Story", ui.story,
-                 "Counts and marks what the paper's method misses, and says why (W)."))
-    w.ask([](UiState& state) { state.set_story(!state.story); });
-  next_cell(i++);
-  if (w.checkbox("Status lights", ui.lights, "What to expect of the method and of the time step (L)."))
-    w.ask([](UiState& state) { state.lights = !state.lights; });
+  for (const render::OverlayRow& row : render::overlay_table)
+    if (!row.needs_solver || session.simulated())
+      flag(std::string(row.label).c_str(), ui.overlays.*row.shown,
+           fmt::format("{} ({})", row.tooltip, row.shortcut).c_str(),
+           [&row](UiState& state) { state.overlays.*row.shown = !(state.overlays.*row.shown); });
+  flag("Hash table", ui.hash_table, "Shows the hash table: each square is a bucket (T).",
+       [](Session& s, UiState& state) { state.toggle_hash_table(s); });
+  flag("Error vs run time###Error against run time", ui.lower == LowerView::sweep,
+       "Plots error against run time of the shown methods with many settings, on one frame (E).",
+       [](UiState& state) { state.toggle(LowerView::sweep); });
+  flag("Compare methods", ui.lower == LowerView::comparison,
+       "Shows the cost and the misses of methods side by side, on the same frame (V).",
+       [](UiState& state) { state.toggle(LowerView::comparison); });
+  flag("Paper vs exact###Story", ui.story, "Counts and marks what the paper's method misses, and says why (W).",
+       [](UiState& state) { state.set_story(!state.story); });
+  flag("Status lights", ui.lights, "What to expect of the method and of the time step (L).",
+       [](UiState& state) { state.lights = !state.lights; });
 }
 
 void draw_plan(Widgets& w, const Session& session, const UiState&) {
