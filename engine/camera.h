@@ -18,6 +18,8 @@ struct Orbit {
   float distance = 5.0f;    // m, from the target to the eye
   float azimuth = 0.6f;     // 0: the eye is on the target's +z side; grows towards +x
   float elevation = 0.35f;  // 0: level; positive: the eye is above the target
+
+  bool operator==(const Orbit&) const = default;
 };
 
 /// Pixels are framebuffer pixels from the top left corner of the viewport; `size` is the size of the viewport in
@@ -27,6 +29,8 @@ class Camera {
   static constexpr float max_elevation = 1.55f;  // just below the pole, where the picture would flip
 
   float fov = 0.7f;  // vertical field of view, radians
+
+  bool operator==(const Camera&) const = default;
 
   const Orbit& orbit() const { return current_; }
   /// Keeps the eye above a floor at this height (m); empty: no floor.

@@ -30,24 +30,25 @@ softbody/api/sbcollide:
 softbody/api: collide/api softbody/api/sbcollide softbody/mesh softbody/model softbody/mechanics softbody/scene softbody/world
 engine:
 engine/render: engine
-app/base: collide softbody engine
+app/base:
 app/files: app/base collide softbody engine
-app/compare: app/base app/files collide softbody engine
-app/reference: app/base collide softbody engine
-app/session/stability: app/base app/compare collide softbody engine
-app/session/live: app/base app/compare collide softbody engine
-app/session: app/base app/files app/compare app/session/stability app/session/live collide softbody engine
-app/session/export: app/base app/files app/compare app/session collide softbody engine
+app/compare: app/base collide softbody
+app/reference: softbody
+app/session/stability: app/base app/compare softbody
+app/session/live: app/base app/compare collide softbody
+app/session/export: app/base app/files app/compare engine
+app/session: app/base app/files app/compare app/session/stability app/session/live app/session/export collide softbody
 app/render: app/base app/files app/compare collide softbody engine
 app/report: app/base app/files app/compare app/reference collide softbody engine
-app/cli: app/base app/files app/compare app/report app/render collide softbody engine
-app/ui/widgets: app/base app/compare app/render collide softbody engine
-app/ui/views: app/base app/files app/compare app/session app/render app/ui/widgets collide softbody engine
-app/ui/tour: app/base app/compare app/session app/render app/ui/widgets app/ui/views collide softbody engine
-app/ui/panel: app/base app/files app/compare app/session app/render app/ui/widgets app/ui/views app/ui/tour collide softbody engine
-app/ui: app/base app/files app/compare app/session app/render app/ui/widgets app/ui/views app/ui/tour app/ui/panel collide softbody engine
-app/window: app/base app/files app/compare app/session app/render app/ui collide softbody engine
-app: app/base app/files app/cli app/report app/window collide softbody engine
+app/cli: app/base app/files app/compare app/report app/render collide softbody
+app/ui/tour: app/base app/compare app/session app/render collide softbody
+app/ui/state: app/session app/render app/ui/tour
+app/ui/widgets: app/base app/compare app/render app/ui/state
+app/ui/views: app/base app/compare app/session app/render app/ui/state app/ui/widgets softbody engine
+app/ui/panel: app/base app/session app/render app/ui/state app/ui/widgets app/ui/views collide softbody
+app/ui: app/session app/ui/state app/ui/widgets app/ui/views app/ui/panel
+app/window: app/base app/files app/session app/render app/ui softbody engine
+app: app/base app/files app/cli app/report app/window
 "
 
 # They include only each other of softbody, so that no change of the solver reaches app.

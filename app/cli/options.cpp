@@ -156,7 +156,7 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
 CLI::App* add_report(CLI::App& cli, Options& options) {
   report::ReportOptions& r = options.report;
   CLI::App* report = cli.add_subcommand("report", "measure for minutes; write tables and plots");
-  report->add_option("what", r.name, "detection, contact, solver or stability");
+  report->add_option("what", r.name, report::report_names(" or "));
   report->add_option("FILE", r.files, "detection: OBJ or PLY files, consecutive frames of your own in place of scenes");
   add(*report, "--tolerance", "H", r.tolerance, "of FILE: collision tolerance in metres");
   add_bodies_option(*report, r.by);
@@ -227,7 +227,7 @@ void check(const Options& options) {
 
 /// Throws UsageError for what does not go with the report.
 void check_report(const report::ReportOptions& r) {
-  if (r.name.empty()) throw UsageError("report: say which one: detection, contact, solver or stability");
+  if (r.name.empty()) throw UsageError("report: say which one: " + report::report_names(" or "));
   if (r.files.empty()) {
     for (const auto& [option, given] : {std::pair("--tolerance", r.tolerance.has_value()),
                                         {"--bodies", r.by.has_value()},

@@ -4,6 +4,9 @@
 #include <cassert>
 #include <span>
 
+#include <fmt/core.h>
+
+#include "app/base/text.h"
 #include "app/compare/cost_model.h"
 
 namespace app::compare {
@@ -83,6 +86,30 @@ BucketContents TableContents::bucket(std::uint32_t number) const {
   contents.items = static_cast<std::size_t>(std::unique(items.begin(), items.end()) - items.begin());
   contents.sharing = sharing_in(entries);
   return contents;
+}
+
+std::string cell_text(const Cell& cell) { return fmt::format("({}, {}, {})", cell[0], cell[1], cell[2]); }
+
+std::string sharing_text(const Sharing& sharing) {
+  return fmt::format("{} / {}", grouped(sharing.same_cell), grouped(sharing.aliased));
+}
+
+std::string bodies_text(const CellGroup& group, const BucketContents& bucket, const collide::DebugGeometry& debug,
+                        const collide::Bodies& of_world) {
+  constexpr std::size_t max_named = 3;
+  std::vector<collide::Index> bodies;
+  for (const collide::Index item : group.items)
+    bodies.push_back(bucket.vertices ? of_world.body_of(item) : debug.boxes[item].body);
+  std::ranges::sort(bodies);
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  std::string text = bodies.size() == 1 ? "body " : "bodies ";
+  const std::size_t named = bodies.size() <= max_named ? bodies.size() : max_named - 1;
+  for (std::size_t i = 0; i < named; ++i) {
+    if (i > 0) text += i + 1 == bodies.size() ? " and " : ", ";
+    text += std::to_string(bodies[i]);
+  }
+  if (named < bodies.size()) text.append(" and ").append(std::to_string(bodies.size() - named)).append(" more");
+  return text;
 }
 
 }  // namespace app::compare

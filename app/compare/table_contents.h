@@ -60,4 +60,14 @@ class TableContents {
 /// Returns the eight corners of a box in the order in which §2.2 hashes them: the minimum first, z fastest.
 std::array<glm::vec3, 8> corners_of(const collide::DebugGeometry::Box& box);
 
+/// Returns the bodies of the entries of one cell: "body 3", "bodies 0, 3 and 7", "bodies 0, 3 and 12 more".
+std::string bodies_text(const CellGroup& group, const BucketContents& bucket, const collide::DebugGeometry& debug,
+                        const collide::Bodies& of_world);
+
+/// Returns "(0, -1, 2)".
+std::string cell_text(const Cell& cell);
+
+/// Returns "12 / 3": the pairs in the same cell, and the aliased ones.
+std::string sharing_text(const Sharing& sharing);
+
 }  // namespace app::compare

@@ -1,10 +1,19 @@
 #pragma once
-// What can be drawn over the bodies. Panel, shortcuts, preferences, scene view and tests loop over one table.
+// What can be drawn over the bodies. Panel, shortcuts, preferences, scene view, legend and tests loop over one table.
 
-#include <array>
+#include <optional>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
+
+#include "app/compare/table_contents.h"
+#include "engine/frame_data.h"
+#include "softbody/world/bodies_in_motion.h"
 
 namespace app::render {
+
+struct OverlayRequest;
 
 struct Overlays {
   bool body_boxes = false;
@@ -21,42 +30,69 @@ struct Overlays {
   bool any() const { return *this != Overlays(); }
 };
 
+/// The viewpoint, and the number of pixels that 1 m covers at a distance of 1 m.
+struct Viewpoint {
+  glm::vec3 eye;
+  float pixels_at_one_metre;
+};
+
+/// Where the vertices of a world are drawn: of the meshes that it shows, and of those that it simulates.
+struct DrawnPoints {
+  std::span<const glm::vec3> shown, simulated;
+};
+
+/// What overlays are drawn from.
+struct OverlayInput {
+  const softbody::BodiesInMotion& world;
+  const OverlayRequest& request;
+  Viewpoint viewpoint;
+  DrawnPoints at;
+};
+
+/// What legends tell beside colours.
+struct LegendFacts {
+  const softbody::BodiesInMotion& world;
+  const collide::DebugGeometry* debug;          // as in OverlayRequest
+  const std::vector<collide::Contact>* missed;  // the same
+  std::string_view misses_of;                   // the name of the method that missed them
+};
+
+/// A line of a legend: a text, behind a sample of its colour if it has one.
+struct LegendLine {
+  std::string text;
+  std::optional<glm::vec3> colour{};
+  bool pale = false;
+  glm::vec3 (*scale)(float share) = nullptr;  // colours from this text (0) to `end` (1)
+  std::string end{};
+};
+
+/// What an overlay belongs to: the bodies as they are drawn, perhaps between two steps; or the present state; or the
+/// hash table of the present state.
+enum class OverlayBasis { picture, present, table };
+
 struct OverlayRow {
   std::string_view key;      // in preferences and tests
   std::string_view label;    // on the panel
   char shortcut;             // on the keyboard
   std::string_view tooltip;  // what it shows, with its section of the paper
   bool Overlays::*shown;
+  void (*add)(const OverlayInput& from, engine::FrameData& frame);
+  std::vector<LegendLine> (*legend)(const LegendFacts& facts) = nullptr;
+  int layer = 2;  // 0 to 2: higher ones are drawn later. A bucket is drawn between 1 and 2
+  OverlayBasis basis = OverlayBasis::picture;
   bool needs_solver = false;  // there is none where the motion is recorded
 };
 
-inline constexpr std::array<OverlayRow, 9> overlay_table{{
-    {"body-boxes", "Body boxes", '1', "The bounding box of each body, in the body's colour (§2.1).",
-     &Overlays::body_boxes},
-    {"boxes", "Subdivided boxes", '2',
-     "The boxes that the method hashes (§2.1). The colour is that of the bucket of the box's minimum corner (§2.2).",
-     &Overlays::boxes},
-    {"cells", "Occupied cells", '3', "The grid cells with at least one entry in the hash table (§2.2).",
-     &Overlays::cells},
-    {"contacts", "Contacts", '4',
-     "Pairs of vertices closer than the tolerance, and vertices that touch a solid (§2.3).", &Overlays::contacts},
-    {"springs", "Springs", '5',
-     "All springs, coloured by their strain. From far away only the springs along edges are drawn.", &Overlays::springs,
-     true},
-    {"missed", "Missed contacts", '6',
-     "True contacts that the paper's method misses, or the method that you choose in the comparison (V). A ring shows "
-     "where, and how many.",
-     &Overlays::missed},
-    {"areas", "Areas searched", '7', "Where the exact method searches for contacts between two bodies (§2.1, §5).",
-     &Overlays::areas},
-    {"touches", "Surface contacts", '8',
-     "The two closest points and the normal of each surface contact. There are none with vertex-vertex contact, and "
-     "none between bodies that sleep.",
-     &Overlays::surface_contacts, true},
-    {"true-surfaces", "True surfaces", '9',
-     "Checks the surfaces exactly: how many vertices are inside other bodies, and which of these overlaps have no "
-     "contact. The latter are drawn.",
-     &Overlays::true_surfaces},
-}};
+/// In the order of the panel.
+extern const std::span<const OverlayRow> overlay_table;
+
+/// True if an overlay is shown that belongs to this basis or to a later one.
+bool shows(const Overlays& shown, OverlayBasis basis);
+
+/// Adds the requested overlays.
+void add_overlays(const OverlayInput& from, engine::FrameData& frame);
+
+/// Returns the box of a grid cell, with the cells numbered as in §2.2. size: the sides of a cell.
+engine::Box cell_box(const compare::Cell& cell, const glm::vec3& size, const glm::vec4& colour);
 
 }  // namespace app::render

@@ -16,18 +16,24 @@
 
 namespace app::render {
 
-/// What to draw over the bodies. Pointers may be null. What they and the spans refer to must live until draw() returns.
-struct OverlayRequest {
+/// What the user chose to see over the bodies.
+struct OverlayChoice {
   Overlays shown;
+  std::optional<compare::Cell> bucket_cell;       // what is of this cell has another colour
+  std::optional<softbody::BodyId> selected_body;  // its outline is shown
+  std::optional<softbody::Grab> grab;             // what the hand holds
+
+  bool operator==(const OverlayChoice&) const = default;
+};
+
+/// What to draw over the bodies. Pointers may be null. What they and the spans refer to must live until draw() returns.
+struct OverlayRequest : OverlayChoice {
   const collide::DebugGeometry* debug = nullptr;    // for boxes, cells and the bucket
-  const compare::BucketContents* bucket = nullptr;  // its entries and cells are shown in any case ...
-  std::optional<compare::Cell> bucket_cell;         // ... those of this cell in another colour
-  std::optional<softbody::BodyId> selected_body;    // its outline is shown
+  const compare::BucketContents* bucket = nullptr;  // its entries and cells are shown in any case
   std::vector<collide::DebugGeometry::Box> areas;
   const std::vector<collide::Contact>* missed = nullptr;            // vertices of the present world
   std::span<const softbody::SurfaceContactPoint> surface_contacts;  // of the present world
   std::vector<softbody::SolidContactPoint> solid_contacts;          // of the present world
-  std::optional<softbody::Grab> grab;                               // what the hand holds
   std::span<const compare::SurfaceMark> marks;                      // of the present world
   const Highlight* highlight = nullptr;                             // everything else is faded
   const softbody::BodiesInMotion* ghost = nullptr;  // another world with the same bodies, drawn translucent
@@ -36,9 +42,6 @@ struct OverlayRequest {
 
 class SceneView {
  public:
-  static constexpr std::size_t max_boxes = 20'000;  // of each kind; the others are not drawn
-  static constexpr float max_shown_strain = 0.2f;   // change of length / rest length at the ends of the colour scale
-
   /// threads: prepare a picture. Requires a current context. Throws engine::ShaderError.
   explicit SceneView(const std::filesystem::path& shaders, int threads = 1) : renderer_(shaders), workers_(threads) {}
 

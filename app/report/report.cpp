@@ -5,6 +5,10 @@
 
 #include "app/base/usage_error.h"
 #include "app/files/scene_folder.h"
+#include "app/report/contact/results.h"
+#include "app/report/detection/results.h"
+#include "app/report/solver/results.h"
+#include "app/report/stability/results.h"
 #include "engine/resources.h"
 
 namespace app::report {
@@ -12,6 +16,7 @@ namespace {
 
 struct Report {
   std::string_view name;
+  /// Writes NAME.csv, a page and plots into options.out, after it has measured everything.
   void (*make)(const ReportOptions& options);
 };
 
@@ -21,12 +26,17 @@ constexpr std::array reports{Report{"detection", report_detection}, Report{"cont
 const Report& find_report(const std::string& name) {
   const auto found = std::ranges::find(reports, name, &Report::name);
   if (found != reports.end()) return *found;
-  std::string names;
-  for (const Report& r : reports) names.append(names.empty() ? "" : ", ").append(r.name);
-  throw UsageError("report " + name + ": unknown; use one of: " + names);
+  throw UsageError("report " + name + ": unknown; use one of: " + report_names());
 }
 
 }  // namespace
+
+std::string report_names(std::string_view before_last) {
+  std::string names;
+  for (const Report& r : reports)
+    names.append(names.empty() ? "" : &r == &reports.back() ? before_last : ", ").append(r.name);
+  return names;
+}
 
 void report(const ReportOptions& options) {
   const Report& report = find_report(options.name);

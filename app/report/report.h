@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/files/body_file.h"
@@ -28,14 +29,7 @@ struct ReportOptions {
 /// folder cannot be written to; and SceneError.
 void report(const ReportOptions& options);
 
-// The reports. Each writes NAME.csv, a page and plots into options.out, after it has measured everything.
-/// What each detector costs, and what it misses.
-void report_detection(const ReportOptions& options);
-/// How accurate each kind of contact is, judged by the surface oracle, and what it costs.
-void report_contact(const ReportOptions& options);
-/// What each integrator's error is, and what it costs.
-void report_solver(const ReportOptions& options);
-/// What each integrator survives.
-void report_stability(const ReportOptions& options);
+/// Returns the names of all reports, with ", " between two and `before_last` before the last.
+std::string report_names(std::string_view before_last = ", ");
 
 }  // namespace app::report

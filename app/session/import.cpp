@@ -169,32 +169,32 @@ void Import::refuse(const std::string& why) {
   problem_.set(path, why);
 }
 
-void Import::load(Session& session) {
+void Import::load() {
   if (path.empty() || reading_) return;
   report_.clear();
   problem_.clear();
   is_dropped_ = false;
-  open(session);
+  open();
 }
 
-void Import::open(Session& session) {
+void Import::open() {
   const std::filesystem::path file(path);
-  if (file.extension() == ".toml") return read(FileReader::SceneToRead{file, session.scenes.presets_file()}, session);
+  if (file.extension() == ".toml") return read(FileReader::SceneToRead{file, scenes_.presets_file()});
   if (!is_mesh(file)) return refuse(path + ": neither a mesh (.obj, .ply) nor a scene (.toml)");
   softbody::MeshFile mesh{.path = std::filesystem::absolute(file), .size = double{size}, .weld = weld};
   if (z_is_up) mesh.up = {0, 0, 1};
   mesh.resolution = resolution;
-  read(std::move(mesh), session);
+  read(std::move(mesh));
 }
 
-void Import::read(decltype(FileReader::Question::file) file, const Session& session) {
+void Import::read(decltype(FileReader::Question::file) file) {
   began_ = std::chrono::steady_clock::now();
   reading_ = true;
   stage_.clear();
-  reader_.offer({std::move(file), session.simulation.threads()});
+  reader_.offer({std::move(file), simulation_.threads()});
 }
 
-void Import::drop(const std::vector<std::string>& files, Session& session) {
+void Import::drop(const std::vector<std::string>& files) {
   std::vector<std::string> frames;
   if (!busy() && !frames_ && std::ranges::all_of(files, is_mesh))
     std::ranges::remove_copy_if(files, std::back_inserter(frames), is_rest_shape);
@@ -204,11 +204,11 @@ void Import::drop(const std::vector<std::string>& files, Session& session) {
     std::ranges::sort(frames, [](const auto& a, const auto& b) { return strverscmp(a.c_str(), b.c_str()) < 0; });
     path = frames.front();
     is_dropped_ = true;
-    read(FileReader::FramesToRead(frames.begin(), frames.end()), session);
+    read(FileReader::FramesToRead(frames.begin(), frames.end()));
   } else {
     dropped_.insert(dropped_.end(), files.begin(), files.end());
   }
-  update(session);
+  open_next();
 }
 
 std::string Import::question() const {
@@ -219,72 +219,85 @@ std::string Import::question() const {
       grouped(static_cast<std::size_t>(frames_->world.opened.recording->frame_count())));
 }
 
-void Import::play(Session& session) {
+void Import::play() {
   assert(frames_);
-  enter(session, std::move(std::exchange(frames_, std::nullopt)->world));
+  enter(std::move(std::exchange(frames_, std::nullopt)->world));
 }
 
-void Import::import_each(Session& session) {
+void Import::import_each() {
   assert(frames_);
   const std::vector<std::string> files = std::exchange(frames_, std::nullopt)->files;
   dropped_.insert(dropped_.begin(), files.begin(), files.end());
-  update(session);
+  open_next();
 }
 
-void Import::update(Session& session) {
+bool Import::update() {
+  bool has_joined = false;
   std::optional<FileReader::Answer> answer = reader_.take();
   if (auto* stage = answer ? std::get_if<FileReader::Stage>(&*answer) : nullptr) {
     stage_ = std::move(stage->name);
   } else if (answer) {
     reading_ = false;
-    if (!reader_.cancelled()) take(session, std::move(*answer));
+    if (!reader_.cancelled()) has_joined = take(std::move(*answer));
   }
+  open_next();
+  return has_joined;
+}
+
+/// Begins to read the first of the files that wait, if nothing else is read or asked.
+void Import::open_next() {
   if (reading_ || frames_ || dropped_.empty()) return;
   path = dropped_.front();
   dropped_.erase(dropped_.begin());
   is_dropped_ = true;
   problem_.clear();
-  open(session);
+  open();
 }
 
-void Import::take(Session& session, FileReader::Answer answer) {
+/// Returns true if it is a mesh that has joined the scene.
+bool Import::take(FileReader::Answer answer) {
   if (std::vector<std::string> files = std::exchange(together_, {}); !files.empty()) {
     if (auto* world = std::get_if<FileReader::World>(&answer)) {
       frames_.emplace(Frames{std::move(files), std::move(*world)});
-      if (!session.simulated()) play(session);  // no body could join
-    } else {                                    // they are no frames
+      if (!simulation_.simulated()) play();  // no body could join
+    } else {                                 // they are no frames
       dropped_.insert(dropped_.begin(), files.begin(), files.end());
     }
-    return;
+  } else if (const auto* why = std::get_if<std::string>(&answer)) {
+    refuse(*why);
+  } else if (auto* mesh = std::get_if<FileReader::Mesh>(&answer)) {
+    return join(std::move(*mesh));
+  } else {
+    enter(std::move(std::get<FileReader::World>(answer)));
   }
-  if (const auto* why = std::get_if<std::string>(&answer)) return refuse(*why);
-  if (auto* mesh = std::get_if<FileReader::Mesh>(&answer)) return join(session, std::move(*mesh));
-  enter(session, std::move(std::get<FileReader::World>(answer)));
+  return false;
 }
 
-void Import::enter(Session& session, FileReader::World answer) {
+void Import::enter(FileReader::World answer) {
   try {
-    session.scenes.enter(std::move(answer.shown), std::move(answer.opened.scene), answer.path.string());
+    scenes_.enter(std::move(answer.shown), std::move(answer.opened.scene), answer.path.string());
     add({.lines = {std::move(answer.what)}});
   } catch (const std::exception& error) {
     refuse(error.what());
   }
 }
 
-void Import::join(Session& session, FileReader::Mesh read) {
+bool Import::join(FileReader::Mesh read) {
   const std::string name = read.mesh.file.path.filename().string();
-  std::vector<std::string> lines = lines_about(read, session.world());
+  std::vector<std::string> lines = lines_about(read, simulation_.world());
   Material material = imported_material(read.mesh.imported->findings.extent);
-  softbody::BodySource body = place_above(session.world(), std::move(read.mesh));
+  softbody::BodySource body = place_above(simulation_.world(), std::move(read.mesh));
   const JoinedAt place{body.position, softbody::bounding_radius(body.mesh.imported->mesh)};
-  session.bodies.add(std::move(body), std::move(material));
-  Notice& notice = session.simulation.notice;
+  bodies_.add(std::move(body), std::move(material));
+  Notice& notice = simulation_.notice;
   if (notice.is_error()) {
     refuse(name + ": " + notice.text());
-    return notice.clear();  // once is enough
+    notice.clear();  // once is enough
+    return false;
   }
   joined_ = place;
   add({.lines = std::move(lines)});
+  return true;
 }
 
 }  // namespace app::session

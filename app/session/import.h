@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "app/base/background.h"
-#include "app/session/session.h"
+#include "app/session/body_controls.h"
+#include "app/session/scene_controls.h"
 
 namespace app::session {
 
@@ -69,6 +70,10 @@ class Import {
   static constexpr float min_size = 0.05f, max_size = 20;   // m
   static constexpr double min_weld = 1e-7, max_weld = 0.1;  // times a mesh's size
 
+  /// They must outlive this.
+  Import(Simulation& simulation, SceneControls& scenes, BodyControls& bodies)
+      : simulation_(simulation), scenes_(scenes), bodies_(bodies) {}
+
   std::string path;                         // OBJ, PLY or TOML
   float size = 1;                           // m, the largest extent that a mesh is scaled to
   double weld = softbody::MeshFile{}.weld;  // times the size, see softbody::MeshFile
@@ -77,22 +82,22 @@ class Import {
 
   /// Begins to read the file of `path`. A scene then replaces the present one; a mesh is added to it. problem() says
   /// why a file is refused.
-  void load(Session& session);
+  void load();
   /// Does the same with files that were dropped on the window, one after another. report() says why one is refused. If
   /// they are meshes that fit together as frames, question() asks first whether to play them; the rest shape that an
   /// export of motion writes beside them is no frame. Files that are dropped meanwhile wait for the answer.
-  void drop(const std::vector<std::string>& files, Session& session);
-  /// Takes what has been read. Call it once a frame.
-  void update(Session& session);
+  void drop(const std::vector<std::string>& files);
+  /// Takes what has been read, and begins with the next file that waits. Call it once a frame. Returns true if a mesh
+  /// has joined the scene.
+  bool update();
+  /// Returns a sphere around the place where the last mesh has joined, which may be out of sight.
+  const std::optional<JoinedAt>& joined() const { return joined_; }
 
   /// Returns the question whether to play the files that were dropped, or to import each; empty if there is none.
   std::string question() const;
   // The answers to question().
-  void play(Session& session);
-  void import_each(Session& session);
-
-  /// Returns a sphere around the place where the last mesh has joined the scene, once: it may be out of sight.
-  std::optional<JoinedAt> take_joined() { return std::exchange(joined_, std::nullopt); }
+  void play();
+  void import_each();
 
   /// Returns true while something is read; not while question() waits for the user.
   bool busy() const { return reading_ || (!frames_ && !dropped_.empty()); }
@@ -117,14 +122,18 @@ class Import {
     FileReader::World world;
   };
 
-  void open(Session& session);
+  void open();
+  void open_next();
   void add(FileReport file_report);
   void refuse(const std::string& why);
-  void read(decltype(FileReader::Question::file) file, const Session& session);
-  void take(Session& session, FileReader::Answer answer);
-  void enter(Session& session, FileReader::World answer);
-  void join(Session& session, FileReader::Mesh read);
+  void read(decltype(FileReader::Question::file) file);
+  bool take(FileReader::Answer answer);
+  void enter(FileReader::World answer);
+  bool join(FileReader::Mesh read);
 
+  Simulation& simulation_;
+  SceneControls& scenes_;
+  BodyControls& bodies_;
   FieldNotice problem_;
   bool is_dropped_ = false;  // the file that is read; else load() was called
   std::vector<FileReport> report_;

@@ -12,7 +12,9 @@ Session::Session(files::Opened opened, const std::filesystem::path& scene_folder
       scenes(simulation, scene_folder),
       bodies(simulation),
       settings(simulation),
-      inspector(simulation) {
+      inspector(simulation),
+      import(simulation, scenes, bodies),
+      exporter(simulation, comparison) {
   comparison.restart(world(), simulation.revision());
 }
 
@@ -24,13 +26,13 @@ void Session::advance(double elapsed, bool waited) {
 }
 
 void Session::let_pass(double elapsed) {
-  simulation.let_pass(elapsed);
+  simulation.notice.age(elapsed);
   exchange();
 }
 
 bool Session::stands_still() const {
-  if (simulation.clock.paused) return simulation.clock.stands_still();
-  return simulation.has_come_to_rest() && ghost_.at_rest();
+  if (simulation.clock.paused) return !simulation.clock.owes_single_step();
+  return simulation.has_long_been_at_rest() && ghost_.at_rest();
 }
 
 bool Session::awaits_answer() const {
@@ -56,6 +58,7 @@ void Session::exchange() {
   const int rests = late || simulation.step_ms() > 500 * world().frame_time() ? 10 : 2;
   comparison.exchange(world(), simulation.revision(), simulation.world_number(), rests);
   surfaces.exchange(world(), simulation.before_last_step().simulated(), simulation.revision(), rests);
+  if (auto state = sweep_worker.take()) sweep_ = std::move(*state);
   // With its first report of another world the comparison has let go of the one before; all others did so earlier.
   if (has_left_world_ && comparison.report().id != 0) {
     return_freed_memory();

@@ -3,9 +3,12 @@
 
 #include "app/session/body_controls.h"
 #include "app/session/detection_inspector.h"
+#include "app/session/exporter.h"
+#include "app/session/import.h"
 #include "app/session/live/ghost.h"
 #include "app/session/live/live_comparison.h"
 #include "app/session/live/surface_monitor.h"
+#include "app/session/live/sweep_worker.h"
 #include "app/session/run_ahead.h"
 #include "app/session/scene_controls.h"
 #include "app/session/setting_controls.h"
@@ -20,7 +23,6 @@ class Session : private SimulationObserver {
   /// key. Throws SceneError.
   Session(files::Opened opened, const std::filesystem::path& scene_folder, int threads, std::string scene_name = "");
   Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
 
   Simulation simulation;
   RunAhead run_ahead;
@@ -31,6 +33,9 @@ class Session : private SimulationObserver {
   // On threads of their own, some frames late.
   LiveComparison comparison;
   SurfaceMonitor surfaces;
+  SweepWorker sweep_worker;
+  Import import;
+  Exporter exporter;
 
   const softbody::BodiesInMotion& world() const { return simulation.world(); }
   /// Returns the world if it is simulated; nullptr where recorded frames are played.
@@ -54,6 +59,8 @@ class Session : private SimulationObserver {
   /// settings change the one that is shown, which must be simulated. Nothing: there is none.
   void choose_ghost(const std::optional<softbody::IntegratorChoice>& choice);
   const Ghost& ghost() const { return ghost_; }
+  /// The latest of sweep_worker.
+  const SweepState& sweep() const { return sweep_; }
 
  private:
   double stepped() override;
@@ -66,6 +73,7 @@ class Session : private SimulationObserver {
   void notify(const std::string& problem);
 
   Ghost ghost_;
+  SweepState sweep_;
   bool has_left_world_ = false;  // whose memory is not yet given back
 };
 

@@ -24,6 +24,21 @@ ShownWorld bring_back(const decltype(KeptWorld::world)& kept, int threads) {
   return world;
 }
 
+/// Returns what is shown, with the scene that it was loaded from, under the name of the change that follows. `leaves`:
+/// it changes to another world. Without the hand that may hold a body: after an undo nobody would let go.
+KeptWorld keep(const ShownWorld& shown, const LoadedScene& loaded, std::string change, bool leaves = false) {
+  if (const auto* player = std::get_if<std::shared_ptr<Player>>(&shown))
+    return {KeptPlayer{*player, (*player)->scene()}, loaded, std::move(change), leaves};
+  softbody::Snapshot now = std::get<0>(shown)->snapshot();
+  now.grab.reset();
+  return {std::move(now), loaded, std::move(change), leaves};
+}
+
+World& solver(const ShownWorld& shown) {
+  if (shown.index() == 1) throw softbody::SceneError("no body can join or change: the motion is recorded");
+  return *std::get<0>(shown);
+}
+
 }  // namespace
 
 Simulation::Simulation(files::Opened opened, int threads, std::string scene_name, SimulationObserver* observer)
@@ -35,12 +50,12 @@ Simulation::Simulation(files::Opened opened, int threads, std::string scene_name
 }
 
 void Simulation::advance(double elapsed, bool stands_still) {
-  let_pass(elapsed);
+  notice.age(elapsed);
   if (!stands_still) clock.advance(elapsed, world().frame_time(), [this] { return step(); });
 }
 
 void Simulation::advance_one(double elapsed, bool allowed) {
-  let_pass(elapsed);
+  notice.age(elapsed);
   if (allowed) clock.advance_one([this] { return step(); });
 }
 
@@ -80,7 +95,7 @@ bool Simulation::step(Player& player) {
   if (is_last && !loop) clock.paused = true;
   if (player.frame() < frame) {  // it begins again, and nothing moved from the end to the start
     before_last_step_.copy(player);
-    forget_later_steps();
+    history.forget_from(player.frame());
   }
   if (player.bodies().count() >= bodies) return stepped;
   ++revision_;
@@ -89,7 +104,7 @@ bool Simulation::step(Player& player) {
   return stepped;
 }
 
-bool Simulation::has_come_to_rest() const {
+bool Simulation::has_long_been_at_rest() const {
   if (last_revision_ != revision_ || rest_steps_ < TimeSeries::capacity) return false;
   const auto is_past = [this](const softbody::Caption& caption) { return caption.frame <= world().frame(); };
   return world().all_at_rest() && (!as_scripted_ || std::ranges::all_of(world().scene().captions, is_past));
@@ -97,10 +112,6 @@ bool Simulation::has_come_to_rest() const {
 
 float Simulation::between() const {
   return world().all_at_rest() ? 1.0f : static_cast<float>(clock.fraction(world().frame_time()));
-}
-
-compare::DrawnMeshes Simulation::drawn(bool whole_steps) const {
-  return {world(), before_last_step_, whole_steps ? 1.0f : between()};
 }
 
 const std::string& Simulation::caption() const {
@@ -135,11 +146,6 @@ bool Simulation::attempt(const std::function<void()>& action) {
   return false;
 }
 
-softbody::World& Simulation::solver() {
-  if (player()) throw softbody::SceneError("no body can join or change: the motion is recorded");
-  return *std::get<0>(shown_);
-}
-
 /// Returns what `change` returns: whether it changed anything. False if it throws.
 bool Simulation::intervene(const std::function<bool()>& change) {
   notice.clear();
@@ -156,10 +162,11 @@ bool Simulation::intervene(const std::function<bool()>& change) {
 /// `joins`: undo() takes the change together with the one before it.
 bool Simulation::carry_out(const std::string& name, bool joins, const std::function<bool()>& change) {
   std::optional<KeptWorld> before;
-  if (!joins) before = present(name);
+  if (!joins) before = keep(shown_, loaded, name);
   if (!intervene(change)) return false;
   if (before) kept_.push(std::move(*before));
-  if (before_pull_) before_pull_ = present(before_pull_->change);  // a pull that goes on is undone up to here
+  if (before_pull_)
+    before_pull_ = keep(shown_, loaded, before_pull_->change);  // a pull that goes on is undone up to here
   return true;
 }
 
@@ -174,33 +181,33 @@ bool Simulation::change_scene(const std::string& name, const std::function<void(
 }
 
 bool Simulation::change_solver(const std::string& name, const std::function<void(World&)>& change) {
-  return carry_out(name, kept_.ends_with(name), [&] { return change(solver()), true; });
+  return carry_out(name, kept_.ends_with(name), [&] { return change(solver(shown_)), true; });
 }
 
 bool Simulation::change_bodies(const std::string& name, const std::function<bool(World&)>& change) {
   as_scripted_ = false;
   const std::size_t bodies = world().bodies().count();
-  const bool changed = carry_out(name, false, [&] { return change(solver()); });
+  const bool changed = carry_out(name, false, [&] { return change(solver(shown_)); });
   if (world().bodies().count() < bodies) replace(false);  // bodies after a deleted one have other ids
   return changed;
 }
 
 void Simulation::grab(const softbody::Grab& grab) {
   as_scripted_ = false;
-  KeptWorld before = present("pull of a body");
-  if (intervene([&] { return solver().grab(grab), true; })) before_pull_ = std::move(before);
+  KeptWorld before = keep(shown_, loaded, "pull of a body");
+  if (intervene([&] { return solver(shown_).grab(grab), true; })) before_pull_ = std::move(before);
 }
 
 void Simulation::pull_to(const glm::dvec3& target) {
-  std::optional<softbody::Grab> grab = grabbed();
+  std::optional<softbody::Grab> grab = grabbed(*this);
   if (!grab) return;
   if (before_pull_) kept_.push(*std::exchange(before_pull_, std::nullopt));
   grab->target = target;
-  solver().grab(grab);
+  solver(shown_).grab(grab);
 }
 
 void Simulation::release() {
-  if (grabbed()) solver().grab({});
+  if (grabbed(*this)) solver(shown_).grab({});
   before_pull_.reset();
 }
 
@@ -212,14 +219,6 @@ void Simulation::replace(bool new_scene) {
   ++revision_;
   ++world_number_;
   observer_.replaced(new_scene);
-}
-
-/// Without the hand that may hold a body: after an undo nobody would let go.
-KeptWorld Simulation::present(std::string change, bool leaves) const {
-  if (player()) return {KeptPlayer{std::get<1>(shown_), world().scene()}, loaded, std::move(change), leaves};
-  softbody::Snapshot now = simulated()->snapshot();
-  now.grab.reset();
-  return {std::move(now), loaded, std::move(change), leaves};
 }
 
 void Simulation::leave_for(ShownWorld next) {
@@ -241,7 +240,7 @@ void Simulation::leave_for(ShownWorld next) {
 }
 
 void Simulation::enter(ShownWorld world, LoadedScene scene, std::string name) {
-  kept_.push(present(std::move(name), true));
+  kept_.push(keep(shown_, loaded, std::move(name), true));
   loaded = std::move(scene);
   leave_for(std::move(world));
 }
@@ -260,7 +259,7 @@ void Simulation::reset() {
 void Simulation::go(Way way) {
   if (kept_.empty(way)) return notice.tell(way == Way::back ? "Nothing to undo" : "Nothing to redo");
   KeptWorld there = kept_.next(way);
-  KeptWorld here = present(there.change, there.leaves);
+  KeptWorld here = keep(shown_, loaded, there.change, there.leaves);
   const auto arrive = [&] {
     kept_.turn(way, std::move(here));
     loaded = std::move(there.loaded);
@@ -278,7 +277,7 @@ void Simulation::go(Way way) {
       if (const auto* played = std::get_if<KeptPlayer>(&there.world))
         std::get<1>(shown_)->apply(played->scene);
       else
-        solver().restore(std::get<0>(there.world));
+        solver(shown_).restore(std::get<0>(there.world));
       return true;
     });
     after_going_back();
@@ -293,7 +292,7 @@ void Simulation::rewind_to(int frame) {
   notice.clear();
   attempt([&] {
     if (player()) return std::get<1>(shown_)->show(frame);
-    World& world = solver();
+    World& world = solver(shown_);
     const softbody::Scene in_use = world.scene();
     const softbody::IntegratorChoice integrator = world.integrator_choice();
     world.restore(past.snapshots()[past.at(frame)]);
@@ -304,15 +303,9 @@ void Simulation::rewind_to(int frame) {
   after_going_back();
 }
 
-/// Forgets what was recorded of this frame and of later ones.
-void Simulation::forget_later_steps() {
-  for (TimeSeries* series : {&history.detect_ms, &history.solve_ms, &history.contacts})
-    series->forget_from(world().frame());
-}
-
 void Simulation::after_going_back() {
   if (simulated()) stability_.went_back(*simulated());
-  forget_later_steps();
+  history.forget_from(world().frame());
   replace(false);
 }
 

@@ -36,6 +36,11 @@ class SimulationObserver {
 struct StepHistory {
   TimeSeries frame_ms;  // real time from picture to picture, without those that waited on purpose
   TimeSeries detect_ms, solve_ms, contacts;
+
+  /// Forgets the steps of this frame and of later ones.
+  void forget_from(int frame) {
+    for (TimeSeries* series : {&detect_ms, &solve_ms, &contacts}) series->forget_from(frame);
+  }
 };
 
 /// What a session shows: a world that simulates, or a recording that is played. Who needs a solver takes the World.
@@ -56,7 +61,6 @@ class Simulation {
   /// scene_name: what the scene is found by; empty: its key. `observer`, if any, must outlive this. Throws SceneError.
   Simulation(files::Opened opened, int threads, std::string scene_name = "", SimulationObserver* observer = nullptr);
   Simulation(const Simulation&) = delete;
-  Simulation& operator=(const Simulation&) = delete;
 
   /// Returns what is shown: one of these two, of which the other is nullptr.
   const softbody::BodiesInMotion& world() const {
@@ -64,16 +68,12 @@ class Simulation {
   }
   const softbody::World* simulated() const { return shown_.index() == 0 ? std::get<0>(shown_).get() : nullptr; }
   const Player* player() const { return shown_.index() == 1 ? std::get<1>(shown_).get() : nullptr; }
-  /// Returns what the hand holds.
-  std::optional<softbody::Grab> grabbed() const { return simulated() ? simulated()->grabbed() : std::nullopt; }
   int threads() const { return threads_; }
 
   // Time. The world moves in whole frames.
   /// Takes the steps that are due, now that `elapsed` seconds of real time have passed; none if the world
   /// `stands_still`.
   void advance(double elapsed, bool stands_still = false);
-  /// In place of advance() while no pictures are drawn: the world stands still.
-  void let_pass(double elapsed) { notice.age(elapsed); }
   /// In place of advance() while frames are exported: takes one step if `allowed`, however long it takes.
   void advance_one(double elapsed, bool allowed);
   /// How long (ms) the last step took, the observer's work with it.
@@ -82,15 +82,14 @@ class Simulation {
   /// How far a picture is on the way from before_last_step() to the present, 0 .. 1: below 1 only in slow motion, which
   /// would jerk otherwise.
   float between() const;
-  /// `whole_steps`: as if between() were 1.
-  compare::DrawnMeshes drawn(bool whole_steps = false) const;
+  compare::DrawnMeshes drawn() const { return {world(), before_last_step_, between()}; }
   /// The scene's sentence for this moment. Empty if there is none, or the user changed bodies.
   const std::string& caption() const;
   /// Changes whenever positions or contacts may have changed: not with steps of a world at rest.
   std::uint64_t revision() const { return revision_; }
   /// Returns true if steps would change nothing but the number of the frame: all bodies have been at rest for as long
   /// as curves last, and no caption is still to come.
-  bool has_come_to_rest() const;
+  bool has_long_been_at_rest() const;
   /// Another number after each SimulationObserver::replaced().
   std::uint64_t world_number() const { return world_number_; }
 
@@ -129,15 +128,12 @@ class Simulation {
   bool intervene(const std::function<bool()>& change);
   bool carry_out(const std::string& name, bool joins, const std::function<bool()>& change);
   void replace(bool new_scene);
-  KeptWorld present(std::string change, bool leaves = false) const;
   void leave_for(ShownWorld next);
   void go(Way way);
   void after_going_back();
-  void forget_later_steps();
   bool step(softbody::World& world);
   bool step(Player& player);
   SimulationClock::Step step();
-  softbody::World& solver();
 
   SimulationObserver none_;
   SimulationObserver& observer_;
@@ -153,6 +149,11 @@ class Simulation {
   std::uint64_t last_revision_ = 0;  // after the last step
   std::size_t rest_steps_ = 0;       // without another revision
 };
+
+/// Returns what the hand holds.
+inline std::optional<softbody::Grab> grabbed(const Simulation& simulation) {
+  return simulation.simulated() ? simulation.simulated()->grabbed() : std::nullopt;
+}
 
 /// Returns what shows a scene, or plays frames, in a window. Throws SceneError.
 ShownWorld show_in_window(const files::Opened& opened, int threads);

@@ -34,8 +34,8 @@ class SimulationClock {
   void advance_one(const Stepper& step);
   /// Pauses, and lets the next advance() take one step.
   void single_step();
-  /// Returns true if advance() would take no step, however much time passes.
-  bool stands_still() const { return paused && !single_step_; }
+  /// Returns true if the next advance() takes one step, though the world is paused.
+  bool owes_single_step() const { return single_step_; }
   /// Another world: no time is owed.
   void restart();
 

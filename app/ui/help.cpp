@@ -54,7 +54,7 @@ void draw_entries(Widgets& w, const Entries& entries, float left) {
 
 }  // namespace
 
-void draw_help(Widgets& w, const ScreenRect& area, bool& open) {
+void draw_help(Widgets& w, const ScreenRect& area) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const Entries keys = keyboard(), others = overlays_and_mouse();
   const float first = width_of(w, keys), both = first + w.px(between_columns) + width_of(w, others);
@@ -65,6 +65,7 @@ void draw_help(Widgets& w, const ScreenRect& area, bool& open) {
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x, display.y - w.px(8)});  // a higher text scrolls
   ImGui::SetNextWindowBgAlpha(1.0f);  // the hash table's squares would make it hard to read
+  bool open = true;
   ImGui::Begin("Help", &open,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                    ImGuiWindowFlags_NoSavedSettings);
@@ -85,6 +86,7 @@ void draw_help(Widgets& w, const ScreenRect& area, bool& open) {
   ImGui::Spacing();
   if (w.button("Close", "Closes the help (F1 or Esc).", w.px(80))) open = false;
   ImGui::End();
+  if (!open) w.ask([](UiState& ui) { ui.help = false; });
 }
 
 }  // namespace app::ui

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "app/session/session.h"
-#include "app/ui/panel/ui_state.h"
+#include "app/ui/state/ui_state.h"
 #include "app/ui/widgets/dock.h"
 
 namespace app::ui {

@@ -51,8 +51,7 @@ constexpr std::array shortcut_table{
              [](Session& s, UiState&) { s.bodies.drop(session::BodyControls::many_drops); }, false, GLFW_MOD_SHIFT,
              true},
     Shortcut{GLFW_KEY_D, 0, "D", "Drop a body", [](Session& s, UiState&) { s.bodies.drop(); }, false, 0, true},
-    Shortcut{GLFW_KEY_B, 0, "B", "Throw a body at the mouse", [](Session&, UiState& ui) { ui.throw_body = true; },
-             false, 0, true},
+    Shortcut{GLFW_KEY_B, 0, "B", "Throw a body at the mouse", WindowTask::throw_body, false, 0, true},
     Shortcut{GLFW_KEY_DELETE, GLFW_KEY_BACKSPACE, "Del", "Delete the selected body",
              [](Session& s, UiState&) { s.bodies.remove_selected(); }, false, 0, true},
     Shortcut{GLFW_KEY_M, 0, "M", "Next shown method", [](Session& s, UiState&) { next_method(s); }},
@@ -75,9 +74,9 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_W, 0, "W", "What the paper's method misses",
              [](Session&, UiState& ui) { ui.set_story(!ui.story); }},
     Shortcut{GLFW_KEY_L, 0, "L", "Status lights", [](Session&, UiState& ui) { ui.lights = !ui.lights; }},
-    Shortcut{GLFW_KEY_T, 0, "T", "Hash table", [](Session&, UiState& ui) { ui.hash_table = !ui.hash_table; }},
-    Shortcut{GLFW_KEY_C, 0, "C", "Reset the camera", [](Session&, UiState& ui) { ui.reset_camera = true; }},
-    Shortcut{GLFW_KEY_P, 0, "P", "Take a picture", [](Session&, UiState& ui) { ui.exporter.picture_requested = true; }},
+    Shortcut{GLFW_KEY_T, 0, "T", "Hash table", [](Session& s, UiState& ui) { ui.toggle_hash_table(s); }},
+    Shortcut{GLFW_KEY_C, 0, "C", "Reset the camera", WindowTask::reset_camera},
+    Shortcut{GLFW_KEY_P, 0, "P", "Take a picture", [](Session& s, UiState&) { s.exporter.picture_requested = true; }},
     Shortcut{GLFW_KEY_H, 0, "H", "Hide or show the panel", [](Session&, UiState& ui) { ui.panel = !ui.panel; }},
     Shortcut{GLFW_KEY_X, GLFW_KEY_F11, "X or F11", "Nothing but the scene",
              [](Session&, UiState& ui) { ui.clean = !ui.clean; }},
@@ -91,7 +90,7 @@ constexpr std::array shortcut_table{
                s.bodies.select(std::nullopt);
                s.inspector.select_bucket(std::nullopt);
              }},
-    Shortcut{GLFW_KEY_Q, 0, "Q", "Quit", [](Session&, UiState& ui) { ui.quit = true; }},
+    Shortcut{GLFW_KEY_Q, 0, "Q", "Quit", WindowTask::quit},
 };
 
 constexpr std::array mouse_table{
@@ -106,11 +105,11 @@ constexpr std::array mouse_table{
     HelpLine{"", "Meshes with the same vertices: plays them"},
 };
 
-/// If there is no solver, but something needs one, says so and returns true.
-bool refuse_without_solver(Session& session, bool needs_solver, std::string_view what) {
-  if (!needs_solver || session.simulated()) return false;
-  session.simulation.notice.tell(std::string(what) + ": left out, " + no_solver_text);
-  return true;
+/// Returns a request for `action`, or for the reason where it needs a solver and there is none. `what`: the action.
+Request with_solver(const Session& session, bool needs_solver, std::string_view what, Request action) {
+  if (!needs_solver || session.simulated()) return action;
+  return
+      [what](Session& s, UiState&) { s.simulation.notice.tell(std::string(what) + ": left out, " + no_solver_text); };
 }
 
 }  // namespace
@@ -118,23 +117,22 @@ bool refuse_without_solver(Session& session, bool needs_solver, std::string_view
 std::span<const Shortcut> shortcuts() { return shortcut_table; }
 std::span<const HelpLine> mouse_actions() { return mouse_table; }
 
-bool handle_key(int key, bool repeat, Session& session, UiState& ui, int mods) {
+std::optional<Request> request_by_key(const Session& session, int key, bool repeat, int mods) {
   // Shift is ignored where no shortcut asks for it. With one of these a key means something else in every program.
   constexpr int other_mods = GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER;
   for (const render::OverlayRow& row : render::overlay_table) {
     if (key != row.shortcut || repeat || mods & other_mods) continue;
-    if (!refuse_without_solver(session, row.needs_solver, row.label))
-      ui.overlays.*row.shown = !(ui.overlays.*row.shown);
-    return true;
+    return with_solver(session, row.needs_solver, row.label,
+                       [shown = row.shown](Session&, UiState& ui) { ui.overlays.*shown = !(ui.overlays.*shown); });
   }
   for (const Shortcut& shortcut : shortcut_table) {
     if (key != shortcut.key && (shortcut.other_key == 0 || key != shortcut.other_key)) continue;
     if ((mods & shortcut.mods) != shortcut.mods || (mods & ~shortcut.mods) & other_mods) continue;
-    if (repeat && !shortcut.repeats) return false;
-    if (!refuse_without_solver(session, shortcut.needs_solver, shortcut.text)) shortcut.act(session, ui);
-    return true;
+    if (repeat && !shortcut.repeats) return std::nullopt;
+    const auto request = [](const auto& act) { return Request(act); };
+    return with_solver(session, shortcut.needs_solver, shortcut.text, std::visit(request, shortcut.act));
   }
-  return false;
+  return std::nullopt;
 }
 
 }  // namespace app::ui

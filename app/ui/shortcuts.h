@@ -1,10 +1,10 @@
 #pragma once
-// The keyboard shortcuts: one table that handle_key() runs and the help lists.
+// The keyboard shortcuts: one table in which request_by_key() looks and which the help lists.
 
 #include <span>
 
-#include "app/session/session.h"
-#include "app/ui/panel/ui_state.h"
+#include "app/ui/state/requests.h"
+#include "app/ui/state/ui_state.h"
 
 namespace app::ui {
 
@@ -12,7 +12,7 @@ struct Shortcut {
   int key, other_key;          // GLFW_KEY_* or a character, as in engine::KeyPress; other_key 0: none
   std::string_view keys_text;  // the keys, in the help; empty: another row mentions them
   std::string_view text;       // what they do, in the help
-  void (*act)(Session& session, UiState& ui);
+  std::variant<void (*)(Session& session, UiState& ui), WindowTask> act;
   bool repeats = false;       // also acts repeatedly while the key is held
   int mods = 0;               // GLFW_MOD_* that must be down
   bool needs_solver = false;  // left out where the motion is recorded
@@ -21,8 +21,8 @@ struct Shortcut {
 /// All shortcuts except the overlays' digits, which are in overlay_table.
 std::span<const Shortcut> shortcuts();
 
-/// Runs the shortcut of a key. Returns false if the key has none.
-bool handle_key(int key, bool repeat, Session& session, UiState& ui, int mods = 0);
+/// Returns what a key asks for; nothing if it has no shortcut.
+std::optional<Request> request_by_key(const Session& session, int key, bool repeat, int mods = 0);
 
 /// A line of the help.
 struct HelpLine {

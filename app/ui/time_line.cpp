@@ -23,30 +23,31 @@ std::string state_text(const Session& session) {
 }
 
 /// Draws the slider through all frames that can be played, whether they were shown or not.
-void draw_frames(Widgets& w, Session& session, const session::Player& player) {
+void draw_frames(Widgets& w, const session::Player& player) {
   int frame = player.frame();
   const int last = player.recording()->frame_count() - 1;
   ImGui::BeginDisabled(last == 0);
   if (w.slider("Time line", frame, 0, last, fmt::format("frame %d of {}", grouped(std::uint64_t(last))).c_str(),
                "Drag it to any frame; frames count from 0. It pauses there."))
-    session.simulation.rewind_to(frame);
+    w.ask([frame](Session& s) { s.simulation.rewind_to(frame); });
   ImGui::EndDisabled();
 }
 
 /// Draws how fast the frames that are played follow each other, and whether they begin again.
-void draw_speed(Widgets& w, Session& session) {
+void draw_speed(Widgets& w, const Session& session) {
   const double frame_time = session.world().frame_time();
   double rate = session.simulation.clock.speed / frame_time;
-  w.checkbox("Loop", session.simulation.loop, "Begins again after the last frame, and else pauses there.");
+  if (w.checkbox("Loop", session.simulation.loop, "Begins again after the last frame, and else pauses there."))
+    w.ask([](Session& s) { s.simulation.loop = !s.simulation.loop; });
   ImGui::SameLine();
   ImGui::SetNextItemWidth(w.px(speed_width));
   if (w.slider("Speed", rate, 1, 240, "%.0f frames/s", "How many frames are shown each second.", true))
-    session.simulation.clock.speed = rate * frame_time;
+    w.ask([speed = rate * frame_time](Session& s) { s.simulation.clock.speed = speed; });
   ImGui::SameLine();
 }
 
 /// Draws the slider from the first snapshot to the newest.
-void draw_past(Widgets& w, Session& session) {
+void draw_past(Widgets& w, const Session& session) {
   const auto& past = session.simulation.stability().past();
   const int frame = session.world().frame();
   ImGui::BeginDisabled(past.snapshots().empty());
@@ -60,7 +61,7 @@ void draw_past(Widgets& w, Session& session) {
                            past.snapshots().size(), static_cast<double>(past.bytes()) / (1 << 20),
                            session::Rewind::max_bytes >> 20)
                    .c_str()))
-    session.simulation.rewind_to(past.snapshots()[static_cast<std::size_t>(place)].frame);
+    w.ask([to = past.snapshots()[static_cast<std::size_t>(place)].frame](Session& s) { s.simulation.rewind_to(to); });
   ImGui::EndDisabled();
 }
 
@@ -84,28 +85,27 @@ std::size_t bodies_to_come(const softbody::BodiesInMotion& world) {
 
 float time_line_height(float scale) { return ImGui::GetFrameHeight() + 2 * padding * scale; }
 
-void draw_time_line(Widgets& w, Session& session, const ScreenRect& area) {
+void draw_time_line(Widgets& w, const Session& session, const ScreenRect& area) {
   const ImGuiStyle& style = ImGui::GetStyle();
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style.WindowPadding.x, w.px(padding)});
   begin_dock("Time line", area, false, ImGuiWindowFlags_NoScrollbar);
   ImGui::PopStyleVar();
-  session::SimulationClock& clock = session.simulation.clock;
-  if (w.button(clock.paused ? "Resume###Pause" : "Pause###Pause", "Pauses or resumes the simulation (Space).",
-               w.px(button_width)))
-    clock.paused = !clock.paused;
+  if (w.button(session.simulation.clock.paused ? "Resume###Pause" : "Pause###Pause",
+               "Pauses or resumes the simulation (Space).", w.px(button_width)))
+    w.ask([](Session& s) { s.simulation.clock.paused = !s.simulation.clock.paused; });
   ImGui::SameLine();
   const session::Player* player = session.simulation.player();
   if (w.button("Step",
                player ? "Shows the next frame, then pauses (N)." : "Simulates one frame of 1/60 s, then pauses (N).",
                w.px(button_width)))
-    clock.single_step();
+    w.ask([](Session& s) { s.simulation.clock.single_step(); });
   ImGui::SameLine();
   if (player) draw_speed(w, session);
   const float room = ImGui::GetContentRegionAvail().x;
   const bool has_state = room >= w.px(2 * state_width);
   ImGui::SetNextItemWidth(has_state ? room - w.px(state_width) : room);
   if (player)
-    draw_frames(w, session, *player);
+    draw_frames(w, *player);
   else
     draw_past(w, session);
   if (has_state) draw_state_text(w, session);

@@ -10,11 +10,10 @@ namespace app::ui {
 
 class UserInterface {
  public:
-  /// Draws one frame. Call it between begin_frame() and end_frame() of the Gui. `seconds`: since the window opened.
-  void draw(Session& session, UiState& ui, float scale, double seconds, WidgetRecorder* recorder = nullptr);
-
-  /// Returns true while a sweep shows its progress.
-  bool shows_sweep(const UiState& ui) const { return ui.lower == LowerView::sweep && sweep_view_.state().running; }
+  /// Draws one frame, and returns what the user asks for by it: see carry_out(). Call it between begin_frame() and
+  /// end_frame() of the Gui. `seconds`: since the window opened.
+  Requests draw(const Session& session, const UiState& ui, float scale, double seconds,
+                WidgetRecorder* recorder = nullptr);
 
   /// The area of the scene in the last draw(), in ImGui units. Docked windows draw no background: clear the frame to
   /// dock_colour() before.
@@ -24,15 +23,14 @@ class UserInterface {
 
  private:
   /// Says what is wrong with what was typed into a field of numbers, until the field is right.
-  void show_field_problem(session::Notice& notice);
-  void draw_over_scene(Widgets& widgets, Session& session, UiState& ui, double seconds);
+  void show_field_problem(Widgets& widgets);
+  void draw_over_scene(Widgets& widgets, const Session& session, const UiState& ui, double seconds);
 
   Layout layout_;
   HashTableView hash_table_view_;
   SweepView sweep_view_;
   FloatingBox lights_;
   StoryCard story_;
-  bool had_hash_table_ = false;  // in the last frame
   InputState input_;
   std::string field_problem_;  // said last
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <future>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -20,9 +21,9 @@
 #include "app/window/frame_schedule.h"
 #include "app/window/frame_timer.h"
 #include "app/window/graphics.h"
-#include "app/window/overlay_request.h"
 #include "app/window/preferences.h"
 #include "app/window/scene_mouse.h"
+#include "app/window/scene_picture.h"
 #include "engine/context.h"
 #include "engine/gl.h"
 
@@ -58,24 +59,13 @@ std::unique_ptr<Session> open_session(const DemoOptions& options, Graphics& grap
   return opening.get();
 }
 
-/// Returns everything that the picture of the scene depends on. view: of the camera; scale: of lines and points.
-auto picture_key(const Session& session, const ui::UiState& ui, const glm::mat4& view, float scale) {
-  const render::Overlays& shown = ui.overlays;
-  return std::tuple(session.simulation.revision(), session.ghost().revision(),
-                    shown_misses(session, ui) ? session.comparison.reports() : 0,
-                    shown.true_surfaces ? session.surfaces.reports() : 0, ui.tour.highlight_revision(),
-                    session.comparison.choice.misses_of, shown, session.inspector.selected_bucket(),
-                    session.inspector.selected_cell(), session.bodies.selected(), session.simulation.grabbed(), view,
-                    scale, shows_present_state(session, shown) ? 1.0f : session.simulation.between());
-}
-using PictureKey = std::invoke_result_t<decltype(picture_key), const Session&, const ui::UiState&, glm::mat4, float>;
-
 /// Returns what the interface shows that may change without input, apart from the contents of Activity.
-auto interface_key(const Session& session, const ui::UiState& ui) {
+auto interface_key(const Session& session) {
   return std::tuple(session.simulation.revision(), session.comparison.reports(), session.surfaces.reports(),
-                    session.simulation.notice.text(), ui.exporter.message(), ui.exporter.finishing());
+                    session.simulation.notice.text(), session.exporter.message(), session.exporter.finishing(),
+                    session.sweep().running);
 }
-using InterfaceKey = std::invoke_result_t<decltype(interface_key), const Session&, const ui::UiState&>;
+using InterfaceKey = std::invoke_result_t<decltype(interface_key), const Session&>;
 
 class Demo {
  public:
@@ -88,11 +78,11 @@ class Demo {
     apply(preferences_.is_new() ? first_preferences(window_size()) : preferences_.stored(), session_, ui_);
     ui_.story = ui_.story_at_start && !options.scene_given;
     store_preferences();
-    for (const std::string& mesh : options.meshes) ui_.import.drop({mesh}, session_);  // each for itself: no frames
+    for (const std::string& mesh : options.meshes) session_.import.drop({mesh});  // each for itself: no frames
   }
 
   void run() {
-    while (graphics_->window.is_open() && !ui_.quit) {
+    while (graphics_->window.is_open() && !quits_) {
       const double wait = schedule_.wait(now(), session_.awaits_answer());
       if (graphics_->window.poll(wait)) schedule_.input(now());
       const double elapsed = timer_.tick();
@@ -105,7 +95,8 @@ class Demo {
     }
     store_preferences(true);
     // A search for a mesh's equilibrium could keep the program running for minutes after its window is closed.
-    if (ui_.import.busy() && !ui_.exporter.recording() && !ui_.exporter.finishing()) std::quick_exit(EXIT_SUCCESS);
+    const session::Exporter& exporter = session_.exporter;
+    if (session_.import.busy() && !exporter.recording() && !exporter.finishing()) std::quick_exit(EXIT_SUCCESS);
   }
 
  private:
@@ -115,7 +106,7 @@ class Demo {
     const double moving = interrupted ? std::min(elapsed, 1.0 / 60) : elapsed;
     seconds_ += elapsed - moving;
     if (interrupted) session_.let_pass(elapsed - moving);
-    if (schedule_.due(now()) || interface_key(session_, ui_) != shown_ || graphics_->window.context_lost())
+    if (schedule_.due(now()) || interface_key(session_) != shown_ || graphics_->window.context_lost())
       return frame(moving);
     seconds_ += moving;
     session_.let_pass(moving);
@@ -148,26 +139,35 @@ class Demo {
     session_.simulation.notice.set("the graphics driver was reset: the window was made anew, nothing else was lost");
   }
 
-  void handle_keys() {
-    for (const engine::KeyPress& key : graphics_->gui.take_key_presses())
-      if (ui::handle_key(key.key, key.repeat, session_, ui_, key.mods) ||
-          ui::handle_key(key.fallback_key, key.repeat, session_, ui_, key.mods))
-        seconds_ += key_hint_seconds;
+  /// Returns what the keys ask for that were pressed.
+  ui::Requests requests_by_keys() {
+    ui::Requests requests;
+    for (const engine::KeyPress& key : graphics_->gui.take_key_presses()) {
+      std::optional<ui::Request> request = ui::request_by_key(session_, key.key, key.repeat, key.mods);
+      if (!request) request = ui::request_by_key(session_, key.fallback_key, key.repeat, key.mods);
+      if (!request) continue;
+      requests.push_back(std::move(*request));
+      seconds_ += key_hint_seconds;
+    }
+    return requests;
   }
 
   /// Begins a frame of the Gui and handles the input of mouse and keyboard.
   void handle_input(double elapsed) {
     graphics_->gui.begin_frame();
-    handle_keys();
-    interface_.draw(session_, ui_, graphics_->gui.scale(), seconds_);
+    std::vector<ui::WindowTask> tasks = ui::carry_out(requests_by_keys(), session_, ui_);
+    const ui::Requests drawn = interface_.draw(session_, ui_, graphics_->gui.scale(), seconds_);
+    std::ranges::copy(ui::carry_out(drawn, session_, ui_), std::back_inserter(tasks));
     const engine::Viewport viewport = scene_viewport();
-    move_camera(viewport, elapsed);
-    handle_requests(viewport);
+    move_by_mouse(viewport);
+    follow_tour();
+    for (const ui::WindowTask task : tasks) carry_out(task, viewport.size);
+    camera_.advance(elapsed);
   }
 
   void draw_frame(double elapsed) {
     seconds_ += elapsed;
-    ui_.import.drop(graphics_->window.take_dropped_files(), session_);
+    session_.import.drop(graphics_->window.take_dropped_files());
     // Handles all waiting input in this frame, a click at a time, so that a slow world does not delay typing and
     // clicks.
     handle_input(elapsed);
@@ -176,40 +176,43 @@ class Demo {
       handle_input(0);
     }
     const engine::Viewport viewport = scene_viewport();
-    double drawing_ms = time_ms([&] { draw_scene(viewport); });
-    ui::draw_labels(scene_labels(session_, ui_), camera_, viewport.size, interface_.scene_area(),
+    const ScenePicture scene = scene_picture(session_, ui_, camera_, pixel_scale());
+    bool moving = false;
+    double drawing_ms = time_ms([&] { moving = draw_scene(scene, viewport); });
+    ui::draw_labels(scene_labels(session_, ui_.tour, scene), camera_, viewport.size, interface_.scene_area(),
                     graphics_->gui.scale());
     ui_.view = render::SceneView::view(camera_, viewport.size);
     graphics_->gui.end_frame();
-    const InterfaceKey before = std::exchange(shown_, interface_key(session_, ui_));
-    settling_ = before != shown_;
-    ui_.exporter.frame(session_, [this](bool with_panel, const std::optional<glm::uvec2>& size) {
+    const InterfaceKey before = std::exchange(shown_, interface_key(session_));
+    const bool has_news = before != shown_;
+    session_.exporter.frame([this](bool with_panel, const std::optional<glm::uvec2>& size) {
       return size ? picture_of(glm::ivec2(*size)) : picture(with_panel);
     });
-    if (!ui_.quit) advance(elapsed);  // while the driver draws
+    if (!quits_) advance(elapsed);  // while the driver draws
     drawing_ms += time_ms([&] { present(viewport); });
     graphics_->canvas.add_timing(elapsed, 1e-3 * drawing_ms);
     store_preferences();
-    const Activity next = activity();
+    const Activity next = activity(moving, has_news);
     ui_.picture_interval = seconds_to_next_frame(next);
     schedule_.drawn(now(), next);
     timer_.limit_rate();
   }
 
-  /// What goes on after the frame that was just drawn.
-  Activity activity() const {
-    return {.moving = !still_ || ui_.exporter.recording() || ImGui::IsAnyMouseDown(),
-            .counting = !session_.stands_still() || interface_.shows_sweep(ui_),
-            .reporting = ui_.import.busy() || ui_.exporter.finishing(),
+  /// Returns what goes on after the frame that was just drawn. has_news: of the interface, whose windows take another
+  /// frame to fit their contents.
+  Activity activity(bool moving, bool has_news) const {
+    return {.moving = moving || session_.exporter.recording() || ImGui::IsAnyMouseDown(),
+            .counting = !session_.stands_still() || (ui_.lower == ui::LowerView::sweep && session_.sweep().running),
+            .reporting = session_.import.busy() || session_.exporter.finishing(),
             .typing = graphics_->gui.wants_keyboard(),
-            .next_change = settling_ ? 0 : ui::seconds_to_hint_change(seconds_)};
+            .next_change = has_news ? 0 : ui::seconds_to_hint_change(seconds_)};
   }
 
   /// Runs long steps in a thread of their own. Meanwhile the camera can move; clicks and keys wait for the next frame.
   void advance(double elapsed) {
     const auto advance = [&] {
-      if (ui_.exporter.recording())
-        session_.advance_one(elapsed, ui_.exporter.may_step());
+      if (session_.exporter.recording())
+        session_.advance_one(elapsed, session_.exporter.may_step());
       else
         session_.advance(elapsed, waited_);
     };
@@ -229,7 +232,7 @@ class Demo {
     if (graphics_->window.left_button_down())
       mouse_.orbit_between_frames(graphics_->window.cursor() - top_left(viewport), camera_, viewport.size);
     camera_.advance(elapsed);
-    if (camera_.view() == std::exchange(std::get<glm::mat4>(*drawn_), camera_.view())) return;
+    if (camera_ == std::exchange(drawn_->camera, camera_)) return;
     graphics_->canvas.update(viewport.size, true, false, [&](const engine::Viewport& whole) {
       graphics_->view.redraw(camera_, whole, pixel_scale(whole, viewport));
     });
@@ -258,19 +261,20 @@ class Demo {
   /// Draws the scene in another size, with what the camera frames.
   engine::Image picture_of(glm::ivec2 size) {
     const engine::Viewport shown = scene_viewport(), whole{{0, 0}, size};
-    engine::Camera camera = camera_;
-    render::SceneView::refit(camera, glm::max(shown.size, 1), size);
+    ScenePicture scene = scene_picture(session_, ui_, camera_, pixel_scale());
+    render::SceneView::refit(scene.camera, glm::max(shown.size, 1), size);
+    if (shown.size.y > 0) scene.scale = pixel_scale(whole, shown);
     const engine::Framebuffer target(size);
     target.bind();
-    draw_world(camera, whole, shown.size.y > 0 ? pixel_scale(whole, shown) : pixel_scale());
+    draw_world(scene, whole);
     engine::Image image = target.read();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     return image;
   }
 
-  void draw_world(const engine::Camera& camera, const engine::Viewport& whole, float scale) {
-    graphics_->view.draw(session_.world(), overlay_request(session_, ui_), camera, whole, scale,
-                         session_.simulation.drawn(shows_present_state(session_, ui_.overlays)));
+  void draw_world(const ScenePicture& scene, const engine::Viewport& whole) {
+    graphics_->view.draw(session_.world(), overlay_request(session_, ui_.tour, scene), scene.camera, whole, scene.scale,
+                         drawn_meshes(session_, scene));
   }
 
   /// Returns the size that the window would have on a screen of ordinary density.
@@ -279,9 +283,8 @@ class Demo {
   }
 
   void store_preferences(bool last = false) {
-    preferences_.store(preferences_of(session_, ui_, window_size()), seconds_, last);
-    if (std::string problem = preferences_.take_problem(); !problem.empty())
-      session_.simulation.notice.set(std::move(problem));
+    const std::string problem = preferences_.store(preferences_of(session_, ui_, window_size()), seconds_, last);
+    if (!problem.empty()) session_.simulation.notice.set(problem);
   }
 
   engine::Viewport scene_viewport() const {
@@ -293,21 +296,22 @@ class Demo {
     return {{lo.x, graphics_->window.framebuffer_size().y - hi.y}, glm::max(hi - lo, 0)};
   }
 
-  void move_camera(const engine::Viewport& viewport, double elapsed) {
-    if (ui_.reset_camera || shown_scene_ != session_.world().scene().key) {
-      if (!shown_scene_.empty() && !ui_.reset_camera) ui_.story = false;  // another scene was asked for
+  /// Begins with the scene's own camera, and moves it by the mouse.
+  void move_by_mouse(const engine::Viewport& viewport) {
+    if (shown_scene_ != session_.world().scene().key) {
+      if (!shown_scene_.empty()) ui_.story = false;  // another scene was asked for
       shown_scene_ = session_.world().scene().key;
-      camera_ = graphics_->view.camera(session_.world(), viewport.size);
-      fitted_ = viewport.size;
-      ui_.reset_camera = false;
-      orbit_before_tour_.reset();
+      reset_camera(viewport.size);
     }
     refit(viewport.size);
-    mouse_.update(read_mouse(top_left(viewport), !graphics_->gui.wants_mouse()), session_, camera_, viewport.size);
-    if (const auto solid = mouse_.take_pressed_solid()) ui_.solid = *solid;
-    frame_tour(viewport);
+    mouse_.update(read_mouse(top_left(viewport), !graphics_->gui.wants_mouse()), session_, ui_, camera_, viewport.size);
     if (mouse_.can_drag()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-    camera_.advance(elapsed);
+  }
+
+  void reset_camera(glm::ivec2 size) {
+    camera_ = graphics_->view.camera(session_.world(), size);
+    fitted_ = size;
+    orbit_before_tour_.reset();
   }
 
   /// Keeps the extent of what the camera shows when the size of the scene's area changes. The tour frames it itself.
@@ -317,14 +321,10 @@ class Demo {
     fitted_ = size;
   }
 
-  /// Moves the camera for the tour, and back when the tour is closed.
-  void frame_tour(const engine::Viewport& viewport) {
+  /// Remembers the camera before the tour, and moves it back when the tour is closed.
+  void follow_tour() {
     if (ui_.tour.open() && !orbit_before_tour_) orbit_before_tour_ = camera_.orbit();
     if (!ui_.tour.open() && orbit_before_tour_) camera_.glide_to(*std::exchange(orbit_before_tour_, std::nullopt));
-    if (ui_.tour.take_overview_request() && orbit_before_tour_) camera_.glide_to(*orbit_before_tour_);
-    if (!ui_.tour.take_framing_request()) return;
-    const render::Highlight& highlight = *ui_.tour.highlight();
-    camera_.glide_to(highlight.centre, tour_radius_factor * highlight.radius, viewport.size);
   }
 
   /// Returns the viewport's top left corner in pixels from the window's top left corner.
@@ -332,32 +332,43 @@ class Demo {
     return {viewport.origin.x, graphics_->window.framebuffer_size().y - viewport.origin.y - viewport.size.y};
   }
 
-  /// Handles the requests of panel and keys that need the camera.
-  void handle_requests(const engine::Viewport& viewport) {
-    if (std::exchange(ui_.throw_body, false)) {
-      const engine::Ray ray = mouse_.ray(camera_, viewport.size);
-      const float distance = render::distance_to_scene(ray, session_.world(), session_.simulation.drawn().shown)
-                                 .value_or(camera_.orbit().distance);
-      session_.bodies.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.origin + distance * ray.direction));
-    }
-    if (std::exchange(ui_.focus_body, false) && session_.bodies.selected())
-      focus_on(*session_.bodies.selected(), session_, camera_, viewport.size);
-    if (const auto joined = ui_.import.take_joined())
-      camera_.glide_back_to_show(glm::vec3(joined->centre), joined_margin * static_cast<float>(joined->radius),
-                                 viewport.size);
+  void carry_out(ui::WindowTask task, glm::ivec2 size) {
+    using Task = ui::WindowTask;
+    const auto& selected = session_.bodies.selected();
+    const auto& joined = session_.import.joined();
+    const render::Highlight* highlight = ui_.tour.highlight();
+    if (task == Task::quit) quits_ = true;
+    if (task == Task::reset_camera) reset_camera(size);
+    if (task == Task::show_selected_body && selected) focus_on(*selected, session_, camera_, size);
+    if (task == Task::throw_body) throw_body(size);
+    if (task == Task::show_joined && joined)
+      camera_.glide_back_to_show(glm::vec3(joined->centre), joined_margin * static_cast<float>(joined->radius), size);
+    if (task == Task::show_highlight && highlight)
+      camera_.glide_to(highlight->centre, tour_radius_factor * highlight->radius, size);
+    if (task == Task::show_as_before_tour && orbit_before_tour_) camera_.glide_to(*orbit_before_tour_);
   }
 
-  void draw_scene(const engine::Viewport& viewport) {
-    still_ = true;
-    if (viewport.size.x <= 0 || viewport.size.y <= 0) return;
-    const PictureKey key = picture_key(session_, ui_, camera_.view(), pixel_scale());
-    still_ = (session_.simulation.clock.paused || session_.world().all_at_rest()) && key == drawn_;
-    const bool fine = still_ || ui_.exporter.wants_shown_picture();
-    graphics_->canvas.update(viewport.size, key != drawn_, fine, [&](const engine::Viewport& whole) {
-      draw_world(camera_, whole, pixel_scale(whole, viewport));
+  void throw_body(glm::ivec2 size) {
+    const engine::Ray ray = mouse_.ray(camera_, size);
+    const float distance = render::distance_to_scene(ray, session_.world(), session_.simulation.drawn().shown)
+                               .value_or(camera_.orbit().distance);
+    session_.bodies.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.origin + distance * ray.direction));
+  }
+
+  /// Draws the scene if its picture has changed. Returns true if it has, or if the bodies move.
+  bool draw_scene(const ScenePicture& scene, const engine::Viewport& viewport) {
+    if (viewport.size.x <= 0 || viewport.size.y <= 0) return false;
+    const bool changed = drawn_ != scene;
+    const bool moving = changed || !(session_.simulation.clock.paused || session_.world().all_at_rest());
+    const bool fine = !moving || session_.exporter.wants_shown_picture();
+    graphics_->canvas.update(viewport.size, changed, fine, [&](const engine::Viewport& whole) {
+      ScenePicture stretched = scene;
+      stretched.scale = pixel_scale(whole, viewport);
+      draw_world(stretched, whole);
     });
     ui_.render_scale = graphics_->canvas.render_scale();
-    drawn_ = key;
+    drawn_ = scene;
+    return moving;
   }
 
   float pixel_scale() const { return std::max(graphics_->window.content_scale(), graphics_->window.pixel_ratio()); }
@@ -381,13 +392,11 @@ class Demo {
   engine::Camera camera_;
   SceneMouse mouse_;
   std::optional<engine::Orbit> orbit_before_tour_;
-  glm::ivec2 fitted_{0};             // the viewport's size that camera_ is fitted to
-  std::string shown_scene_;          // that camera_ was set up for
-  std::optional<PictureKey> drawn_;  // what the canvas shows
-  InterfaceKey shown_{};             // by the last frame
-  bool settling_ = false;            // shown_ is new: windows take another frame to fit their contents
-  bool still_ = false;               // the picture of the last frame is that of the frame before
-  bool hidden_ = false;
+  glm::ivec2 fitted_{0};               // the viewport's size that camera_ is fitted to
+  std::string shown_scene_;            // that camera_ was set up for
+  std::optional<ScenePicture> drawn_;  // what the canvas shows
+  InterfaceKey shown_{};               // by the last frame
+  bool hidden_ = false, quits_ = false;
   bool waited_ = false;  // for events, on purpose, before the present frame
   FrameTimer timer_;
   FrameSchedule schedule_{now()};

@@ -80,7 +80,7 @@ Preferences first_preferences(glm::ivec2 size) {
 }
 
 Preferences preferences_of(const Session& session, const ui::UiState& ui, glm::ivec2 size) {
-  Preferences p{size, ui, ui.exporter.with_panel, session.simulation.clock.slow_factor,
+  Preferences p{size, ui, session.exporter.with_panel, session.simulation.clock.slow_factor,
                 session.comparison.choice.methods};
   p.shown.overlays = ui.tour.saved_overlays().value_or(ui.overlays);
   return p;
@@ -89,7 +89,7 @@ Preferences preferences_of(const Session& session, const ui::UiState& ui, glm::i
 void apply(const Preferences& p, Session& session, ui::UiState& ui) {
   static_cast<ui::Remembered&>(ui) = p.shown;
   session.simulation.clock.slow_factor = p.slow_factor;
-  ui.exporter.with_panel = p.picture_with_panel;
+  session.exporter.with_panel = p.picture_with_panel;
   session.comparison.choice.methods = p.methods;
 }
 
@@ -117,13 +117,13 @@ PreferencesFile::PreferencesFile(fs::path file) : file_(std::move(file)) {
   pending_ = stored_;
 }
 
-void PreferencesFile::store(const Preferences& now, double seconds, bool last) {
-  if (file_.empty()) return;
+std::string PreferencesFile::store(const Preferences& now, double seconds, bool last) {
+  if (file_.empty()) return {};
   if (!(now == pending_)) {
     pending_ = now;
     pending_since_ = seconds;
   }
-  if (pending_ == stored_ || (!last && seconds - pending_since_ < settling)) return;
+  if (pending_ == stored_ || (!last && seconds - pending_since_ < settling)) return std::exchange(problem_, {});
   stored_ = pending_;  // also if writing fails: the problem is reported once per change, not once per frame
   try {
     fs::create_directories(file_.parent_path());
@@ -131,6 +131,7 @@ void PreferencesFile::store(const Preferences& now, double seconds, bool last) {
   } catch (const std::exception& error) {
     problem_ = "preferences cannot be kept: " + std::string(error.what());
   }
+  return std::exchange(problem_, {});
 }
 
 }  // namespace app::window

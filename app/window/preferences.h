@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/session/session.h"
-#include "app/ui/panel/ui_state.h"
+#include "app/ui/state/ui_state.h"
 
 namespace app::window {
 
@@ -32,18 +32,16 @@ std::filesystem::path preferences_path();
 
 class PreferencesFile {
  public:
-  /// Reads the file. Missing values get their defaults. A broken file counts as empty, and take_problem() says so.
+  /// Reads the file. Missing values get their defaults. A broken file counts as empty, and the first store() says so.
   explicit PreferencesFile(std::filesystem::path file);
 
   const Preferences& stored() const { return stored_; }
   /// Returns true if there was no file.
   bool is_new() const { return is_new_; }
   /// Writes the preferences if they differ from the stored ones and have not changed for some seconds, or if this is
-  /// the last call (`last`). `seconds`: a clock's time. Never throws: on failure the file stays as it was, and
-  /// take_problem() says why.
-  void store(const Preferences& now, double seconds, bool last = false);
-  /// Returns one line for the user, once; empty if there is no problem.
-  std::string take_problem() { return std::exchange(problem_, {}); }
+  /// the last call (`last`). `seconds`: a clock's time. Never throws: on failure the file stays as it was. Returns one
+  /// line for the user, what went wrong since the last call; empty if nothing did.
+  std::string store(const Preferences& now, double seconds, bool last = false);
 
  private:
   static constexpr double settling = 2;  // s

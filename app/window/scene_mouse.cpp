@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <utility>
+
 #include <glm/geometric.hpp>
 
 namespace app::window {
@@ -46,12 +48,13 @@ engine::Ray SceneMouse::ray(const engine::Camera& camera, glm::ivec2 size) const
   return camera.pick_ray(at_.value_or(0.5f * glm::vec2(size)), size);
 }
 
-void SceneMouse::update(const MouseInput& in, Session& session, engine::Camera& camera, glm::ivec2 size) {
+void SceneMouse::update(const MouseInput& in, Session& session, ui::UiState& ui, engine::Camera& camera,
+                        glm::ivec2 size) {
   at_.reset();
   if (in.over_scene) at_ = in.at;
   drag(in, session, camera, size);
   const auto before = std::exchange(down_, in.down);
-  if (in.down[0] && !before[0] && in.over_scene) press(in, session, camera, size);
+  if (in.down[0] && !before[0] && in.over_scene) press(in, session, ui, camera, size);
   if (!in.down[0]) release(session);
   last_at_ = in.at;
   orbited_ = {};
@@ -71,7 +74,8 @@ void SceneMouse::orbit_between_frames(glm::vec2 at, engine::Camera& camera, glm:
   last_at_ = at;
 }
 
-void SceneMouse::press(const MouseInput& in, Session& session, engine::Camera& camera, glm::ivec2 size) {
+void SceneMouse::press(const MouseInput& in, Session& session, ui::UiState& ui, engine::Camera& camera,
+                       glm::ivec2 size) {
   drag_length_ = 0;
   drag_ = Drag::orbit;
   const engine::Ray ray = camera.pick_ray(in.at, size);
@@ -80,7 +84,7 @@ void SceneMouse::press(const MouseInput& in, Session& session, engine::Camera& c
   if (!under) {
     if (const auto solid = pick_movable(ray, session.world().scene())) {
       drag_ = Drag::solid;
-      pressed_solid_ = solid->index;
+      ui.solid = solid->index;
       held_solid_ = {solid->index, session.world().scene().solids[solid->index],
                      glm::dvec3(ray.origin) + solid->distance * glm::dvec3(ray.direction),
                      session.simulation.world_number()};
@@ -105,7 +109,7 @@ void SceneMouse::drag(const MouseInput& in, Session& session, engine::Camera& ca
   drag_length_ += glm::length(in.moved);
   if (drag_length_ >= max_click_length) {  // a click moves nothing
     const engine::Ray ray = camera.pick_ray(in.at, size);
-    const auto held = session.simulation.grabbed();
+    const auto held = grabbed(session.simulation);
     if (drag_ == Drag::body && held) session.simulation.pull_to(on_facing_plane(ray, camera, held->target));
     // In another world the solids may be others.
     if (drag_ == Drag::solid && session.simulation.world_number() == held_solid_->world_number) {

@@ -3,10 +3,9 @@
 // background moves the camera.
 
 #include <array>
-#include <utility>
-
 #include "app/render/pick.h"
 #include "app/session/session.h"
+#include "app/ui/state/ui_state.h"
 #include "engine/camera.h"
 
 namespace app::window {
@@ -30,15 +29,13 @@ MouseInput read_mouse(glm::vec2 origin, bool over_scene);
 class SceneMouse {
  public:
   /// Call it once a frame, before the camera advances. `size`: of the viewport.
-  void update(const MouseInput& input, Session& session, engine::Camera& camera, glm::ivec2 size);
+  void update(const MouseInput& input, Session& session, ui::UiState& ui, engine::Camera& camera, glm::ivec2 size);
 
   /// Continues a drag that orbits the camera, to `at`, between two frames, when the session must not be used.
   void orbit_between_frames(glm::vec2 at, engine::Camera& camera, glm::ivec2 size);
 
   /// True if a body or a solid that can be dragged is under the mouse, or is dragged.
   bool can_drag() const { return can_drag_; }
-  /// Returns the solid that was pressed since the last call, its index in the scene.
-  std::optional<std::size_t> take_pressed_solid() { return std::exchange(pressed_solid_, std::nullopt); }
   /// Returns the ray from the eye through the mouse, or through the middle if the mouse is not over the scene.
   engine::Ray ray(const engine::Camera& camera, glm::ivec2 size) const;
 
@@ -51,7 +48,7 @@ class SceneMouse {
     std::uint64_t world_number;  // of the Simulation
   };
 
-  void press(const MouseInput& input, Session& session, engine::Camera& camera, glm::ivec2 size);
+  void press(const MouseInput& input, Session& session, ui::UiState& ui, engine::Camera& camera, glm::ivec2 size);
   void drag(const MouseInput& input, Session& session, engine::Camera& camera, glm::ivec2 size);
   void release(Session& session);
 
@@ -59,7 +56,6 @@ class SceneMouse {
   std::array<bool, 3> down_{};  // as in the last frame
   bool can_drag_ = false, pressed_on_body_ = false;
   std::optional<HeldSolid> held_solid_;
-  std::optional<std::size_t> pressed_solid_;
   float drag_length_ = 0;  // pixels, since the left button went down
   std::optional<glm::vec2> at_;
   glm::vec2 last_at_{0.0f}, orbited_{0.0f};  // pixels; the second is the way of orbit_between_frames() since update()

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "app/session/export/exporter.h"
 #include "app/ui/shortcuts.h"
+#include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
 #include "tests/own_process.h"
 
@@ -48,7 +48,7 @@ TEST(CompareView, IsOffAtFirstAndSwitchedByPanelAndKey) {
   rig.click("Compare methods");
   EXPECT_TRUE(rig.session.comparison.choice.on);
   EXPECT_NE(rig.recorder.find("Drive Grid Hash"), nullptr);
-  ui::handle_key(GLFW_KEY_V, false, rig.session, rig.ui);
+  handle_key(GLFW_KEY_V, false, rig.session, rig.ui);
   rig.frame();
   EXPECT_FALSE(rig.session.comparison.choice.on);
 }
@@ -78,13 +78,14 @@ void expect_that_a_new_method_is_compared() {
   };
   ASSERT_TRUE(wait_until(rig, is_timed));
   expect_rows(rig, compare::usual_methods());
-  EXPECT_TRUE(session::curves_csv(rig.session).find(",one-more_ms\n") != std::string::npos);
+  EXPECT_TRUE(session::curves_csv(rig.session.simulation, rig.session.comparison).find(",one-more_ms\n") !=
+              std::string::npos);
   const compare::MethodSet shown = rig.session.comparison.shown_methods();
   EXPECT_EQ(compare::sweep_configurations(rig.session.world(), shown).back().method, before);
   rig.session.comparison.choice.methods.assign(before + 1, false);
-  ui::handle_key(GLFW_KEY_M, false, rig.session, rig.ui);  // no method to go to
+  handle_key(GLFW_KEY_M, false, rig.session, rig.ui);  // no method to go to
   rig.session.comparison.choice.methods[before] = true;
-  ui::handle_key(GLFW_KEY_M, false, rig.session, rig.ui);
+  handle_key(GLFW_KEY_M, false, rig.session, rig.ui);
   EXPECT_EQ(rig.session.world().method().key, "one-more");
 }
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <thread>
 
-#include "app/session/export/exporter.h"
+#include "app/session/session.h"
 #include "softbody/model/body_model.h"
 #include "tests/app/recorded_bodies.h"
 #include "tests/app/scenes.h"
@@ -48,7 +48,7 @@ class ExporterTest : public testing::Test {
   /// Runs a frame of the demo's loop. The picture's colour is the number of the world's frame.
   void frame() {
     exporter.recording() ? session.advance_one(0.02, exporter.may_step()) : session.advance(0.02);
-    exporter.frame(session, [&](bool with_panel, const std::optional<glm::uvec2>& asked) {
+    exporter.frame([&](bool with_panel, const std::optional<glm::uvec2>& asked) {
       const glm::ivec2 pixels = asked ? glm::ivec2(*asked) : glm::ivec2(width, 6);
       if (pixels.x > largest) throw std::runtime_error("too large");
       engine::Image image{pixels.x, pixels.y, {}};
@@ -90,7 +90,8 @@ class ExporterTest : public testing::Test {
 
   TemporaryFolder folder, tools;
   Session session{touching_pair(), {}, 1};
-  session::Exporter exporter;
+  std::optional<session::Exporter> owner{std::in_place, session.simulation, session.comparison};
+  session::Exporter& exporter = *owner;
   int width = 8, largest = 4096;
 
  private:
@@ -308,7 +309,7 @@ TEST_F(ExporterTest, CompletesARecordingWhenTheProgramEnds) {
   exporter.kind = index_of("pictures");
   exporter.toggle_recording();
   frames(3);
-  exporter = session::Exporter();
+  owner.reset();
   EXPECT_EQ(names(folder.path() / "pictures_0001").size(), 3u);
 }
 
@@ -377,7 +378,7 @@ TEST(FrameRecording, EndsWithTheFirstFrameThatCannotBeWritten) {
 
 TEST_F(ExporterTest, WritesALineOfCurvesForEachFrame) {
   frames(7);
-  exporter.write_curves(session);
+  exporter.write_curves();
   EXPECT_FALSE(exporter.failed()) << exporter.message();
   std::ifstream file(folder.path() / "curves_0001.csv");
   std::string heading, line, last;

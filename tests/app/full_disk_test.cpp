@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "app/session/export/exporter.h"
+#include "app/session/session.h"
 #include "app/window/preferences.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
@@ -46,21 +46,20 @@ TEST_F(FullDisk, LeavesThePreferencesUnchanged) {
   window::Preferences other;
   other.slow_factor = 0.5;
   const tests::FullDisk full(too_little);
-  file.store(other, 0, true);
-  EXPECT_NE(file.take_problem().find("cannot be written"), std::string::npos);
+  EXPECT_NE(file.store(other, 0, true).find("cannot be written"), std::string::npos);
   expect_unchanged("preferences.toml", saved);
 }
 
 TEST_F(FullDisk, IsReportedForPicturesAndCurves) {
   folder.write("curves_0001.csv", "saved before");
-  session::Exporter exporter;
+  session::Exporter& exporter = session.exporter;
   exporter.folder = folder.path().string();
   const tests::FullDisk full(too_little);
-  exporter.write_curves(session);
+  exporter.write_curves();
   EXPECT_TRUE(exporter.failed());
   EXPECT_NE(exporter.message().find("curves_0002.csv: cannot be written"), std::string::npos) << exporter.message();
   exporter.picture_requested = true;
-  exporter.frame(session, [](bool, const auto&) { return engine::Image{4, 4, std::vector<std::uint8_t>(64, 255)}; });
+  exporter.frame([](bool, const auto&) { return engine::Image{4, 4, std::vector<std::uint8_t>(64, 255)}; });
   EXPECT_TRUE(exporter.failed());
   EXPECT_NE(exporter.message().find("picture_0001.png: cannot be written"), std::string::npos) << exporter.message();
   expect_unchanged("curves_0001.csv", "saved before");

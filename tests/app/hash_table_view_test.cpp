@@ -46,7 +46,7 @@ TEST(BucketView, GroupsEntriesByCellsAndSelectsACell) {
   EXPECT_TRUE(rig.recorder.find("All buckets"));
   ASSERT_GT(rig.session.inspector.bucket()->groups.size(), 1u);
   const compare::Cell second = rig.session.inspector.bucket()->groups[1].cell;
-  rig.click("Cell " + ui::cell_text(second));
+  rig.click("Cell " + compare::cell_text(second));
   EXPECT_EQ(rig.session.inspector.selected_cell(), second);
 }
 
@@ -88,7 +88,7 @@ TEST(BucketView, AbbreviatesListsOfBodies) {
   collide::DebugGeometry debug;
   for (collide::Index body : {4u, 1u, 1u, 9u, 12u}) debug.boxes.push_back({{}, {}, body});
   const auto text = [&](std::vector<collide::Index> items) {
-    return ui::bodies_text({{}, std::move(items)}, {}, debug, {});
+    return compare::bodies_text({{}, std::move(items)}, {}, debug, {});
   };
   EXPECT_EQ(text({0}), "body 4");
   EXPECT_EQ(text({1, 2}), "body 1");

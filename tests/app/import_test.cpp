@@ -10,7 +10,7 @@
 #include <sstream>
 #include <thread>
 
-#include "app/session/import.h"
+#include "app/session/session.h"
 #include "softbody/model/body_model.h"
 #include "softbody/world/body_model_set.h"
 #include "softbody/world/measures.h"
@@ -53,22 +53,23 @@ class ImportTest : public testing::Test {
  protected:
   void load(const std::filesystem::path& file) {
     import.path = file.string();
-    import.load(session);
+    import.load();
     wait();
   }
   void wait() {
     for (const auto end = std::chrono::steady_clock::now() + 60s;
          import.busy() && std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(1ms))
-      import.update(session);
+      update();
     ASSERT_FALSE(import.busy());
   }
   void drop(const std::vector<std::string>& files) {
-    import.drop(files, session);
+    import.drop(files);
     for (std::size_t i = 0; i < files.size(); ++i) {
       wait();
-      import.update(session);  // begins the next one
+      update();  // begins the next one
     }
   }
+  void update() { joined += import.update(); }
   std::string report() const {
     std::string text;
     for (const session::Import::FileReport& file_report : import.report())
@@ -84,7 +85,8 @@ class ImportTest : public testing::Test {
 
   TemporaryFolder folder;
   Session session{touching_pair(), {}, 1};
-  session::Import import;
+  session::Import& import = session.import;
+  int joined = 0;  // meshes
 };
 
 TEST_F(ImportTest, AddsAMeshClearOfEverything) {
@@ -109,16 +111,16 @@ TEST_F(ImportTest, AddsAMeshClearOfEverything) {
 }
 
 TEST_F(ImportTest, SaysOnceWhereAMeshHasJoined) {
-  EXPECT_FALSE(import.take_joined());
   load(folder.write("ball.obj", obj_of({})));
-  const auto joined = import.take_joined();
-  ASSERT_TRUE(joined);
-  EXPECT_FALSE(import.take_joined());
+  EXPECT_EQ(joined, 1);
+  ASSERT_TRUE(import.joined());
+  update();
   const collide::Frame p = session.world().positions();
   for (std::size_t i = session.world().bodies().first[2]; i < p.x.size(); ++i)
-    EXPECT_LT(glm::distance(glm::dvec3(p.x[i], p.y[i], p.z[i]), joined->centre), 1.01 * joined->radius);
+    EXPECT_LT(glm::distance(glm::dvec3(p.x[i], p.y[i], p.z[i]), import.joined()->centre),
+              1.01 * import.joined()->radius);
   load(folder.write("points.obj", "v 0 0 0\n"));
-  EXPECT_FALSE(import.take_joined()) << "it was refused";
+  EXPECT_EQ(joined, 1) << "it was refused";
 }
 
 TEST_F(ImportTest, ReportsAnOpenMesh) {
@@ -191,7 +193,7 @@ TEST_F(ImportTest, ReplacesTheRunningScene) {
 
 TEST_F(ImportTest, LetsTheWorldRunWhileItReadsAScene) {
   import.path = folder.write("lone.toml", "[[body]]\n").string();
-  import.load(session);
+  import.load();
   EXPECT_TRUE(import.busy());
   session.advance(tick);
   EXPECT_EQ(session.world().frame(), 1);
@@ -217,8 +219,8 @@ TEST_F(ImportTest, SimulatesAFineMeshByAsManyParticlesAsAskedFor) {
 
 TEST_F(ImportTest, GivesUpWhatTheUserCancels) {
   const std::string ball = folder.write("ball.obj", obj_of({.rows = 200, .columns = 400})).string();
-  import.drop({ball}, session);
-  import.drop({ball}, session);
+  import.drop({ball});
+  import.drop({ball});
   import.cancel();
   EXPECT_TRUE(import.progress().starts_with("giving up ball.obj")) << import.progress();
   wait();
@@ -246,11 +248,11 @@ TEST_F(ImportTest, MakesTheBodyBesideTheWindow) {
 TEST_F(ImportTest, ReadsDroppedFilesOneAfterAnother) {
   const std::string ball = folder.write("ball.obj", obj_of({})).string(),
                     bowl = folder.write("BOWL.OBJ", obj_of({.open = true})).string();
-  import.drop({ball}, session);
-  import.drop({bowl}, session);
+  import.drop({ball});
+  import.drop({bowl});
   for (const auto end = std::chrono::steady_clock::now() + 60s;
        session.world().bodies().count() < 4 && std::chrono::steady_clock::now() < end;)
-    import.update(session);
+    update();
   EXPECT_EQ(session.world().bodies().count(), 4u);
   EXPECT_EQ(import.path, bowl);
 }
@@ -290,7 +292,7 @@ TEST_F(ImportTest, AsksWhetherMeshesWithTheSameVerticesAreFramesToPlay) {
   drop(files);
   EXPECT_NE(import.question().find("3 files; those read so far"), std::string::npos) << import.question();
   EXPECT_EQ(session.world().bodies().count(), 2u) << "nothing happens before the answer";
-  import.play(session);
+  import.play();
   EXPECT_EQ(import.question(), "");
   EXPECT_FALSE(session.simulated());
   for (const float gap : {1.0f, 9.0f, 10.0f, 1.0f}) {
@@ -304,7 +306,7 @@ TEST_F(ImportTest, AsksWhetherMeshesWithTheSameVerticesAreFramesToPlay) {
   session.simulation.undo();
   EXPECT_TRUE(session.simulated());
   drop({files[0], files[1]});
-  import.import_each(session);
+  import.import_each();
   wait();
   EXPECT_EQ(import.question(), "");
   ASSERT_EQ(import.report().size(), 4u) << report();
@@ -317,11 +319,11 @@ TEST_F(ImportTest, LosesNoFileThatIsDroppedWhileOthersAreCheckedOrAsk) {
   const std::string ball = folder.write("ball.obj", obj_of({})).string(),
                     other = folder.write("other.obj", obj_of({.rows = 12})).string(),
                     late = folder.write("late.obj", obj_of({.rows = 14})).string();
-  import.drop({ball, other}, session);
-  import.drop({late}, session);  // before it is known that the others are no frames
+  import.drop({ball, other});
+  import.drop({late});  // before it is known that the others are no frames
   for (int i = 0; i < 3; ++i) {
     wait();
-    import.update(session);
+    update();
   }
   EXPECT_EQ(session.world().bodies().count(), 5u) << report();
   EXPECT_EQ(import.path, late) << "in the order in which they were dropped";
@@ -332,11 +334,11 @@ TEST_F(ImportTest, LosesNoFileThatIsDroppedWhileOthersAreCheckedOrAsk) {
   drop({late, late});
   EXPECT_NE(import.question(), "") << "the later files wait";
   EXPECT_EQ(session.world().bodies().count(), 5u);
-  import.import_each(session);
+  import.import_each();
   EXPECT_EQ(import.path, one);
   for (int i = 0; i < 4; ++i) {
     wait();
-    import.update(session);
+    update();
   }
   EXPECT_EQ(session.world().bodies().count(), 9u) << report();
   EXPECT_EQ(import.path, late);
@@ -348,7 +350,7 @@ TEST_F(ImportTest, TakesTheRestShapeOfAnExportForNoFrame) {
                     two = folder.write("frame_00002.obj", two_triangles(2)).string();
   drop({rest, two, one});
   ASSERT_NE(import.question().find("2 files"), std::string::npos) << import.question();
-  import.play(session);
+  import.play();
   EXPECT_EQ(session.simulation.player()->recording()->frame_count(), 2);
   drop({one, rest});
   EXPECT_EQ(import.question(), "");

@@ -6,6 +6,7 @@
 
 #include "app/ui/panel/panel.h"
 #include "app/ui/shortcuts.h"
+#include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
 
 #include <GLFW/glfw3.h>
@@ -122,14 +123,14 @@ TEST(Layout, ShowsNothingButTheSceneInTheCleanView) {
   rig.ui.lower = ui::LowerView::comparison;
   rig.ui.story = true;
   rig.frames(3);
-  ui::handle_key('X', false, rig.session, rig.ui);
+  handle_key('X', false, rig.session, rig.ui);
   rig.frames(2);
   EXPECT_TRUE(rig.recorder.widgets.empty());
   const ui::ScreenRect scene = rig.interface.scene_area();
   EXPECT_EQ(scene.min.x, 0);
   EXPECT_EQ(scene.max.x, 1280);
   EXPECT_EQ(scene.max.y, 1150);
-  ui::handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
+  handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
   rig.frames(2);
   EXPECT_FALSE(rig.ui.clean);
   EXPECT_TRUE(rig.ui.story) << "the key closes one thing at a time";

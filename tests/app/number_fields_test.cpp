@@ -61,7 +61,7 @@ const std::vector<Field>& real_fields() {
        [](PanelRig& r) { return r.session.world().scene().materials.at(0)[softbody::Material::mass]; }},
       {"Detection", "Cell size", [](PanelRig& r) { return double{r.session.world().collision().cell_size->x}; }},
       {"Detection", "Tolerance", [](PanelRig& r) { return double{r.session.world().collision().tolerance}; }},
-      {"Files", "Size of meshes", [](PanelRig& r) { return double{r.ui.import.size}; }},
+      {"Files", "Size of meshes", [](PanelRig& r) { return double{r.session.import.size}; }},
   };
   return fields;
 }

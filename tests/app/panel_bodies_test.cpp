@@ -21,11 +21,11 @@ TEST(BodiesPanel, DropsThrowsDeletesAndUndoes) {
   rig.click("Drop 20");
   EXPECT_EQ(rig.session.world().bodies().count(), 22u);
   rig.click("Throw");
-  EXPECT_TRUE(rig.ui.throw_body);  // the main loop throws it from its camera
+  EXPECT_EQ(rig.tasks, std::vector{ui::WindowTask::throw_body}) << "the main loop throws it from its camera";
   rig.session.bodies.select(1);
   rig.frames(2);
   rig.click("Look at it");
-  EXPECT_TRUE(rig.ui.focus_body);
+  EXPECT_TRUE(rig.tasks.back() == ui::WindowTask::show_selected_body);
   rig.click("Delete");
   EXPECT_EQ(rig.session.world().bodies().count(), 21u);
   EXPECT_FALSE(rig.session.bodies.selected());

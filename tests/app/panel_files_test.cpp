@@ -25,15 +25,15 @@ TEST(FilesPanel, LoadsTheNamedFile) {
   PanelRig rig;
   open_only(rig, "Files");
   rig.type("File to open", file.string());
-  EXPECT_EQ(rig.ui.import.path, file.string());
+  EXPECT_EQ(rig.session.import.path, file.string());
   rig.click("Load");
-  for (int i = 0; i < 6000 && rig.ui.import.busy(); ++i) rig.frame();
+  for (int i = 0; i < 6000 && rig.session.import.busy(); ++i) rig.frame();
   EXPECT_EQ(rig.session.world().scene().name, "Lone");
   rig.type("File to open", "/none.obj");
   rig.click("Load");
-  for (int i = 0; i < 6000 && rig.ui.import.busy(); ++i) rig.frame();
+  for (int i = 0; i < 6000 && rig.session.import.busy(); ++i) rig.frame();
   rig.frames(2);
-  EXPECT_NE(rig.ui.import.problem().find("/none.obj"), std::string::npos) << rig.ui.import.problem();
+  EXPECT_NE(rig.session.import.problem().find("/none.obj"), std::string::npos) << rig.session.import.problem();
   const auto problem = rig.widget("Load problem");
   EXPECT_GE(problem.min.y, rig.widget("File to open").max.y) << "below its field";
   EXPECT_LE(problem.max.y, rig.widget("Size of meshes").min.y);
@@ -51,19 +51,19 @@ TEST(FilesPanel, SetsTheWeldDistanceOfTheNextMesh) {
   open_only(rig, "Files");
   const auto import_is_closed = [&] {
     const std::size_t before = rig.session.world().bodies().count();
-    rig.ui.import.drop({mesh.string()}, rig.session);
+    rig.session.import.drop({mesh.string()});
     for (int i = 0; i < 6000 && rig.session.world().bodies().count() == before; ++i) rig.frame();
     return rig.session.world().model(rig.session.world().bodies().count() - 1).mesh.closed;
   };
-  EXPECT_EQ(rig.ui.import.weld, softbody::MeshFile{}.weld);
+  EXPECT_EQ(rig.session.import.weld, softbody::MeshFile{}.weld);
   EXPECT_FALSE(import_is_closed());
   rig.drag("Weld distance", -2000);
-  EXPECT_EQ(rig.ui.import.weld, session::Import::min_weld);
+  EXPECT_EQ(rig.session.import.weld, session::Import::min_weld);
   rig.drag("Weld distance", 2000);
-  EXPECT_EQ(rig.ui.import.weld, session::Import::max_weld);
+  EXPECT_EQ(rig.session.import.weld, session::Import::max_weld);
   rig.double_click("Weld distance");
   rig.type("20");
-  EXPECT_EQ(rig.ui.import.weld, 0.02 / double{rig.ui.import.size}) << "exactly the typed millimetres";
+  EXPECT_EQ(rig.session.import.weld, 0.02 / double{rig.session.import.size}) << "exactly the typed millimetres";
   EXPECT_TRUE(import_is_closed());
 }
 
@@ -83,8 +83,7 @@ TEST(FilesPanel, SaysWhichMeshesAreSimulatedByHowManyParticles) {
 TEST(ImportReport, ListsEveryFileBelowTheStatus) {
   PanelRig rig;
   rig.resize(800, 600);
-  rig.ui.import.drop(std::vector<std::string>(20, "/none/with a path that takes more than one line here.stl"),
-                     rig.session);
+  rig.session.import.drop(std::vector<std::string>(20, "/none/with a path that takes more than one line here.stl"));
   for (int i = 0; i < 40; ++i) rig.frame();
   EXPECT_EQ(std::ranges::count(rig.recorder.widgets, "Import report", &ui::WidgetRecorder::Widget::label), 20);
   const float status_end = rig.widget("Step light").max.y;
@@ -169,33 +168,33 @@ TEST(TakeAwayPanel, RequestsAPictureAndRecords) {
   PanelRig rig;
   open_only(rig, "Export");
   rig.type("Output folder", folder.path().string());
-  EXPECT_EQ(rig.ui.exporter.folder, folder.path().string());
+  EXPECT_EQ(rig.session.exporter.folder, folder.path().string());
   rig.click("Picture");
-  EXPECT_TRUE(rig.ui.exporter.picture_requested);
+  EXPECT_TRUE(rig.session.exporter.picture_requested);
   rig.click("Curves");
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "curves_0001.csv"));
   for (const session::RecordingKind& kind : session::recording_kinds) {
     rig.click("Kind of recording");
     rig.click(kind.name);
-    EXPECT_EQ(session::recording_kinds[rig.ui.exporter.kind].key, kind.key);
+    EXPECT_EQ(session::recording_kinds[rig.session.exporter.kind].key, kind.key);
   }
   rig.click("Picture size");
   rig.click("3840 x 2160");
-  EXPECT_EQ(rig.ui.exporter.size, 2u);
+  EXPECT_EQ(rig.session.exporter.size, 2u);
   rig.click("Picture size");
   rig.click("Own size");
   rig.type("Picture width", "64");
   rig.type("Picture height", "99999");
-  EXPECT_EQ(rig.ui.exporter.own_size, glm::uvec2(64, session::Exporter::max_side));
+  EXPECT_EQ(rig.session.exporter.own_size, glm::uvec2(64, session::Exporter::max_side));
   rig.click("With the panel");
   EXPECT_FALSE(rig.widget("Picture size").enabled) << "that is the window";
   rig.click("With the panel");
   rig.click("Record");
-  EXPECT_TRUE(rig.ui.exporter.recording());
+  EXPECT_TRUE(rig.session.exporter.recording());
   EXPECT_FALSE(rig.widget("Picture size").enabled);
   EXPECT_FALSE(rig.widget("Kind of recording").enabled);
   rig.click("Record");
-  EXPECT_FALSE(rig.ui.exporter.recording());
+  EXPECT_FALSE(rig.session.exporter.recording());
 }
 
 }  // namespace

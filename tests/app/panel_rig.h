@@ -29,7 +29,8 @@ class PanelRig {
     session.advance(tick);
     target_.bind();
     gui_.begin_frame(input_);
-    interface.draw(session, ui, gui_.scale(), 0.0, &recorder);
+    carry_out({});
+    carry_out(interface.draw(session, ui, gui_.scale(), 0.0, &recorder));
     gui_.end_frame();
     gui_.draw();
     ASSERT_EQ(collide::problem(session.world().collision()), "");
@@ -129,6 +130,10 @@ class PanelRig {
   }
 
  private:
+  void carry_out(const ui::Requests& requests) {
+    for (const ui::WindowTask task : ui::carry_out(requests, session, ui)) tasks.push_back(task);
+  }
+
   engine::HeadlessContext context_;  // first: the others need it
   engine::Framebuffer target_{{64, 64}, 0};
   engine::Gui gui_;
@@ -140,6 +145,7 @@ class PanelRig {
   ui::UiState ui;
   ui::UserInterface interface;
   ui::WidgetRecorder recorder;
+  std::vector<ui::WindowTask> tasks{};  // that were left to the window
 };
 
 }  // namespace app

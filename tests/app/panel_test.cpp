@@ -1,5 +1,6 @@
 #include "app/ui/panel/panel.h"
 #include "app/ui/shortcuts.h"
+#include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
 
 #include <GLFW/glfw3.h>
@@ -69,12 +70,12 @@ TEST(Panel, ClosesOnlyTheOpenListAtEscape) {
   rig.click("Method");
   EXPECT_TRUE(rig.ui.popup_open);
   rig.session.bodies.select(0);
-  ui::handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
+  handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
   rig.press_escape();
   EXPECT_FALSE(rig.ui.popup_open);
   EXPECT_TRUE(rig.session.bodies.selected());
   EXPECT_EQ(rig.session.world().method().key, collide::default_method);
-  ui::handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
+  handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
   EXPECT_FALSE(rig.session.bodies.selected());
 }
 

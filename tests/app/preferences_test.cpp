@@ -31,8 +31,7 @@ TEST(PreferencesFile, StoresEveryPreference) {
   const auto file = folder.path() / "a" / "b" / "preferences.toml";
   window::PreferencesFile first(file);
   EXPECT_TRUE(first.stored() == window::Preferences());
-  first.store(changed(), 0, true);
-  EXPECT_EQ(first.take_problem(), "");
+  EXPECT_EQ(first.store(changed(), 0, true), "");
   EXPECT_TRUE(window::PreferencesFile(file).stored() == changed());
 }
 
@@ -56,9 +55,8 @@ TEST(PreferencesFile, IgnoresABrokenFileAndSaysSo) {
        {"width = \"wide\"", "width = 7", "= [", "[show]\nboxes = 3", "section = 1", "\xff\xfe"}) {
     window::PreferencesFile preferences(folder.write("preferences.toml", text));
     EXPECT_TRUE(preferences.stored() == window::Preferences()) << text;
-    EXPECT_NE(preferences.take_problem().find("ignored"), std::string::npos) << text;
-    EXPECT_EQ(preferences.take_problem(), "") << "reported once";
-    preferences.store(changed(), 0, true);
+    EXPECT_NE(preferences.store({}, 0).find("ignored"), std::string::npos) << text;
+    EXPECT_EQ(preferences.store(changed(), 0, true), "") << "reported once";
     EXPECT_TRUE(window::PreferencesFile(folder.path() / "preferences.toml").stored() == changed());
   }
 }
@@ -84,16 +82,14 @@ TEST(PreferencesFile, IgnoresUnknownKeys) {
   window::PreferencesFile preferences(folder.write(
       "preferences.toml", "width = 500\ncolour = \"red\"\n[show]\nghosts = true\n[methods]\noracle = true\n"));
   EXPECT_EQ(preferences.stored().size.x, 500);
-  EXPECT_EQ(preferences.take_problem(), "");
+  EXPECT_EQ(preferences.store(preferences.stored(), 0), "");
 }
 
 TEST(PreferencesFile, ReportsOnceThatItCannotBeWritten) {
   const TemporaryFolder folder;
   window::PreferencesFile preferences(folder.write("in the way", "") / "preferences.toml");
-  preferences.store(changed(), 0, true);
-  EXPECT_NE(preferences.take_problem().find("cannot be kept"), std::string::npos);
-  preferences.store(changed(), 10, true);
-  EXPECT_EQ(preferences.take_problem(), "");
+  EXPECT_NE(preferences.store(changed(), 0, true).find("cannot be kept"), std::string::npos);
+  EXPECT_EQ(preferences.store(changed(), 10, true), "");
 }
 
 TEST(Preferences, AreReadFromTheWindowAndAppliedToIt) {

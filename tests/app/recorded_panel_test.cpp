@@ -2,7 +2,8 @@
 
 #include "app/ui/panel/panel.h"
 #include "app/ui/shortcuts.h"
-#include "app/window/overlay_request.h"
+#include "app/window/scene_picture.h"
+#include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
 #include "tests/app/recorded_bodies.h"
 
@@ -38,13 +39,13 @@ TEST_F(RecordedPanel, LeavesOutWhatNeedsASolverAndSaysSo) {
 TEST_F(RecordedPanel, AnswersKeysThatNeedASolverWithTheReason) {
   for (const int key : {GLFW_KEY_D, GLFW_KEY_B, GLFW_KEY_DELETE, GLFW_KEY_F, int('5'), int('8')}) {
     rig.session.simulation.notice.clear();
-    EXPECT_TRUE(ui::handle_key(key, false, rig.session, rig.ui));
+    EXPECT_TRUE(handle_key(key, false, rig.session, rig.ui));
     const std::string& said = rig.session.simulation.notice.text();
     EXPECT_NE(said.find("left out, the motion is recorded"), std::string::npos) << key << ' ' << said;
   }
-  EXPECT_FALSE(rig.ui.throw_body || rig.ui.overlays.springs || rig.ui.overlays.surface_contacts);
+  EXPECT_FALSE(rig.ui.overlays.springs || rig.ui.overlays.surface_contacts);
   EXPECT_EQ(rig.session.world().scene().contact_surface, softbody::ContactSurface::vertices);
-  ui::handle_key(GLFW_KEY_M, false, rig.session, rig.ui);
+  handle_key(GLFW_KEY_M, false, rig.session, rig.ui);
   EXPECT_NE(rig.session.world().method().key, collide::default_method);
 }
 
@@ -69,7 +70,7 @@ TEST_F(RecordedPanel, DrawsNoOverlayThatNeedsASolverButKeepsTheChoice) {
   rig.ui.overlays.springs = rig.ui.overlays.surface_contacts = rig.ui.overlays.contacts = true;
   const render::Overlays chosen = rig.ui.overlays;
   rig.frames(1);
-  const render::Overlays drawn = window::overlay_request(rig.session, rig.ui).shown;
+  const render::Overlays drawn = window::scene_picture(rig.session, rig.ui, {}, 1).shown;
   EXPECT_FALSE(drawn.springs || drawn.surface_contacts);
   EXPECT_TRUE(drawn.contacts);
   EXPECT_EQ(rig.ui.overlays, chosen) << "for the next scene, and for the preferences";
@@ -90,7 +91,7 @@ TEST_F(RecordedPanel, OpensFilesAndGivesTheCommandThatPlaysTheRecording) {
 }
 
 TEST_F(RecordedPanel, TourFindsItsExampleInALaterFrame) {
-  ui::handle_key(GLFW_KEY_G, false, rig.session, rig.ui);
+  handle_key(GLFW_KEY_G, false, rig.session, rig.ui);
   ASSERT_TRUE(rig.ui.tour.open());
   EXPECT_TRUE(rig.frames_until([&] { return shows("Tour claims"); }));
   EXPECT_GT(rig.session.world().frame(), 1) << "the balls touch later";
@@ -102,7 +103,7 @@ TEST_F(RecordedPanel, TourFindsItsExampleInALaterFrame) {
 TEST_F(RecordedPanel, DrawsEveryView) {
   for (const int key : {GLFW_KEY_V, GLFW_KEY_E, GLFW_KEY_W, GLFW_KEY_T, int('1'), int('2'), int('3'), int('4'),
                         int('6'), int('7'), int('9')}) {
-    ui::handle_key(key, false, rig.session, rig.ui);
+    handle_key(key, false, rig.session, rig.ui);
     rig.frames(3);
   }
   EXPECT_FALSE(rig.session.simulation.notice.is_error()) << rig.session.simulation.notice.text();

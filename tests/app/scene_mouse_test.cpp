@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <random>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -110,7 +111,7 @@ class SceneMouseTest : public testing::Test {
   void frame(int times = 1) {
     for (int i = 0; i < times; ++i) {
       session.advance(tick);
-      mouse.update(input, session, camera, size);
+      mouse.update(input, session, ui, camera, size);
       camera.advance(tick);
       input.moved = {};
       input.double_click = false;
@@ -128,6 +129,7 @@ class SceneMouseTest : public testing::Test {
   glm::vec2 body_pixel(softbody::BodyId id) { return pixel_of(camera, glm::vec3(centre(session.world(), id))); }
 
   Session session;
+  ui::UiState ui;
   engine::Camera camera = camera_at({0, 3, 0}, 8);
   window::SceneMouse mouse;
   window::MouseInput input;
@@ -236,8 +238,7 @@ TEST_F(SolidDrag, MovesEachKindOfSolidInThePlaneThatFacesTheCamera) {
       move(pixel_of(camera, middles[i]));
       EXPECT_TRUE(mouse.can_drag());
       button(0, true);
-      EXPECT_EQ(mouse.take_pressed_solid(), i);
-      EXPECT_FALSE(mouse.take_pressed_solid());
+      EXPECT_EQ(std::exchange(ui.solid, std::nullopt), i);
       const engine::Orbit orbit = camera.orbit();
       const glm::vec2 way(30, -20);
       for (int step = 0; step < 10; ++step) move(input.at + 0.1f * way);
@@ -268,7 +269,7 @@ TEST_F(SolidDrag, ChangesNothingByAClick) {
   button(0, true);
   move(input.at + glm::vec2(2, 1));
   button(0, false);
-  EXPECT_EQ(mouse.take_pressed_solid(), 0u);
+  EXPECT_EQ(ui.solid, 0u);
   EXPECT_EQ(place(0), glm::dvec3(-1.5, 1.5, 0));
   EXPECT_FALSE(session.simulation.can_undo());
   EXPECT_FALSE(session.bodies.selected()) << "as a click beside the bodies";
@@ -304,8 +305,9 @@ TEST_F(SolidDrag, TakesWhatIsInFront) {
   const auto press_with_sphere_at = [&](double share) {
     sphere.shape = softbody::SolidSphere{.centre = eye + share * (body - eye), .radius = 0.3};
     session.settings.set_solid(0, sphere);
+    ui.solid.reset();
     button(0, true);
-    const bool solid = mouse.take_pressed_solid().has_value();
+    const bool solid = ui.solid.has_value();
     button(0, false);
     return solid;
   };

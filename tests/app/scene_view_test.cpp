@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/render/capture.h"
-#include "app/render/overlay_shapes.h"
+#include "app/render/overlays.h"
 #include "app/render/palette.h"
 #include "app/render/scene_view.h"
 #include "app/session/session.h"
@@ -174,7 +174,7 @@ class AddOverlaysTest : public testing::Test {
   }
   void add(const std::vector<compare::SurfaceMark>& marks) {
     request_.marks = marks;
-    render::add_overlays(world_, request_, {glm::vec3(0, 3, 9), 500}, {positions_, positions_}, frame_);
+    render::add_overlays({world_, request_, {glm::vec3(0, 3, 9), 500}, {positions_, positions_}}, frame_);
   }
 
   softbody::World world_{touching_pair(), {}};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "softbody/forces/springs.h"
+#include "tests/app/keys.h"
 #include "tests/app/scenes.h"
 
 #include <GLFW/glfw3.h>
@@ -19,7 +20,7 @@ compare::MethodSet only(std::initializer_list<const char*> keys) {
 TEST(Shortcuts, ActAsTheHelpSays) {
   Session session(touching_pair(), {}, 1);
   ui::UiState ui;
-  const auto tap = [&](int key) { return ui::handle_key(key, false, session, ui); };
+  const auto tap = [&](int key) { return handle_key(key, false, session, ui); };
   EXPECT_TRUE(tap(' '));
   EXPECT_TRUE(session.simulation.clock.paused);
   tap('N');
@@ -48,12 +49,11 @@ TEST(Shortcuts, ActAsTheHelpSays) {
   }
   tap('H');
   EXPECT_FALSE(ui.panel);
-  tap('C');
-  EXPECT_TRUE(ui.reset_camera);
+  const auto task = [&](int key) { return std::get<ui::WindowTask>(*ui::request_by_key(session, key, false)); };
+  EXPECT_TRUE(task('C') == ui::WindowTask::reset_camera);
   tap('?');
   EXPECT_TRUE(ui.help);
-  tap('Q');
-  EXPECT_TRUE(ui.quit);
+  EXPECT_TRUE(task('Q') == ui::WindowTask::quit);
   EXPECT_FALSE(tap('Z'));
   EXPECT_FALSE(tap('/')) << "only some keyboards have it on the key of ?";
 }
@@ -63,7 +63,7 @@ TEST(Shortcuts, GoThroughTheShownMethods) {
   ui::UiState ui;
   session.comparison.choice.methods = only({"octree", "grid-hash"});
   for (const char* key : {"octree", "grid-hash", "octree"}) {
-    ui::handle_key('M', false, session, ui);
+    handle_key('M', false, session, ui);
     EXPECT_EQ(session.world().method().key, key);
   }
 }
@@ -72,7 +72,7 @@ TEST(Shortcuts, SayWhatTheyDid) {
   Session session(touching_pair(), {}, 1);
   ui::UiState ui;
   const auto said = [&](int key) {
-    ui::handle_key(key, false, session, ui);
+    handle_key(key, false, session, ui);
     EXPECT_FALSE(session.simulation.notice.is_error());
     return session.simulation.notice.text();
   };
@@ -86,7 +86,7 @@ TEST(Shortcuts, SayWhatTheyDid) {
   large.bodies.resize(18, large.bodies[0]);
   Session refusing(large, {}, 1);
   refusing.comparison.choice.methods = only({"brute-force"});
-  ui::handle_key('M', false, refusing, ui);
+  handle_key('M', false, refusing, ui);
   EXPECT_TRUE(refusing.simulation.notice.is_error()) << "a refusal is not hidden";
 }
 
@@ -95,9 +95,9 @@ TEST(Shortcuts, IgnoreKeysWithAltOrSuper) {
   ui::UiState ui;
   for (const int mod : {GLFW_MOD_ALT, GLFW_MOD_SUPER}) {
     for (const ui::Shortcut& shortcut : ui::shortcuts())
-      EXPECT_FALSE(ui::handle_key(shortcut.key, false, session, ui, shortcut.mods | mod)) << shortcut.keys_text;
+      EXPECT_FALSE(handle_key(shortcut.key, false, session, ui, shortcut.mods | mod)) << shortcut.keys_text;
     for (const render::OverlayRow& row : render::overlay_table)
-      EXPECT_FALSE(ui::handle_key(row.shortcut, false, session, ui, mod)) << row.label;
+      EXPECT_FALSE(handle_key(row.shortcut, false, session, ui, mod)) << row.label;
   }
   EXPECT_FALSE(ui.overlays.any());
 }
@@ -105,36 +105,36 @@ TEST(Shortcuts, IgnoreKeysWithAltOrSuper) {
 TEST(Shortcuts, RepeatOnlySomeActionsOfAHeldKey) {
   Session session(touching_pair(), {}, 1);
   ui::UiState ui;
-  EXPECT_FALSE(ui::handle_key(' ', true, session, ui));
-  EXPECT_FALSE(ui::handle_key('1', true, session, ui));
-  EXPECT_TRUE(ui::handle_key('N', true, session, ui));
+  EXPECT_FALSE(handle_key(' ', true, session, ui));
+  EXPECT_FALSE(handle_key('1', true, session, ui));
+  EXPECT_TRUE(handle_key('N', true, session, ui));
 }
 
 TEST(Shortcuts, ActWithControlShiftAndDelete) {
   Session session(touching_pair(), {}, 1);
   ui::UiState ui;
-  EXPECT_TRUE(ui::handle_key('D', false, session, ui, GLFW_MOD_SHIFT));
+  EXPECT_TRUE(handle_key('D', false, session, ui, GLFW_MOD_SHIFT));
   EXPECT_EQ(session.world().bodies().count(), 22u);
   session.bodies.select(3);
-  EXPECT_TRUE(ui::handle_key(GLFW_KEY_DELETE, false, session, ui));
+  EXPECT_TRUE(handle_key(GLFW_KEY_DELETE, false, session, ui));
   EXPECT_EQ(session.world().bodies().count(), 21u);
-  EXPECT_FALSE(ui::handle_key('R', false, session, ui, GLFW_MOD_CONTROL))
-      << "it means something else in other programs";
-  EXPECT_TRUE(ui::handle_key('R', false, session, ui));
+  EXPECT_FALSE(handle_key('R', false, session, ui, GLFW_MOD_CONTROL)) << "it means something else in other programs";
+  EXPECT_TRUE(handle_key('R', false, session, ui));
   EXPECT_EQ(session.world().bodies().count(), 2u);
-  EXPECT_TRUE(ui::handle_key('Z', false, session, ui, GLFW_MOD_CONTROL));
+  EXPECT_TRUE(handle_key('Z', false, session, ui, GLFW_MOD_CONTROL));
   EXPECT_EQ(session.world().bodies().count(), 21u);
-  EXPECT_TRUE(ui::handle_key('Z', false, session, ui, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT));
+  EXPECT_TRUE(handle_key('Z', false, session, ui, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT));
   EXPECT_EQ(session.world().bodies().count(), 2u) << "redone";
-  EXPECT_TRUE(ui::handle_key('Z', false, session, ui, GLFW_MOD_CONTROL));
+  EXPECT_TRUE(handle_key('Z', false, session, ui, GLFW_MOD_CONTROL));
   EXPECT_EQ(session.world().bodies().count(), 21u);
-  EXPECT_TRUE(ui::handle_key('Y', false, session, ui, GLFW_MOD_CONTROL));
+  EXPECT_TRUE(handle_key('Y', false, session, ui, GLFW_MOD_CONTROL));
   EXPECT_EQ(session.world().bodies().count(), 2u) << "redone";
-  EXPECT_TRUE(ui::handle_key('Z', false, session, ui, GLFW_MOD_CONTROL));
-  EXPECT_TRUE(ui::handle_key('B', false, session, ui));
-  EXPECT_TRUE(ui.throw_body);
+  EXPECT_TRUE(handle_key('Z', false, session, ui, GLFW_MOD_CONTROL));
+  const auto request = ui::request_by_key(session, 'B', false);
+  ASSERT_TRUE(request);
+  EXPECT_TRUE(std::get<ui::WindowTask>(*request) == ui::WindowTask::throw_body);
   session.bodies.select(0);
-  EXPECT_TRUE(ui::handle_key(GLFW_KEY_ESCAPE, false, session, ui));
+  EXPECT_TRUE(handle_key(GLFW_KEY_ESCAPE, false, session, ui));
   EXPECT_FALSE(session.bodies.selected());
 }
 

@@ -1,6 +1,7 @@
 // The card on what the paper's method misses.
 
 #include "app/ui/shortcuts.h"
+#include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
 
 #include <GLFW/glfw3.h>
@@ -44,11 +45,11 @@ TEST(StoryCard, KnowsThePapersMethodWhicheverMissesAreShown) {
 
 TEST(StoryCard, IsNotClosedByEscapeWhereItIsNotShown) {
   PanelRig rig;
-  ui::handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
+  handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
   EXPECT_TRUE(rig.ui.story_at_start);
   rig.ui.story = true;
   rig.ui.lower = ui::LowerView::comparison;
-  ui::handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
+  handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
   EXPECT_TRUE(rig.ui.story);
 }
 
@@ -56,11 +57,11 @@ TEST(StoryCard, GoesAwayByKeyAndButtonAndStaysAway) {
   PanelRig rig;
   rig.ui.story = true;
   rig.frames(3);
-  ui::handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
+  handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
   rig.frames(2);
   EXPECT_FALSE(rig.recorder.find("Story sentence"));
   EXPECT_FALSE(rig.ui.story_at_start);
-  ui::handle_key('W', false, rig.session, rig.ui);
+  handle_key('W', false, rig.session, rig.ui);
   rig.frames(3);
   EXPECT_TRUE(rig.ui.story_at_start);
   rig.click("Close story");

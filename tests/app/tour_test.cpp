@@ -14,6 +14,7 @@
 #include "app/window/preferences.h"
 #include "engine/resources.h"
 #include "tests/app/hands.h"
+#include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
 
 #include <GLFW/glfw3.h>
@@ -98,7 +99,7 @@ TEST(Tour, GoesThroughEveryStepByMouse) {
 
 TEST(Tour, GoesThroughEveryStepByKeys) {
   PanelRig rig;
-  const auto key = [&](int which) { ui::handle_key(which, false, rig.session, rig.ui); };
+  const auto key = [&](int which) { handle_key(which, false, rig.session, rig.ui); };
   key(GLFW_KEY_RIGHT);
   EXPECT_FALSE(rig.ui.tour.open());
   key(GLFW_KEY_G);
@@ -135,7 +136,7 @@ TEST(Tour, LetsTheUserResumeTheWorld) {
   PanelRig rig;
   rig.session.simulation.clock.paused = true;
   rig.ui.tour.start(rig.session, rig.ui.overlays);
-  ui::handle_key(GLFW_KEY_SPACE, false, rig.session, rig.ui);
+  handle_key(GLFW_KEY_SPACE, false, rig.session, rig.ui);
   const int frame = rig.session.world().frame();
   rig.frames(5);
   EXPECT_GT(rig.session.world().frame(), frame);

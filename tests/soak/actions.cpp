@@ -148,18 +148,18 @@ void rewind(DemoRig& demo, Dice& dice) {
 }
 
 void save(DemoRig& demo, Dice&) { demo.session.scenes.save(demo.ui.save_as, demo.ui.view); }
-void picture(DemoRig& demo, Dice&) { demo.ui.exporter.picture_requested = true; }
-void curves(DemoRig& demo, Dice&) { demo.ui.exporter.write_curves(demo.session); }
+void picture(DemoRig& demo, Dice&) { demo.session.exporter.picture_requested = true; }
+void curves(DemoRig& demo, Dice&) { demo.session.exporter.write_curves(); }
 
 /// Imports a tetrahedron of any size; every other file is broken.
 void import_mesh(DemoRig& demo, Dice& dice) {
   constexpr std::array faces{"f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n", "f 1 2 9\n", "f 1 2 3\nf 1 2 4\nf 1 2 4\n",
                              "f 1 2\n", "f 1 2 3\nv nan 0 0\n"};
-  const std::string file = demo.ui.exporter.folder + "/mesh.obj";
+  const std::string file = demo.session.exporter.folder + "/mesh.obj";
   std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
                       << faces[dice.heads() ? 0 : 1 + dice.pick(faces.size() - 1)];
-  demo.ui.import.size = float(dice.between(0.2, 1));
-  demo.ui.import.drop({file}, demo.session);
+  demo.session.import.size = float(dice.between(0.2, 1));
+  demo.session.import.drop({file});
 }
 
 void resize(DemoRig& demo, Dice& dice) { demo.resize({end_or_between(dice, 1, 900), end_or_between(dice, 1, 700)}); }

@@ -2,14 +2,14 @@
 
 #include <utility>
 
-#include "app/window/overlay_request.h"
+#include "app/window/scene_picture.h"
 #include "engine/resources.h"
 
 namespace soak {
 
 DemoRig::DemoRig(const std::filesystem::path& scenes, const std::filesystem::path& folder)
     : view_(engine::find_folder("shaders")), session(softbody::find_scene("drop", scenes), scenes, 2) {
-  ui.exporter.folder = ui.import.path = folder.string();
+  session.exporter.folder = session.import.path = folder.string();
   ui.save_as = (folder / "saved.toml").string();
   restart_camera();
 }
@@ -22,21 +22,22 @@ void DemoRig::resize(glm::ivec2 size) {
 void DemoRig::frame(bool draw) {
   target_.bind();
   gui_.begin_frame(input);
-  interface_.draw(session, ui, gui_.scale(), 10);
+  carry_out({}, session, ui);
+  carry_out(interface_.draw(session, ui, gui_.scale(), 10), session, ui);
   const bool over_scene = !gui_.wants_mouse();
-  mouse_.update(app::window::read_mouse({}, over_scene), session, camera_, input.display_size);
+  mouse_.update(app::window::read_mouse({}, over_scene), session, ui, camera_, input.display_size);
   camera_.advance(input.seconds);
+  const app::window::ScenePicture picture = app::window::scene_picture(session, ui, camera_, 1);
   if (draw)
-    canvas_.update(input.display_size, true, ui.exporter.wants_shown_picture(), [this](const engine::Viewport& whole) {
-      view_.draw(session.world(), app::window::overlay_request(session, ui), camera_, whole, 1,
-                 session.simulation.drawn(app::window::shows_present_state(session, ui.overlays)));
+    canvas_.update(input.display_size, true, session.exporter.wants_shown_picture(), [&](const auto& whole) {
+      view_.draw(session.world(), app::window::overlay_request(session, ui.tour, picture), camera_, whole, 1,
+                 app::window::drawn_meshes(session, picture));
     });
   target_.bind();
   gui_.end_frame();
   gui_.draw();
-  ui.exporter.frame(session,
-                    [this](bool with_panel, const auto&) { return with_panel ? target_.read() : canvas_.read(); });
-  session.advance_one(input.seconds, !ui.exporter.recording() || ui.exporter.may_step());
+  session.exporter.frame([this](bool with_panel, const auto&) { return with_panel ? target_.read() : canvas_.read(); });
+  session.advance_one(input.seconds, !session.exporter.recording() || session.exporter.may_step());
   glFinish();  // as a window does: else software drivers keep the memory of pictures that they have not drawn yet
 }
 

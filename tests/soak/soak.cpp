@@ -126,7 +126,6 @@ class Soak {
     const bool many = demo_.session.world().bodies().count() > bodies_ + max_added_bodies;
     if (many || dice_.pick(elsewhere ? 10 : 100) == 0) start(scene);
     demo_.session.simulation.clock.paused = false;
-    demo_.ui.quit = false;
   }
 
   void frame(bool draw) {

@@ -93,4 +93,7 @@ Table contact_table(const ContactResults& results);
 
 Page contact_page(const ContactResults& results);
 
+/// Makes the report: how accurate each kind of contact is, judged by the surface oracle, and what it costs.
+void report_contact(const ReportOptions& options);
+
 }  // namespace app::report

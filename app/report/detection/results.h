@@ -101,4 +101,7 @@ Page detection_page(const DetectionResults& results);
 /// Adds the part on what §3 of the paper claims: hashes by level, and growth with the number of bodies.
 void add_growth(Page& page, const DetectionResults& results);
 
+/// Makes the report: what each detector costs, and what it misses.
+void report_detection(const ReportOptions& options);
+
 }  // namespace app::report

@@ -157,4 +157,7 @@ struct SolverResults {
 Table solver_table(const SolverResults& results);
 Page solver_page(const SolverResults& results);
 
+/// Makes the report: what each integrator's error is, and what it costs.
+void report_solver(const ReportOptions& options);
+
 }  // namespace app::report

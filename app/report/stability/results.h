@@ -122,4 +122,7 @@ struct StabilityResults {
 Table stability_table(const StabilityResults& results);
 Page stability_page(const StabilityResults& results);
 
+/// Makes the report: what each integrator survives.
+void report_stability(const ReportOptions& options);
+
 }  // namespace app::report

@@ -12,22 +12,24 @@
 namespace app::ui {
 namespace {
 
-void draw_drop_and_throw(Widgets& w, Session& session, UiState& ui) {
+void draw_drop_and_throw(Widgets& w, const Session& session) {
   if (!session.simulated()) return;
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
   ImGui::BeginDisabled(!session.bodies.can_drop());
-  if (w.button("Drop", "Drops another body from above (D).", width)) session.bodies.drop();
+  if (w.button("Drop", "Drops another body from above (D).", width)) w.ask([](Session& s) { s.bodies.drop(); });
   ImGui::SameLine();
   if (w.button("Drop 20", "Drops twenty bodies side by side (Shift+D).", width))
-    session.bodies.drop(session::BodyControls::many_drops);
+    w.ask([](Session& s) { s.bodies.drop(session::BodyControls::many_drops); });
   ImGui::SameLine();
   if (w.button("Throw", "Throws a body from the camera, by B to where the mouse points, else to the middle.", width))
-    ui.throw_body = true;
+    w.ask(WindowTask::throw_body);
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  w.slider("Throw speed", session.bodies.throw_speed, session::BodyControls::min_throw_speed,
-           session::BodyControls::max_throw_speed, "%.0f m/s", "How fast bodies are thrown.", true);
+  double speed = session.bodies.throw_speed;
+  if (w.slider("Throw speed", speed, session::BodyControls::min_throw_speed, session::BodyControls::max_throw_speed,
+               "%.0f m/s", "How fast bodies are thrown.", true))
+    w.ask([speed](Session& s) { s.bodies.throw_speed = speed; });
   ImGui::EndDisabled();
 }
 
@@ -77,8 +79,8 @@ void draw_no_selection(Widgets& w, bool can_pull) {
 
 }  // namespace
 
-void draw_bodies(Widgets& w, Session& session, UiState& ui) {
-  draw_drop_and_throw(w, session, ui);
+void draw_bodies(Widgets& w, const Session& session) {
+  draw_drop_and_throw(w, session);
   const bool has_solver = session.simulated();
   const auto& body = session.bodies.selected();
   if (body)
@@ -88,10 +90,10 @@ void draw_bodies(Widgets& w, Session& session, UiState& ui) {
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
   ImGui::BeginDisabled(!body);
   if (w.button("Look at it", "The camera goes to the selected body, as a double-click on it does.", width))
-    ui.focus_body = true;
+    w.ask(WindowTask::show_selected_body);
   if (has_solver) ImGui::SameLine();
   if (has_solver && w.button("Delete", "Takes the selected body out of the world (Del); Ctrl+Z brings it back.", width))
-    session.bodies.remove_selected();
+    w.ask([](Session& s) { s.bodies.remove_selected(); });
   ImGui::EndDisabled();
 }
 

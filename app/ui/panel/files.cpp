@@ -16,11 +16,11 @@ constexpr int max_resolution = 3000;                         // particles: more 
 constexpr float narrow_column = 78, file_button_width = 62;  // design pixels
 
 /// Draws a field with a button at its right. True if Enter is pressed or the button is clicked.
-bool field_with_button(Widgets& w, const char* label, std::string& value, const char* hint, const char* tooltip,
-                       const char* button, const char* button_tooltip) {
+bool field_with_button(Widgets& w, const char* label, const std::string& value, const char* hint, const char* tooltip,
+                       std::string& (*place)(Session&, UiState&), const char* button, const char* button_tooltip) {
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - w.px(file_button_width) - gap);
-  const bool entered = w.text_field(label, value, hint, tooltip);
+  const bool entered = w.text_field(label, value, hint, tooltip, place);
   ImGui::SameLine(0, gap);
   return w.button(button, button_tooltip, w.px(file_button_width)) || entered;
 }
@@ -30,41 +30,48 @@ void draw_problem(Widgets& w, const char* label, const std::string& problem) {
   if (!problem.empty()) w.wrapped_text(label, problem, true);
 }
 
-void draw_open(Widgets& w, Session& session, session::Import& import) {
+void draw_open(Widgets& w, const session::Import& import) {
   w.row_label("Open", w.px(narrow_column));
   ImGui::BeginDisabled(import.busy());
-  if (field_with_button(w, "File to open", import.path, "mesh.obj or scene.toml",
-                        "An OBJ or PLY file, which joins the scene as a soft body, or a scene file, which replaces "
-                        "it. You can also drop files on the window.",
-                        "Load", "Reads the file."))
-    import.load(session);
+  if (field_with_button(
+          w, "File to open", import.path, "mesh.obj or scene.toml",
+          "An OBJ or PLY file, which joins the scene as a soft body, or a scene file, which replaces "
+          "it. You can also drop files on the window.",
+          [](Session& s, UiState&) -> std::string& { return s.import.path; }, "Load", "Reads the file."))
+    w.ask([](Session& s) { s.import.load(); });
   ImGui::EndDisabled();
   draw_problem(w, "Load problem", import.problem());
 }
 
 /// Draws how the next mesh is imported.
-void draw_mesh_settings(Widgets& w, session::Import& import) {
+void draw_mesh_settings(Widgets& w, const session::Import& import) {
   w.row_label("Size", w.px(narrow_column));
   const float check = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("Z is up").x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - check - ImGui::GetStyle().ItemSpacing.x);
-  w.slider("Size of meshes", import.size, session::Import::min_size, session::Import::max_size, "%.2f m",
-           "The largest extent that the next mesh is scaled to, whatever its units are. The scenes' spheres have 1 m.",
-           true);
+  float size = import.size;
+  if (w.slider(
+          "Size of meshes", size, session::Import::min_size, session::Import::max_size, "%.2f m",
+          "The largest extent that the next mesh is scaled to, whatever its units are. The scenes' spheres have 1 m.",
+          true))
+    w.ask([size](Session& s) { s.import.size = size; });
   ImGui::SameLine();
-  w.checkbox("Z is up", import.z_is_up, "In the file; else y is. It holds for the next mesh.");
+  if (w.checkbox("Z is up", import.z_is_up, "In the file; else y is. It holds for the next mesh."))
+    w.ask([](Session& s) { s.import.z_is_up = !s.import.z_is_up; });
   w.row_label("Weld", w.px(narrow_column));
   const double mm = 1e3 * double{import.size};  // of the mesh's size
   double weld = mm * import.weld;
   if (w.slider("Weld distance", weld, mm * session::Import::min_weld, mm * session::Import::max_weld, "%.4f mm",
                "Vertices of the next mesh that are no further apart become one. Raise it if seams stay open.", true))
-    import.weld = std::clamp(weld / mm, session::Import::min_weld, session::Import::max_weld);
+    w.ask([part = std::clamp(weld / mm, session::Import::min_weld, session::Import::max_weld)](Session& s) {
+      s.import.weld = part;
+    });
   w.row_label("Particles", w.px(narrow_column));
-  bool automatic = import.resolution == 0;
+  const bool automatic = import.resolution == 0;
   if (w.checkbox("Auto###Auto resolution", automatic,
                  fmt::format("A mesh of more than {} vertices is simulated by {} particles; its vertices follow them.",
                              grouped(softbody::max_simulated_vertices), grouped(softbody::default_resolution))
                      .c_str()))
-    import.resolution = automatic ? 0 : softbody::default_resolution;
+    w.ask([automatic](Session& s) { s.import.resolution = automatic ? softbody::default_resolution : 0; });
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
   ImGui::BeginDisabled(automatic);
@@ -73,7 +80,7 @@ void draw_mesh_settings(Widgets& w, session::Import& import) {
           "Particles of meshes", resolution, static_cast<int>(softbody::min_resolution), max_resolution, "%d",
           "How many particles simulate the next mesh if it has more vertices. More of them follow finer folds, and "
           "take longer."))
-    import.resolution = static_cast<std::size_t>(resolution);
+    w.ask([resolution](Session& s) { s.import.resolution = static_cast<std::size_t>(resolution); });
   ImGui::EndDisabled();
 }
 
@@ -83,17 +90,18 @@ void save(Session& session, UiState& ui) {
 }
 
 /// Draws the question whether to replace a file, below its field.
-void draw_save_question(Widgets& w, Session& session, UiState& ui) {
+void draw_save_question(Widgets& w, const UiState& ui) {
   const std::string question = ui.save_question.about(ui.save_as);
   if (question.empty()) return;
   w.wrapped_text("Save question", question);
   ImGui::SetCursorPosX(w.px(narrow_column));
-  if (w.button("Replace", "Writes the scene over the file.", w.px(file_button_width))) save(session, ui);
+  if (w.button("Replace", "Writes the scene over the file.", w.px(file_button_width))) w.ask(save);
   ImGui::SameLine();
-  if (w.button("Cancel", "The file stays as it is.", w.px(file_button_width))) ui.save_question.clear();
+  if (w.button("Cancel", "The file stays as it is.", w.px(file_button_width)))
+    w.ask([](UiState& state) { state.save_question.clear(); });
 }
 
-void draw_save(Widgets& w, Session& session, UiState& ui, bool saved) {
+void draw_save(Widgets& w, const Session& session, const UiState& ui, bool saved) {
   w.row_label("Save as", w.px(narrow_column));
   const session::SceneFile& own = session.simulation.loaded.file;
   const bool as_named = saved && own.is_at(ui.save_as) && !own.changed_on_disk();
@@ -102,31 +110,32 @@ void draw_save(Widgets& w, Session& session, UiState& ui, bool saved) {
           "The scene with all settings in use but the integrator, and the camera as it is. Bodies that "
           "you dropped, threw or loaded are in it, each in the frame in which it came; what you pulled or "
           "deleted is as it was, so that their places need not be free then.",
-          as_named ? "Saved###Save" : "Save", as_named ? "The file holds the scene as it is." : "Writes the file.")) {
-    ui.save_question.set(ui.save_as, session.scenes.question_before_save(ui.save_as));
-    if (ui.save_question.about(ui.save_as).empty()) save(session, ui);
-  }
+          [](Session&, UiState& state) -> std::string& { return state.save_as; }, as_named ? "Saved###Save" : "Save",
+          as_named ? "The file holds the scene as it is." : "Writes the file."))
+    w.ask([](Session& s, UiState& state) {
+      state.save_question.set(state.save_as, s.scenes.question_before_save(state.save_as));
+      if (state.save_question.about(state.save_as).empty()) save(s, state);
+    });
   draw_problem(w, "Save problem", ui.save_problem.about(ui.save_as));
-  draw_save_question(w, session, ui);
+  draw_save_question(w, ui);
 }
 
 /// Draws a button that copies a command to the clipboard. `purpose`: what the command does.
-void draw_copy_button(Widgets& w, Session& session, const char* name, const std::string& command, const char* purpose,
-                      float width) {
+void draw_copy_button(Widgets& w, const char* name, const std::string& command, const char* purpose, float width) {
   constexpr std::size_t max_shown = 600;  // each frame that is played has a name
   const std::string shown = command.size() > max_shown ? command.substr(0, max_shown) + " ..." : command;
   if (!w.button(name, shown.c_str(), width)) return;
   ImGui::SetClipboardText(command.c_str());
-  session.simulation.notice.tell(std::string("Copied: the command that ") + purpose);
+  w.ask([purpose](Session& s) { s.simulation.notice.tell(std::string("Copied: the command that ") + purpose); });
 }
 
-void draw_command(Widgets& w, Session& session, const softbody::Scene& used, bool saved) {
+void draw_command(Widgets& w, const Session& session, const softbody::Scene& used, bool saved) {
   w.row_label("Command", w.px(narrow_column));
   ImGui::BeginDisabled(!saved);
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
   const auto draw_copy = [&](const char* name, const std::string& command, const char* purpose) {
     constexpr const char* unsaved = "The scene was changed: save it, so that a command can name it.";
-    draw_copy_button(w, session, name, saved ? command : unsaved, purpose, width);
+    draw_copy_button(w, name, saved ? command : unsaved, purpose, width);
   };
   if (const session::Player* player = session.simulation.player()) {
     draw_copy("Copy", session::play_command(*player->recording(), used), "opens this scene");
@@ -146,7 +155,7 @@ void draw_command(Widgets& w, Session& session, const softbody::Scene& used, boo
 }
 
 /// Draws the choice of the pictures' size.
-void draw_picture_size(Widgets& w, session::Exporter& exporter) {
+void draw_picture_size(Widgets& w, const session::Exporter& exporter) {
   using session::Exporter;
   const auto name_of = [](std::size_t size) {
     return std::string(size == Exporter::own ? "Own size" : Exporter::sizes[size].name);
@@ -156,22 +165,25 @@ void draw_picture_size(Widgets& w, session::Exporter& exporter) {
   if (w.begin_combo("Picture size", exporter.with_panel ? "As the window" : name_of(exporter.size).c_str(),
                     "Of pictures and videos of the scene without the panel. They show what the camera shows now.")) {
     for (std::size_t size = 0; size <= Exporter::own; ++size)
-      if (w.combo_item(name_of(size).c_str(), size == exporter.size, nullptr)) exporter.size = size;
+      if (w.combo_item(name_of(size).c_str(), size == exporter.size, nullptr))
+        w.ask([size](Session& s) { s.exporter.size = size; });
     ImGui::EndCombo();
   }
   if (exporter.size == Exporter::own && !exporter.with_panel) {
     w.row_label("", w.px(narrow_column));
     const float gap = ImGui::GetStyle().ItemSpacing.x, width = 0.5f * (ImGui::GetContentRegionAvail().x - gap);
+    glm::uvec2 size = exporter.own_size;
     ImGui::SetNextItemWidth(width);
-    w.number_field("Picture width", exporter.own_size.x, Exporter::min_side, Exporter::max_side, "In pixels.");
+    w.number_field("Picture width", size.x, Exporter::min_side, Exporter::max_side, "In pixels.");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(width);
-    w.number_field("Picture height", exporter.own_size.y, Exporter::min_side, Exporter::max_side, "In pixels.");
+    w.number_field("Picture height", size.y, Exporter::min_side, Exporter::max_side, "In pixels.");
+    if (size != exporter.own_size) w.ask([size](Session& s) { s.exporter.own_size = size; });
   }
   ImGui::EndDisabled();
 }
 
-void draw_recording(Widgets& w, session::Exporter& exporter) {
+void draw_recording(Widgets& w, const session::Exporter& exporter) {
   w.row_label("Record", w.px(narrow_column));
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - w.px(file_button_width) - gap);
@@ -181,7 +193,8 @@ void draw_recording(Widgets& w, session::Exporter& exporter) {
   if (w.begin_combo("Kind of recording", text(now.name).c_str(), text(now.tooltip).c_str())) {
     for (std::size_t i = 0; i < session::recording_kinds.size(); ++i) {
       const session::RecordingKind& kind = session::recording_kinds[i];
-      if (w.combo_item(text(kind.name).c_str(), i == exporter.kind, text(kind.tooltip).c_str())) exporter.kind = i;
+      if (w.combo_item(text(kind.name).c_str(), i == exporter.kind, text(kind.tooltip).c_str()))
+        w.ask([i](Session& s) { s.exporter.kind = i; });
     }
     ImGui::EndCombo();
   }
@@ -192,7 +205,7 @@ void draw_recording(Widgets& w, session::Exporter& exporter) {
                "Every frame of the world from now on, until it is stopped. The world waits for the recording, so that "
                "no frame is lost.",
                w.px(file_button_width)))
-    exporter.toggle_recording();
+    w.ask([](Session& s) { s.exporter.toggle_recording(); });
   ImGui::EndDisabled();
 }
 
@@ -206,10 +219,10 @@ void draw_message(Widgets& w, const session::Exporter& exporter) {
 
 }  // namespace
 
-void draw_files(Widgets& w, Session& session, UiState& ui) {
+void draw_files(Widgets& w, const Session& session, const UiState& ui) {
   const bool has_solver = session.simulated();
-  draw_open(w, session, ui.import);
-  if (has_solver) draw_mesh_settings(w, ui.import);
+  draw_open(w, session.import);
+  if (has_solver) draw_mesh_settings(w, session.import);
   softbody::Scene used = session.scenes.with_added_bodies();
   used.view = ui.view;
   const bool saved = session::options_make(used, session.simulation.loaded.scene);
@@ -217,21 +230,25 @@ void draw_files(Widgets& w, Session& session, UiState& ui) {
   draw_command(w, session, used, saved);
 }
 
-void draw_take_away(Widgets& w, Session& session, UiState& ui) {
-  session::Exporter& exporter = ui.exporter;
+void draw_export(Widgets& w, const Session& session, const UiState&) {
+  const session::Exporter& exporter = session.exporter;
   w.row_label("Folder", w.px(narrow_column));
   w.text_field("Output folder", exporter.folder, "the current one",
-               "Where all of this goes. Names end in the next free number; nothing is overwritten.");
+               "Where all of this goes. Names end in the next free number; nothing is overwritten.",
+               [](Session& s, UiState&) -> std::string& { return s.exporter.folder; });
   w.row_label("Take", w.px(narrow_column));
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
   if (w.button("Picture", "A PNG file of the scene as it shows, in the size below (P).", width))
-    exporter.picture_requested = true;
+    w.ask([](Session& s) { s.exporter.picture_requested = true; });
   ImGui::SameLine();
-  if (w.button("Curves", "The values of the panel's curves, as a CSV file.", width)) exporter.write_curves(session);
+  if (w.button("Curves", "The values of the panel's curves, as a CSV file.", width))
+    w.ask([](Session& s) { s.exporter.write_curves(); });
   draw_recording(w, exporter);
   draw_picture_size(w, exporter);
   w.row_label("", w.px(narrow_column));
-  w.checkbox("With the panel", exporter.with_panel, "Pictures and videos show the whole window, else the scene alone.");
+  if (w.checkbox("With the panel", exporter.with_panel,
+                 "Pictures and videos show the whole window, else the scene alone."))
+    w.ask([](Session& s) { s.exporter.with_panel = !s.exporter.with_panel; });
   draw_message(w, exporter);
 }
 

@@ -144,7 +144,7 @@ void draw_table(Widgets& w, const Session& session) {
 
 }  // namespace
 
-void draw_numbers(Widgets& w, Session& session, UiState& ui) {
+void draw_numbers(Widgets& w, const Session& session, const UiState& ui) {
   draw_curves(w, session, ui);
   draw_contacts(w, session);
   draw_surface_contacts(w, session);

@@ -5,20 +5,22 @@
 #include <filesystem>
 #include <string>
 
+#include <fmt/core.h>
+
 namespace app::ui {
 namespace {
 
-void draw_tour_button(Widgets& w, Session& session, UiState& ui, float width) {
+void draw_tour_button(Widgets& w, float width) {
   ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImGui::GetStyleColorVec4(ImGuiCol_SliderGrab));
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
   const bool pressed = ImGui::Button("Tour", {width, 0});
   ImGui::PopStyleColor(3);
   w.register_item("Tour", "Explains the method step by step on this frame (G).");
-  if (pressed) ui.tour.toggle(session, ui.overlays);
+  if (pressed) w.ask([](Session& s, UiState& ui) { ui.tour.toggle(s, ui.overlays); });
 }
 
-void draw_scene(Widgets& w, Session& session, UiState& ui) {
+void draw_scene(Widgets& w, const Session& session) {
   const softbody::Scene& scene = session.world().scene();
   const std::filesystem::path from = session.simulation.loaded.file.name();
   const std::string shown = from.has_parent_path() ? from.filename().string() : scene.name;
@@ -27,37 +29,36 @@ void draw_scene(Widgets& w, Session& session, UiState& ui) {
               gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - tour_button_width - 2 * gap);
   if (w.begin_combo("Scene", shown.c_str(), scene.look_at.c_str())) {
-    std::string chosen;
-    for (const session::SceneChoice& choice : session.scenes.choices()) {
+    for (const session::SceneChoice& choice : session.scenes.choices())
       if (w.combo_item(choice.name.c_str(), choice.key == session.simulation.loaded.file.name(),
                        choice.look_at.c_str()))
-        chosen = choice.key;
-    }
+        w.ask([&choice](Session& s) { s.scenes.choose(choice.key); });
     ImGui::EndCombo();
-    if (!chosen.empty()) session.scenes.choose(chosen);
   }
   ImGui::SameLine(0, gap);
-  draw_tour_button(w, session, ui, tour_button_width);
+  draw_tour_button(w, tour_button_width);
   ImGui::SameLine(0, gap);
-  if (w.button("?", "Shows the help: keys and mouse (F1).", help_width)) ui.help = !ui.help;
+  if (w.button("?", "Shows the help: keys and mouse (F1).", help_width)) w.ask([](UiState& ui) { ui.help = !ui.help; });
 }
 
-void draw_time_controls(Widgets& w, Session& session) {
+void draw_time_controls(Widgets& w, const Session& session) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
   if (w.button("Reset", "Restarts the scene with the present settings and without added bodies (R).", width))
-    session.simulation.reset();
+    w.ask([](Session& s) { s.simulation.reset(); });
   ImGui::SameLine();
   ImGui::BeginDisabled(!session.simulation.can_undo());
   if (w.button("Undo", "Undoes the last reset, choice of scene, change of bodies, or drag of a solid (Ctrl+Z).", width))
-    session.simulation.undo();
+    w.ask([](Session& s) { s.simulation.undo(); });
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::BeginDisabled(!session.simulation.can_redo());
-  if (w.button("Redo", "Brings back what the last undo took away (Ctrl+Y).", width)) session.simulation.redo();
+  if (w.button("Redo", "Brings back what the last undo took away (Ctrl+Y).", width))
+    w.ask([](Session& s) { s.simulation.redo(); });
   ImGui::EndDisabled();
 
-  w.checkbox("Slow motion", session.simulation.clock.slow_motion, "Runs the simulation slower than real time (S).");
+  if (w.checkbox("Slow motion", session.simulation.clock.slow_motion, "Runs the simulation slower than real time (S)."))
+    w.ask([](Session& s) { s.simulation.clock.slow_motion = !s.simulation.clock.slow_motion; });
   ImGui::SameLine(w.px(label_column + 20));
   ImGui::SetNextItemWidth(-FLT_MIN);
   ImGui::BeginDisabled(!session.simulation.clock.slow_motion);
@@ -65,42 +66,36 @@ void draw_time_controls(Widgets& w, Session& session) {
   if (w.slider("Slow motion speed", percent, 100 * session::SimulationClock::min_slow_factor,
                100 * session::SimulationClock::max_slow_factor, "%.0f %% of real time", "The speed of slow motion.",
                true))
-    session.simulation.clock.slow_factor = percent / 100;
+    w.ask([factor = percent / 100](Session& s) { s.simulation.clock.slow_factor = factor; });
   ImGui::EndDisabled();
 }
 
-void draw_overlays(Widgets& w, Session& session, UiState& ui) {
-  const bool has_solver = session.simulated();
-  const auto next_cell = [&](std::size_t i) {
-    if (i % 2) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.54f);
-  };
+void draw_overlays(Widgets& w, const Session& session, const UiState& ui) {
   std::size_t i = 0;
-  for (const render::OverlayRow& row : render::overlay_table) {
-    if (row.needs_solver && !has_solver) continue;
-    next_cell(i++);
-    const std::string tooltip = std::string(row.tooltip) + " (" + row.shortcut + ")";
-    w.checkbox(std::string(row.label).c_str(), ui.overlays.*row.shown, tooltip.c_str());
-  }
-  next_cell(i++);
-  w.checkbox("Hash table", ui.hash_table, "Shows the hash table: each square is a bucket (T).");
-  const auto lower = [&](const char* label, LowerView view, const char* tooltip) {
-    next_cell(i++);
-    bool shown = ui.lower == view;
-    if (w.checkbox(label, shown, tooltip)) ui.toggle(view);
+  const auto flag = [&](const char* label, bool shown, const char* tooltip, const auto& change) {
+    if (i++ % 2) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.54f);
+    if (w.checkbox(label, shown, tooltip)) w.ask(change);
   };
-  lower("Error vs run time###Error against run time", LowerView::sweep,
-        "Plots error against run time of the shown methods with many settings, on one frame (E).");
-  lower("Compare methods", LowerView::comparison,
-        "Shows the cost and the misses of methods side by side, on the same frame (V).");
-  next_cell(i++);
-  bool story = ui.story;
-  if (w.checkbox("Paper vs exact###Story", story, "Counts and marks what the paper's method misses, and says why (W)."))
-    ui.set_story(story);
-  next_cell(i++);
-  w.checkbox("Status lights", ui.lights, "What to expect of the method and of the time step (L).");
+  for (const render::OverlayRow& row : render::overlay_table)
+    if (!row.needs_solver || session.simulated())
+      flag(std::string(row.label).c_str(), ui.overlays.*row.shown,
+           fmt::format("{} ({})", row.tooltip, row.shortcut).c_str(),
+           [&row](UiState& state) { state.overlays.*row.shown = !(state.overlays.*row.shown); });
+  flag("Hash table", ui.hash_table, "Shows the hash table: each square is a bucket (T).",
+       [](Session& s, UiState& state) { state.toggle_hash_table(s); });
+  flag("Error vs run time###Error against run time", ui.lower == LowerView::sweep,
+       "Plots error against run time of the shown methods with many settings, on one frame (E).",
+       [](UiState& state) { state.toggle(LowerView::sweep); });
+  flag("Compare methods", ui.lower == LowerView::comparison,
+       "Shows the cost and the misses of methods side by side, on the same frame (V).",
+       [](UiState& state) { state.toggle(LowerView::comparison); });
+  flag("Paper vs exact###Story", ui.story, "Counts and marks what the paper's method misses, and says why (W).",
+       [](UiState& state) { state.set_story(!state.story); });
+  flag("Status lights", ui.lights, "What to expect of the method and of the time step (L).",
+       [](UiState& state) { state.lights = !state.lights; });
 }
 
-void draw_plan(Widgets& w, Session& session, UiState&) {
+void draw_plan(Widgets& w, const Session& session, const UiState&) {
   const softbody::World& world = *session.simulated();
   const std::vector<softbody::Stage> as_forces = world.plan().unprojected(world.integrator_choice().integrator());
   for (const softbody::Stage stage : world.plan().stages) {
@@ -122,7 +117,7 @@ void draw_plan(Widgets& w, Session& session, UiState&) {
 struct Section {
   const char* label;
   bool open_at_first, needs_solver;
-  void (*draw)(Widgets& w, Session& session, UiState& ui);
+  void (*draw)(Widgets& w, const Session& session, const UiState& ui);
 };
 constexpr std::array<Section, 8> sections{{
     {"Detection", true, false, draw_detection},
@@ -131,12 +126,12 @@ constexpr std::array<Section, 8> sections{{
     {"Numbers", true, false, draw_numbers},
     {"Stability", false, true, draw_stability},
     {"Files", false, false, draw_files},
-    {"Export", false, false, draw_take_away},
+    {"Export", false, false, draw_export},
     {"Stages of a step", false, true, draw_plan},
 }};
 
 /// Draws the sections of the panel. Without a solver it leaves out those that need one, and says so.
-void draw_sections(Widgets& w, Session& session, UiState& ui) {
+void draw_sections(Widgets& w, const Session& session, const UiState& ui) {
   std::string left_out;
   for (const Section& section : sections) {
     if (section.needs_solver && !session.simulated())
@@ -153,14 +148,14 @@ void draw_sections(Widgets& w, Session& session, UiState& ui) {
 
 }  // namespace
 
-void draw_panel(Widgets& w, Session& session, UiState& ui, const ScreenRect& area, bool opaque) {
+void draw_panel(Widgets& w, const Session& session, const UiState& ui, const ScreenRect& area, bool opaque) {
   // The contents keep their width when a scrollbar appears, so that folding a section moves nothing sideways.
   const ImGuiStyle& style = ImGui::GetStyle();
   ImGui::SetNextWindowContentSize({w.px(panel_width) - 2 * style.WindowPadding.x - style.ScrollbarSize, 0});
   begin_dock("Panel", area, opaque);
-  draw_scene(w, session, ui);
+  draw_scene(w, session);
   draw_time_controls(w, session);
-  draw_bodies(w, session, ui);
+  draw_bodies(w, session);
   ImGui::Spacing();
   draw_sections(w, session, ui);
   end_dock();

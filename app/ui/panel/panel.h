@@ -3,7 +3,7 @@
 // numbers never move a widget.
 
 #include "app/session/session.h"
-#include "app/ui/panel/ui_state.h"
+#include "app/ui/state/ui_state.h"
 #include "app/ui/widgets/dock.h"
 
 namespace app::ui {
@@ -12,17 +12,17 @@ inline constexpr float panel_width = 330;  // design pixels
 
 /// Draws the panel over `area`, which is `panel_width` wide. `opaque`: as in begin_dock(). Call it between
 /// begin_frame() and end_frame() of the Gui.
-void draw_panel(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area, bool opaque);
+void draw_panel(Widgets& widgets, const Session& session, const UiState& ui, const ScreenRect& area, bool opaque);
 
 // The parts of the panel. Each draws into the current window.
 /// Draws the values of the scene that have a slider in their rows: those of detection, or the others.
-void draw_values(Widgets& widgets, Session& session, const UiState& ui, bool of_detection);
-void draw_detection(Widgets& widgets, Session& session, UiState& ui);
-void draw_bodies(Widgets& widgets, Session& session, UiState& ui);
-void draw_world(Widgets& widgets, Session& session, UiState& ui);
-void draw_numbers(Widgets& widgets, Session& session, UiState& ui);
-void draw_stability(Widgets& widgets, Session& session, UiState& ui);
-void draw_files(Widgets& widgets, Session& session, UiState& ui);      // import, save, command line
-void draw_take_away(Widgets& widgets, Session& session, UiState& ui);  // pictures, recordings, curves
+void draw_values(Widgets& widgets, const Session& session, const UiState& ui, bool of_detection);
+void draw_detection(Widgets& widgets, const Session& session, const UiState& ui);
+void draw_bodies(Widgets& widgets, const Session& session);
+void draw_world(Widgets& widgets, const Session& session, const UiState& ui);
+void draw_numbers(Widgets& widgets, const Session& session, const UiState& ui);
+void draw_stability(Widgets& widgets, const Session& session, const UiState& ui);
+void draw_files(Widgets& widgets, const Session& session, const UiState& ui);   // import, save, command line
+void draw_export(Widgets& widgets, const Session& session, const UiState& ui);  // pictures, recordings, curves
 
 }  // namespace app::ui

@@ -33,11 +33,11 @@ bool draw_integrator_choice(Widgets& w, const char* name, softbody::IntegratorCh
       if (w.combo_item(std::string(i.name).c_str(), &i == &now, std::string(i.summary).c_str())) choice.key = i.key;
     ImGui::EndCombo();
   }
-  bool fixed = choice.substeps.has_value();
+  const bool fixed = choice.substeps.has_value();
   if (w.checkbox(fmt::format("Fixed substeps###{}Fixed substeps", name).c_str(), fixed,
                  "Takes a fixed number of steps per frame. If they are too few, explicit integrators blow up."))
-    choice.substeps = fixed ? std::optional(std::max(1, proposed)) : std::nullopt;
-  ImGui::BeginDisabled(!fixed);
+    choice.substeps = fixed ? std::nullopt : std::optional(std::max(1, proposed));
+  ImGui::BeginDisabled(!choice.substeps);
   w.row_label("Substeps", w.px(label_column));
   int substeps = choice.substeps.value_or(std::max(1, proposed));
   if (w.slider(fmt::format("{}Substeps", name).c_str(), substeps, 1, std::max(100, substeps), "%d per frame",
@@ -48,30 +48,32 @@ bool draw_integrator_choice(Widgets& w, const char* name, softbody::IntegratorCh
 }
 
 /// Draws the ghost's switch, its integrator, and its distance from the world that is shown.
-void draw_ghost(Widgets& w, Session& session) {
-  bool on = session.ghost().world() != nullptr;
-  if (w.checkbox("Ghost world", on,
+void draw_ghost(Widgets& w, const Session& session) {
+  if (w.checkbox("Ghost world", session.ghost().world(),
                  "Simulates the same bodies with another integrator, and draws them translucent. A change of the world "
                  "restarts the ghost."))
-    session.choose_ghost(on ? std::optional(softbody::IntegratorChoice{"velocity-verlet", {}}) : std::nullopt);
+    w.ask([](Session& s) {
+      const bool on = !s.ghost().world();
+      s.choose_ghost(on ? std::optional(softbody::IntegratorChoice{"velocity-verlet", {}}) : std::nullopt);
+    });
   if (!session.ghost().world()) return;
   softbody::IntegratorChoice choice = session.ghost().world()->integrator_choice();
   const int used = session.ghost().world()->last_step().substeps;
-  if (draw_integrator_choice(w, "Ghost ", choice, used)) session.choose_ghost(choice);
-  if (!session.ghost().world()) return;
+  if (draw_integrator_choice(w, "Ghost ", choice, used)) w.ask([choice](Session& s) { s.choose_ghost(choice); });
   w.curve("Ghost distance", ghost_distance_text(session), session.ghost().distances(),
           {0, axis_end(session.ghost().distances().max(), 0.01f)}, render::ghost_colour,
           {"Root mean square distance between the vertices of the two worlds, over the radius of the body.", "radii"});
 }
 
 /// Draws the choice of integrator and substeps, and the integrator in use if it is chosen automatically.
-void draw_integrator(Widgets& w, Session& session) {
+void draw_integrator(Widgets& w, const Session& session) {
   const softbody::World& world = *session.simulated();
   const softbody::StepReport& last = world.last_step();
   softbody::IntegratorChoice choice = world.integrator_choice();
   const int needed = std::max(session.simulation.stability().margin().needed, last.substeps);
   const int proposed = std::min(needed, softbody::max_fixed_substeps);
-  if (draw_integrator_choice(w, "", choice, proposed)) session.settings.set_integrator(choice);
+  if (draw_integrator_choice(w, "", choice, proposed))
+    w.ask([choice](Session& s) { s.settings.set_integrator(choice); });
   const bool chosen = !last.integrator->automatic;  // not before the first step
   const std::string why = world.integrator_choice().integrator().automatic
                               ? "Chosen automatically: " + std::string(last.why) + "."
@@ -126,7 +128,7 @@ StatusLight status_light(const session::StepMargin& margin) {
   return {render::status_red, "Red", "Step unstable", "The step exceeds the stability bound. Bodies may explode."};
 }
 
-void draw_step_light(Widgets& w, Session& session) {
+void draw_step_light(Widgets& w, const Session& session) {
   const session::StepMargin& margin = session.simulation.stability().margin();
   const StatusLight light = status_light(margin);
   ImGui::BeginGroup();
@@ -143,14 +145,15 @@ void draw_step_light(Widgets& w, Session& session) {
                              blow_up->what, blow_up->frame),
                  true);
   if (w.button("Rewind to the last good frame", "Goes back to the last frame before the blow-up."))
-    session.simulation.rewind_to(session.simulation.stability().last_good_frame());
+    w.ask([](Session& s) { s.simulation.rewind_to(s.simulation.stability().last_good_frame()); });
 }
 
-void draw_stability(Widgets& w, Session& session, UiState&) {
+void draw_stability(Widgets& w, const Session& session, const UiState&) {
   draw_integrator(w, session);
   draw_ghost(w, session);
-  w.checkbox("Pause when a body explodes", session.simulation.pause_on_blow_up,
-             "Pauses in the first frame in which a body has more energy or speed than possible, and names it.");
+  if (w.checkbox("Pause when a body explodes", session.simulation.pause_on_blow_up,
+                 "Pauses in the first frame in which a body has more energy or speed than possible, and names it."))
+    w.ask([](Session& s) { s.simulation.pause_on_blow_up = !s.simulation.pause_on_blow_up; });
   const session::StabilityHistory& history = session.simulation.stability().history();
   for (const StabilityCurve& c : curves) {
     const TimeSeries& series = history.*c.series;

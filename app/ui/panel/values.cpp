@@ -39,7 +39,7 @@ void draw_hash_label(Widgets& w, const std::string& label, float column, const c
 /// Draws the widget for a value by its type. The functions return true if the user has changed it.
 struct ValueWidgets {
   Widgets& w;
-  Session& session;
+  const Session& session;
   bool needed;                                                        // by what is shown, besides the method
   float usual = session.simulation.loaded.scene.collision.tolerance;  // m: tells how large the bodies are
   const collide::Settings& settings = session.world().collision();
@@ -165,16 +165,15 @@ struct ValueWidgets {
   }
 
   bool draw(const softbody::Key& key, std::optional<glm::vec3>& value) const {
-    bool automatic = !value;
     label(key);
-    bool changed = w.checkbox("Auto", automatic,
+    bool changed = w.checkbox("Auto", !value,
                               "Makes cells as large as the largest subdivided box at rest plus the tolerance. The "
                               "paper's method can still miss contacts.");
     const glm::vec3 now = *settings.cell_size;
-    if (changed) value = automatic ? std::nullopt : std::optional(now);
+    if (changed) value = value ? std::nullopt : std::optional(now);
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::BeginDisabled(automatic);
+    ImGui::BeginDisabled(!value);
     float side = std::max({now.x, now.y, now.z});
     if (slide(key, side, of_lengths(key.slider, 5, 50))) {
       value = glm::vec3(side);
@@ -194,15 +193,18 @@ struct ValueWidgets {
   }
 
   bool draw(const softbody::Key& key, bool& value) const {
-    return w.checkbox(key.slider.text, value, std::string(key.summary).c_str());
+    if (!w.checkbox(key.slider.text, value, std::string(key.summary).c_str())) return false;
+    value = !value;
+    return true;
   }
 };
 
 }  // namespace
 
-void draw_values(Widgets& w, Session& session, const UiState& ui, bool of_detection) {
+void draw_values(Widgets& w, const Session& session, const UiState& ui, bool of_detection) {
   // A setting is enabled if the driving method, the structure shown (§2) or the comparison uses it.
-  const bool structure_shown = ui.hash_table || ui.tour.open() || ui.overlays.boxes || ui.overlays.cells;
+  const bool structure_shown =
+      ui.hash_table || ui.tour.open() || render::shows(ui.overlays, render::OverlayBasis::table);
   const bool needed = structure_shown || session.inspector.selected_bucket() || session.comparison.choice.on ||
                       session.comparison.choice.with_paper || session.comparison.choice.with_misses;
   const ValueWidgets widgets{w, session, needed};
@@ -212,17 +214,19 @@ void draw_values(Widgets& w, Session& session, const UiState& ui, bool of_detect
     const bool changed = widgets.draw(key, value);
     ImGui::EndDisabled();
     if (changed)
-      session.simulation.change_scene(key.slider.text,
-                                      [&](softbody::Scene& scene) { softbody::set_value(scene, key, value); });
+      w.ask([&key, value](Session& s) {
+        s.simulation.change_scene(key.slider.text,
+                                  [&](softbody::Scene& scene) { softbody::set_value(scene, key, value); });
+      });
   });
 }
 
-void draw_detection(Widgets& w, Session& session, UiState& ui) {
+void draw_detection(Widgets& w, const Session& session, const UiState& ui) {
   draw_values(w, session, ui, true);
   ImGui::SameLine(w.px(label_column + 46));
   if (w.button("Restore settings", "Restores the method and settings of the scene file.",
                ImGui::GetContentRegionAvail().x))
-    session.settings.restore_detection();
+    w.ask([](Session& s) { s.settings.restore_detection(); });
 }
 
 }  // namespace app::ui

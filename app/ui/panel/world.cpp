@@ -25,15 +25,16 @@ std::size_t choose(Widgets& w, const char* label, const char* tooltip, std::size
   return chosen;
 }
 
-void set_material(Session& session, std::size_t index, std::string_view what, const softbody::Material& material) {
-  session.simulation.change_scene(fmt::format("{} of {}", what, material.name),
-                                  [&](softbody::Scene& scene) { scene.materials[index] = material; });
+void ask_for_material(Widgets& w, std::size_t index, std::string_view what, const softbody::Material& material) {
+  w.ask([=](Session& session) {
+    session.simulation.change_scene(fmt::format("{} of {}", what, material.name),
+                                    [&](softbody::Scene& scene) { scene.materials[index] = material; });
+  });
 }
 
 /// Offers the presets for a material of the scene, which keeps its name.
-void draw_preset(Widgets& w, Session& session, std::size_t index) {
-  const softbody::Material now = session.world().scene().materials[index];
-  softbody::Material chosen = now;
+void draw_preset(Widgets& w, const Session& session, std::size_t index) {
+  const softbody::Material& now = session.world().scene().materials[index];
   const auto renamed = [&](softbody::Material preset) {
     preset.name = now.name;
     constexpr const softbody::Key& key = softbody::Material::start_in_equilibrium;
@@ -47,28 +48,29 @@ void draw_preset(Widgets& w, Session& session, std::size_t index) {
                      "Sets all values below to those of a known material."))
     return;
   for (const softbody::Material& preset : presets)
-    if (w.combo_item(preset.name.c_str(), renamed(preset) == now, nullptr)) chosen = renamed(preset);
+    if (w.combo_item(preset.name.c_str(), renamed(preset) == now, nullptr))
+      ask_for_material(w, index, "Preset", renamed(preset));
   ImGui::EndCombo();
-  set_material(session, index, "Preset", chosen);
 }
 
-void draw_material(Widgets& w, Session& session, UiState& ui) {
+void draw_material(Widgets& w, const Session& session, const UiState& ui) {
   const std::vector<softbody::Material>& all = session.world().scene().materials;
-  ui.material = choose(w, "Material", "The material to edit.", ui.material, all.size(), [&](std::size_t i) {
-    return all[i].name.empty() ? "material " + std::to_string(i + 1) : all[i].name;
-  });
-  draw_preset(w, session, ui.material);
+  const std::size_t chosen =
+      choose(w, "Material", "The material to edit.", ui.material, all.size(),
+             [&](std::size_t i) { return all[i].name.empty() ? "material " + std::to_string(i + 1) : all[i].name; });
+  if (chosen != ui.material) w.ask([chosen](UiState& state) { state.material = chosen; });
+  draw_preset(w, session, chosen);
   for (const softbody::Key* key : softbody::material_keys()) {
     const softbody::Slider& s = key->slider;
     if (!s.text) continue;
-    softbody::Material changed = session.world().scene().materials[ui.material];
+    softbody::Material changed = all[chosen];
     double shown = changed[*key] / s.unit;
     w.row_label(s.text, w.px(label_column));
     if (!w.slider(std::string(key->name).c_str(), shown, s.least, s.most, s.format, std::string(key->summary).c_str(),
                   s.logarithmic))
       continue;
     changed[*key] = shown * s.unit;
-    set_material(session, ui.material, s.text, changed);
+    ask_for_material(w, chosen, s.text, changed);
   }
 }
 
@@ -108,7 +110,7 @@ struct ShapeWidgets {
   void operator()(const char*, auto) {}
 };
 
-void draw_solids(Widgets& w, Session& session, UiState& ui) {
+void draw_solids(Widgets& w, const Session& session, const UiState& ui) {
   const std::vector<softbody::Solid>& solids = session.world().scene().solids;
   if (solids.empty()) {
     ImGui::TextDisabled("The scene has no solids.");
@@ -118,9 +120,11 @@ void draw_solids(Widgets& w, Session& session, UiState& ui) {
   const auto shown = static_cast<std::size_t>(std::ranges::find(order, ui.solid.value_or(order[0])) - order.begin());
   const std::size_t chosen = choose(w, "Solid", "The solid to edit.", shown, order.size(),
                                     [&](std::size_t i) { return session::solid_name(solids, order[i]); });
-  if (chosen != shown) ui.solid = order[chosen];
-  softbody::Solid solid = solids[order[chosen]];
-  w.checkbox("Enabled###Solid enabled", solid.enabled, "Bodies pass through a solid that is not enabled.");
+  const std::size_t index = order[chosen];
+  if (chosen != shown) w.ask([index](UiState& state) { state.solid = index; });
+  softbody::Solid solid = solids[index];
+  if (w.checkbox("Enabled###Solid enabled", solid.enabled, "Bodies pass through a solid that is not enabled."))
+    solid.enabled = !solid.enabled;
   ImGui::BeginDisabled(!solid.enabled);
   solid.values(ShapeWidgets{w});
   w.row_label("Friction", w.px(label_column));
@@ -132,12 +136,12 @@ void draw_solids(Widgets& w, Session& session, UiState& ui) {
       "back.",
       false);
   ImGui::EndDisabled();
-  session.settings.set_solid(order[chosen], solid);
+  if (solid != solids[index]) w.ask([index, solid](Session& s) { s.settings.set_solid(index, solid); });
 }
 
 }  // namespace
 
-void draw_world(Widgets& w, Session& session, UiState& ui) {
+void draw_world(Widgets& w, const Session& session, const UiState& ui) {
   draw_values(w, session, ui, false);
   ImGui::Separator();
   draw_material(w, session, ui);
@@ -145,7 +149,7 @@ void draw_world(Widgets& w, Session& session, UiState& ui) {
   draw_solids(w, session, ui);
   if (w.button("Restore world", "Restores gravity, materials and solids of the scene file.",
                ImGui::GetContentRegionAvail().x))
-    session.settings.restore_world();
+    w.ask([](Session& s) { s.settings.restore_world(); });
 }
 
 }  // namespace app::ui

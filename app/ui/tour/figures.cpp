@@ -10,7 +10,6 @@
 #include "app/base/text.h"
 #include "app/render/palette.h"
 #include "app/ui/tour/steps.h"
-#include "app/ui/views/views.h"
 
 namespace app::ui {
 namespace {
@@ -105,7 +104,8 @@ std::vector<TourFigure> figures_of_bucket(const TourContext& v) {
                    grouped(bucket.groups.size()), bucket.groups.size() == 1 ? " cell" : " cells"),
        "The boxes with a corner in this bucket, and the cells of these corners."}};
   for (const compare::CellGroup& group : TourContext::shown_cells(bucket))
-    figures.push_back({fmt::format("Cell {}", cell_text(group.cell)), bodies_text(group, bucket, v.f.structure, {}),
+    figures.push_back({fmt::format("Cell {}", compare::cell_text(group.cell)),
+                       bodies_text(group, bucket, v.f.structure, {}),
                        fmt::format("Boxes with a corner in this cell: {}.", grouped(group.items.size())),
                        &group == &bucket.groups.front() ? render::same_cell_colour : render::aliased_colour});
   if (const std::size_t shown = TourContext::shown_cells(bucket).size(); shown < bucket.groups.size())
@@ -144,7 +144,7 @@ std::vector<TourFigure> figures_of_miss(const TourContext& v) {
   std::vector<TourFigure> figures;
   if (const auto& miss = v.f.miss) {
     for (std::size_t i = 0; i < 2; ++i)
-      figures.push_back({fmt::format("Body {}, cell {}", miss->bodies[i], cell_text(miss->corners[i].cell)),
+      figures.push_back({fmt::format("Body {}, cell {}", miss->bodies[i], compare::cell_text(miss->corners[i].cell)),
                          fmt::format("bucket {}", grouped(miss->corners[i].bucket)),
                          "The box of one of the two vertices. Of its eight corners, this one's cell is the nearest to "
                          "the cells of the other box.",
@@ -157,7 +157,7 @@ std::vector<TourFigure> figures_of_miss(const TourContext& v) {
                metres(static_cast<float>(miss->face->index) * (*v.world.collision().cell_size)[miss->face->axis])),
            "The corners of one box are in cells below it, those of the other in cells above it.", render::cell_colour});
     else
-      figures.push_back({"Skipped cell", cell_text(*miss->skipped),
+      figures.push_back({"Skipped cell", compare::cell_text(*miss->skipped),
                          "Both boxes reach over this cell, but at least one of them has no corner in it.",
                          render::cell_colour});
     figures.push_back({"Tolerance", metres(v.world.collision().tolerance), "Closer vertices are a contact (§2.3)."});

@@ -7,10 +7,9 @@
 #include <glm/geometric.hpp>
 
 #include "app/base/text.h"
-#include "app/render/overlay_shapes.h"
+#include "app/render/overlays.h"
 #include "app/render/palette.h"
 #include "app/ui/tour/steps.h"
-#include "app/ui/views/views.h"
 
 namespace app::ui {
 namespace {
@@ -150,7 +149,7 @@ void highlight_bucket(const TourContext& v, render::Highlight& highlight) {
     }
   for (const compare::CellGroup& group : groups) {
     const engine::Box cell = add_cell(v, group.cell, colour_of(group) * 0.7f, framed, cells);
-    highlight.labels.push_back({0.5f * (cell.lo + cell.hi), "cell " + cell_text(group.cell)});
+    highlight.labels.push_back({0.5f * (cell.lo + cell.hi), "cell " + compare::cell_text(group.cell)});
   }
   std::ranges::sort(highlight.bodies);
   highlight.bodies.erase(std::unique(highlight.bodies.begin(), highlight.bodies.end()), highlight.bodies.end());

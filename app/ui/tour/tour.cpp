@@ -43,7 +43,7 @@ void Tour::close(Session& session, render::Overlays& shown) {
 void Tour::go_to(std::size_t step) {
   step_ = step;
   highlight_valid_ = false;
-  framing_requested_ = true;
+  wanted_.framing = true;
 }
 
 void Tour::back() {
@@ -67,7 +67,7 @@ void Tour::run_ahead(Session& session) {
   chosen_corner_.reset();
   example_.reset();
   example_revision_ = 0;
-  framing_requested_ = overview_requested_ = true;
+  wanted_ = {.overview = true, .framing = true};
   session.run_ahead.start([finder = finder_, frame_has = goal_->frame_has](
                               const softbody::BodiesInMotion& world) { return (finder.get()->*frame_has)(world); },
                           max_seconds_ahead);
@@ -78,11 +78,14 @@ bool Tour::has_given_up(const Session& session) const {
   return goal_ == &tour_steps()[step_].goal && late >= 0 && late < session.world().frame_time();
 }
 
-void Tour::update(const Session& session, const softbody::View* view) {
-  if (!open() || running_to(session)) return;
-  if (example_revision_ != session.simulation.revision() || example_selection_ != session.bodies.selected())
-    find_example(session, view);
-  if (!highlight_valid_) rebuild_highlight(session);
+Tour::Camera Tour::update(const Session& session, const softbody::View* view) {
+  if (open() && !running_to(session)) {
+    if (example_revision_ != session.simulation.revision() || example_selection_ != session.bodies.selected())
+      find_example(session, view);
+    if (!highlight_valid_) rebuild_highlight(session);
+  }
+  return {.overview = std::exchange(wanted_.overview, false),
+          .framing = example_ && std::exchange(wanted_.framing, false)};
 }
 
 void Tour::find_example(const Session& session, const softbody::View* view) {

@@ -32,9 +32,14 @@ class Tour {
   /// True in the frame in which a run for the goal of this step came to the end of its time.
   bool has_given_up(const Session& session) const;
 
+  /// What the camera should do.
+  struct Camera {
+    bool overview = false;  // show what it showed before the tour: at the start of each run ahead
+    bool framing = false;   // frame the highlight: once after each step
+  };
   /// Call it once a frame. Finds a new example if the state or the selected body has changed; prefers one that is
   /// visible in `view`.
-  void update(const Session& session, const softbody::View* view = nullptr);
+  Camera update(const Session& session, const softbody::View* view = nullptr);
   /// Returns nothing while the world runs ahead, if there is no body to show, or if the method cannot be shown on it:
   /// then problem() says why.
   std::optional<TourContext> context(const Session& session) const;
@@ -43,10 +48,6 @@ class Tour {
   const render::Highlight* highlight() const { return example_ ? &highlight_ : nullptr; }
   /// A number that changes with the highlight.
   std::uint64_t highlight_revision() const { return highlight_revision_; }
-  /// True once after each step: the camera should frame the highlight.
-  bool take_framing_request() { return example_ && std::exchange(framing_requested_, false); }
-  /// True once at the start of each run ahead: the camera should show what it showed before the tour.
-  bool take_overview_request() { return std::exchange(overview_requested_, false); }
 
   /// The user's own overlays while the tour is open.
   const std::optional<render::Overlays>& saved_overlays() const { return saved_overlays_; }
@@ -68,7 +69,8 @@ class Tour {
   std::size_t step_ = 0;
   std::uint64_t example_revision_ = 0, highlight_revision_ = 0;  // the first is the session's
   std::optional<softbody::BodyId> example_selection_;            // the selected body when the example was found
-  bool highlight_valid_ = false, framing_requested_ = false, overview_requested_ = false;
+  bool highlight_valid_ = false;
+  Camera wanted_;  // with the next update(), the framing with the next example
   std::optional<render::Overlays> saved_overlays_;
   std::optional<std::uint32_t> saved_bucket_;
   bool was_paused_ = false;

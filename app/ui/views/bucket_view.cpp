@@ -17,9 +17,9 @@ std::string count_text(std::size_t n, const compare::BucketContents& bucket) {
                      n == 1 ? (bucket.vertices ? "ex" : "") : (bucket.vertices ? "ices" : "es"));
 }
 
-void draw_group(Widgets& w, Session& session, const compare::BucketContents& bucket, const compare::CellGroup& group,
-                bool chosen) {
-  const std::string cell = cell_text(group.cell);
+void draw_group(Widgets& w, const Session& session, const compare::BucketContents& bucket,
+                const compare::CellGroup& group, bool chosen) {
+  const std::string cell = compare::cell_text(group.cell);
   w.swatch(chosen ? render::same_cell_colour : render::aliased_colour);
   const std::string bodies = bodies_text(group, bucket, session.inspector.shown_geometry(), session.world().bodies());
   const std::string text =
@@ -27,36 +27,13 @@ void draw_group(Widgets& w, Session& session, const compare::BucketContents& buc
   const std::string tooltip =
       fmt::format("Cell {}: {} of {}. Click to show its entries in blue, and those of other cells in orange (§2.2).",
                   cell, count_text(group.items.size(), bucket), bodies);
-  if (w.combo_item(text.c_str(), chosen, tooltip.c_str())) session.inspector.select_cell(group.cell);
+  if (w.combo_item(text.c_str(), chosen, tooltip.c_str()))
+    w.ask([at = group.cell](Session& s) { s.inspector.select_cell(at); });
 }
 
 }  // namespace
 
-std::string cell_text(const compare::Cell& cell) { return fmt::format("({}, {}, {})", cell[0], cell[1], cell[2]); }
-
-std::string sharing_text(const compare::Sharing& sharing) {
-  return fmt::format("{} / {}", grouped(sharing.same_cell), grouped(sharing.aliased));
-}
-
-std::string bodies_text(const compare::CellGroup& group, const compare::BucketContents& bucket,
-                        const collide::DebugGeometry& debug, const collide::Bodies& of_world) {
-  constexpr std::size_t max_named = 3;
-  std::vector<softbody::BodyId> bodies;
-  for (const collide::Index item : group.items)
-    bodies.push_back(bucket.vertices ? of_world.body_of(item) : debug.boxes[item].body);
-  std::ranges::sort(bodies);
-  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
-  std::string text = bodies.size() == 1 ? "body " : "bodies ";
-  const std::size_t named = bodies.size() <= max_named ? bodies.size() : max_named - 1;
-  for (std::size_t i = 0; i < named; ++i) {
-    if (i > 0) text += i + 1 == bodies.size() ? " and " : ", ";
-    text += std::to_string(bodies[i]);
-  }
-  if (named < bodies.size()) text.append(" and ").append(std::to_string(bodies.size() - named)).append(" more");
-  return text;
-}
-
-void draw_bucket(Widgets& w, Session& session) {
+void draw_bucket(Widgets& w, const Session& session) {
   const compare::BucketContents* bucket = session.inspector.bucket();
   assert(bucket);
   const std::string title = fmt::format("Bucket {}###Bucket", grouped(bucket->bucket));
@@ -77,10 +54,8 @@ void draw_bucket(Widgets& w, Session& session) {
            "§2.2). Aliased pairs cost tests and are not near.");
   w.figure("All buckets", sharing_text(session.inspector.table().sharing()),
            "The same pairs, summed over all buckets.");
-  if (close)
-    session.inspector.select_bucket(std::nullopt);
-  else if (another)
-    session.inspector.select_bucket(number);
+  if (close || another)
+    w.ask([to = close ? std::nullopt : std::optional(number)](Session& s) { s.inspector.select_bucket(to); });
 }
 
 }  // namespace app::ui

@@ -115,17 +115,17 @@ struct Row {
   bool scored() const { return measured && measured->scored; }
 };
 
-void draw_misses_switch(Widgets& w, Session& session, bool& show_misses, const Grid& grid, const Row& row) {
+void draw_misses_switch(Widgets& w, const Session& session, const UiState& ui, const Grid& grid, const Row& row) {
   ImGui::SetCursorScreenPos({grid.right(misses) - grid.height(), grid.top()});
-  const bool shown = show_misses && session.comparison.choice.misses_of == row.index;
-  if (w.radio(row.label("Misses of").c_str(), shown, "Shows the contacts that this method misses in the scene.")) {
-    session.comparison.choice.misses_of = row.index;
-    show_misses = true;
-  }
+  const bool shown = ui.overlays.missed && session.comparison.choice.misses_of == row.index;
+  if (w.radio(row.label("Misses of").c_str(), shown, "Shows the contacts that this method misses in the scene."))
+    w.ask([method = row.index](Session& s, UiState& state) {
+      s.comparison.choice.misses_of = method;
+      state.overlays.missed = true;
+    });
 }
 
-/// Returns true if the name was clicked.
-bool draw_name(Widgets& w, const Grid& grid, const Row& row) {
+void draw_name(Widgets& w, const Grid& grid, const Row& row) {
   ImGui::SetCursorScreenPos({grid.left(name), grid.top()});
   draw_method_mark(w, row.method, grid.height());
   const float left = ImGui::GetItemRectMax().x + w.px(6);
@@ -135,7 +135,8 @@ bool draw_name(Widgets& w, const Grid& grid, const Row& row) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(row.scored() ? ImGuiCol_Text : ImGuiCol_TextDisabled));
   const bool clicked = ImGui::Selectable(text.c_str(), false, 0, {grid.right(name) - left, 0});
   ImGui::PopStyleColor();
-  return w.register_item(clicked, text.c_str(), tooltip.c_str());
+  if (w.register_item(clicked, text.c_str(), tooltip.c_str()))
+    w.ask([&key = row.method.key](Session& s) { s.settings.set_method(key); });
 }
 
 void draw_time(const Widgets& w, const Session& session, const Grid& grid, const Row& row, const Scale& scale) {
@@ -186,7 +187,7 @@ void draw_reason(const Session& session, const Grid& grid, const Row& row) {
                                       ImGui::GetColorU32(ImGuiCol_TextDisabled), reason.c_str());
 }
 
-void draw_row(Widgets& w, Session& session, bool& show_misses, Grid& grid, const Row& row, const Scale& scale) {
+void draw_row(Widgets& w, const Session& session, const UiState& ui, Grid& grid, const Row& row, const Scale& scale) {
   grid.next_row();
   if (row.begins_group) {
     const float y = grid.top() - w.px(0.5f * row_gap);
@@ -197,7 +198,7 @@ void draw_row(Widgets& w, Session& session, bool& show_misses, Grid& grid, const
     ImGui::GetWindowDrawList()->AddRectFilled({grid.left(name) - w.px(4), grid.top()},
                                               {grid.right(misses) + w.px(4), grid.top() + grid.height()},
                                               ImGui::GetColorU32(ImGuiCol_Header, 0.55f), w.px(3));
-  const bool drive = draw_name(w, grid, row);
+  draw_name(w, grid, row);
   draw_time(w, session, grid, row, scale);
   if (row.scored())
     draw_score(w, grid, row);
@@ -209,12 +210,11 @@ void draw_row(Widgets& w, Session& session, bool& show_misses, Grid& grid, const
     w.sparkline(row.label("Times of").c_str(), times, {0, scale.axis_end}, compare::style(row.method).colour,
                 {"Time of the method on a frame.", "ms"}, grid.right(plot) - grid.left(plot));
   }
-  draw_misses_switch(w, session, show_misses, grid, row);
+  draw_misses_switch(w, session, ui, grid, row);
   ImGui::SetCursorScreenPos({grid.left(name), grid.top() + grid.height() + w.px(row_gap)});
-  if (drive) session.settings.set_method(row.method.key);
 }
 
-void draw_header(Widgets& w, Session& session, Grid& grid, bool& open) {
+void draw_header(Widgets& w, const Session& session, Grid& grid) {
   grid.next_row();
   for (std::size_t i = time; i < column_count; ++i) {
     const auto at = static_cast<ColumnIndex>(i);
@@ -222,7 +222,8 @@ void draw_header(Widgets& w, Session& session, Grid& grid, bool& open) {
     grid.cell(w, at, (std::string("Column ") + columns[i].label).c_str(), columns[i].tooltip);
   }
   ImGui::SetCursorScreenPos({grid.left(name), grid.top()});
-  if (w.button("x###Close compare", "Closes the comparison (V).", grid.height())) open = false;
+  if (w.button("x###Close compare", "Closes the comparison (V).", grid.height()))
+    w.ask([](UiState& ui) { ui.lower = LowerView::none; });
   ImGui::SameLine();
   ImGui::SetNextItemWidth(grid.right(name) - ImGui::GetCursorScreenPos().x);
   draw_shown_methods(w, session);
@@ -247,7 +248,7 @@ float compare_height(std::size_t methods, float width, float scale) {
          (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
 }
 
-void draw_compare(Widgets& w, Session& session, bool& show_misses, bool& open, const ScreenRect& area) {
+void draw_compare(Widgets& w, const Session& session, const UiState& ui, const ScreenRect& area) {
   const ImGuiStyle& style = ImGui::GetStyle();
   const compare::MethodSet shown = session.comparison.shown_methods();
   const auto rows = static_cast<std::size_t>(std::ranges::count(shown, true));
@@ -263,7 +264,7 @@ void draw_compare(Widgets& w, Session& session, bool& show_misses, bool& open, c
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(2), w.px(frame_padding)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {w.px(6), w.px(2)});
   Grid grid(w, ImGui::GetCursorScreenPos().x, width);
-  draw_header(w, session, grid, open);
+  draw_header(w, session, grid);
   const Scale scale = common_scale(session);
   const compare::CompareReport& report = session.comparison.report();
   const std::size_t driver = session.comparison.driver();
@@ -271,7 +272,7 @@ void draw_compare(Widgets& w, Session& session, bool& show_misses, bool& open, c
   for (std::size_t i = 0; i < shown.size(); ++i) {
     if (!shown[i]) continue;
     const collide::Method& method = collide::method_table()[i];
-    draw_row(w, session, show_misses, grid,
+    draw_row(w, session, ui, grid,
              {i, method, i < report.rows.size() ? &report.rows[i] : nullptr, group && group != method.group,
               i == driver, report.reference == i},
              scale);

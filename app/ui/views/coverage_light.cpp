@@ -63,7 +63,7 @@ std::string box_against_cell(const collide::DebugGeometry& paper, const glm::vec
   return text.append("Along ").append(beyond).append(" a box is larger, so cells between its corners are skipped.");
 }
 
-void draw_coverage_light(Widgets& w, const Session& session, bool& explained) {
+void draw_coverage_light(Widgets& w, const Session& session, bool explained) {
   const SurfaceRemark remark = surface_remark(session);
   const collide::Coverage found = session.world().detection().coverage;
   // Vertices inside other bodies count as little as a method that can miss contacts.
@@ -79,7 +79,7 @@ void draw_coverage_light(Widgets& w, const Session& session, bool& explained) {
   const bool clicked = ImGui::IsItemClicked();
   w.register_item("Coverage", explained ? "Click to hide the meaning of the colours."
                                         : "Click to see what the colours mean (§2.2).");
-  if (clicked) explained = !explained;
+  if (clicked) w.ask([](UiState& ui) { ui.coverage_explained = !ui.coverage_explained; });
   if (!explained) return;
   ImGui::Separator();
   for (const collide::Coverage each :

@@ -18,7 +18,7 @@ SurfaceRemark surface_remark(const Session& session);
 std::string box_against_cell(const collide::DebugGeometry& paper, const glm::vec3& cell);
 
 /// Draws the light with what the method finds, and a remark on the surfaces, if any. They act as a button. A click
-/// toggles `explained`: then the meaning of all three colours stands below.
-void draw_coverage_light(Widgets& widgets, const Session& session, bool& explained);
+/// asks for the meaning of all three colours, which stands below if `explained`.
+void draw_coverage_light(Widgets& widgets, const Session& session, bool explained);
 
 }  // namespace app::ui

@@ -44,7 +44,7 @@ glm::vec3 HashTableView::colour(std::uint32_t load) const {
   return render::sequential_colour(std::log2(static_cast<float>(load)) / std::log2(static_cast<float>(max_load_)));
 }
 
-void HashTableView::draw_squares(Widgets& w, Session& session, float width, float height) {
+void HashTableView::draw_squares(Widgets& w, const Session& session, float width, float height) {
   origin_ = ImGui::GetCursorScreenPos();
   const bool clicked = ImGui::InvisibleButton("##buckets", {width, height});
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -80,7 +80,9 @@ void HashTableView::draw_squares(Widgets& w, Session& session, float width, floa
                                   grouped(square.fullest) + " with load " + grouped(square.load) + ". ";
     tooltip += click_tooltip;
     if (clicked)
-      session.inspector.select_bucket(selected == square.fullest ? std::nullopt : std::optional(square.fullest));
+      w.ask([to = selected == square.fullest ? std::nullopt : std::optional(square.fullest)](Session& s) {
+        s.inspector.select_bucket(to);
+      });
   }
   w.register_item("Buckets of the table", nullptr);
   if (under) w.show_tooltip(tooltip.c_str());
@@ -109,8 +111,9 @@ void HashTableView::draw_summary(const Session& session) const {
   ImGui::TextDisabled("%s", shown_method_text(session).c_str());
 }
 
-void HashTableView::draw(Widgets& w, Session& session, bool& open) {
-  if (w.closable_heading("Hash table", "Closes the hash table (T).")) open = false;
+void HashTableView::draw(Widgets& w, const Session& session) {
+  if (w.closable_heading("Hash table", "Closes the hash table (T)."))
+    w.ask([](Session& s, UiState& ui) { ui.toggle_hash_table(s); });
   const float width = ImGui::GetContentRegionAvail().x, height = w.px(grid_height);
   if (session.inspector.shown_geometry().buckets == 0) {
     ImGui::Dummy({width, 0.4f * height});

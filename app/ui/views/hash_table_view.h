@@ -17,8 +17,8 @@ TableFigures table_figures(const collide::DebugGeometry& geometry);
 
 class HashTableView {
  public:
-  /// Draws the view into the current window. Its close button sets `open` to false.
-  void draw(Widgets& widgets, Session& session, bool& open);
+  /// Draws the view into the current window.
+  void draw(Widgets& widgets, const Session& session);
 
   /// The layout of the squares in the last frame; tests find them by it.
   const BucketGrid& grid() const { return grid_; }
@@ -30,7 +30,7 @@ class HashTableView {
   };
 
   void refresh(const Session& session, float width, float height, float min_side);
-  void draw_squares(Widgets& widgets, Session& session, float width, float height);
+  void draw_squares(Widgets& widgets, const Session& session, float width, float height);
   void draw_legend(Widgets& widgets) const;
   glm::vec3 colour(std::uint32_t load) const;
   void draw_summary(const Session& session) const;

@@ -6,22 +6,21 @@ namespace app::ui {
 namespace {
 
 /// Draws the question whether files are frames to play or bodies to import.
-void draw_question(Widgets& w, Session& session, session::Import& import) {
+void draw_question(Widgets& w, const session::Import& import) {
   w.wrapped_text("Import question", import.question());
-  const bool play = w.button("Play",
-                             "The frames run in place of the scene, and nothing is simulated. Undo (Ctrl+Z) "
-                             "brings the scene back.",
-                             w.px(80));
+  if (w.button("Play",
+               "The frames run in place of the scene, and nothing is simulated. Undo (Ctrl+Z) brings the scene back.",
+               w.px(80)))
+    w.ask([](Session& s) { s.import.play(); });
   ImGui::SameLine();
-  const bool import_each = w.button("Import", "Each file joins the scene as a soft body.", w.px(80));
+  if (w.button("Import", "Each file joins the scene as a soft body.", w.px(80)))
+    w.ask([](Session& s) { s.import.import_each(); });
   ImGui::SameLine();  // "Close" follows
-  if (play) import.play(session);
-  if (import_each) import.import_each(session);
 }
 
 }  // namespace
 
-void draw_import_report(Widgets& w, Session& session, session::Import& import, const ScreenRect& area) {
+void draw_import_report(Widgets& w, const session::Import& import, const ScreenRect& area) {
   const bool asks = !import.question().empty();
   if (import.report().empty() && !import.busy() && !asks) return;
   const float margin = w.px(12), width = std::min(w.px(360), area.max.x - area.min.x - 2 * margin);
@@ -33,15 +32,15 @@ void draw_import_report(Widgets& w, Session& session, session::Import& import, c
     for (const std::string& line : report.lines) w.wrapped_text("Import report", line, report.refused);
     if (&report != &import.report().back()) ImGui::Separator();
   }
-  if (asks) draw_question(w, session, import);
+  if (asks) draw_question(w, import);
   if (import.busy()) {
     w.wrapped_text("Import progress", import.progress());
     if (w.button("Cancel###Cancel import", "Reads no further, and forgets the files that wait.", w.px(80)))
-      import.cancel();
+      w.ask([](Session& s) { s.import.cancel(); });
   }
   if ((asks || (!import.report().empty() && !import.busy())) &&
       w.button("Close###Close import report", "Closes this report.", w.px(80)))
-    import.dismiss_report();
+    w.ask([](Session& s) { s.import.dismiss_report(); });
   ImGui::End();
 }
 

@@ -16,7 +16,8 @@ constexpr const char* show_tooltip =
 
 /// Draws a check box for all methods that `belongs` accepts. It is half checked if only some of them are shown.
 template <class Belongs>
-void draw_check_box(Widgets& w, compare::MethodSet& shown, const std::string& label, const Belongs& belongs) {
+void draw_check_box(Widgets& w, const Session& session, const std::string& label, const Belongs& belongs) {
+  compare::MethodSet shown = session.comparison.choice.methods;
   enum { none = 0, some = 1, all = 3 };
   bool any = false, each = true;
   for (std::size_t m = 0; m < shown.size(); ++m) {
@@ -28,48 +29,45 @@ void draw_check_box(Widgets& w, compare::MethodSet& shown, const std::string& la
   if (!w.register_item(ImGui::CheckboxFlags(label.c_str(), &state, all), label.c_str(), show_tooltip)) return;
   for (std::size_t m = 0; m < shown.size(); ++m)
     if (belongs(collide::method_table()[m])) shown[m] = state == all;
+  w.ask([shown](Session& s) { s.comparison.choice.methods = shown; });
 }
 
-/// Draws a line of the list. Returns true if the name was clicked.
-bool draw_method_line(Widgets& w, Session& session, const collide::Method& method) {
-  draw_check_box(w, session.comparison.choice.methods, fmt::format("###Show {}", method.name),
+void draw_method_line(Widgets& w, const Session& session, const collide::Method& method) {
+  draw_check_box(w, session, fmt::format("###Show {}", method.name),
                  [&](const collide::Method& each) { return each.key == method.key; });
   ImGui::SameLine();
   draw_method_mark(w, method, ImGui::GetFrameHeight());
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  const bool clicked =
-      w.combo_item(method.name.c_str(), method.key == session.world().method().key, method.description.c_str());
+  if (w.combo_item(method.name.c_str(), method.key == session.world().method().key, method.description.c_str()))
+    w.ask([&key = method.key](Session& s) { s.settings.set_method(key); });
   const StatusLight light = status_light(method);
   ImGui::SameLine(w.px(promise_column));
   w.dot(light.colour);
   ImGui::TextDisabled("%s", light.label);
-  return clicked;
 }
 
 }  // namespace
 
-void draw_method_choice(Widgets& w, Session& session, const char* label, const char* preview, const char* tooltip) {
+void draw_method_choice(Widgets& w, const Session& session, const char* label, const char* preview,
+                        const char* tooltip) {
   if (!w.begin_combo(label, preview, tooltip)) return;
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(2), w.px(1)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {w.px(6), w.px(2)});
-  compare::MethodSet& shown = session.comparison.choice.methods;
-  std::string_view driver = session.world().method().key;
-  draw_check_box(w, shown, "All methods", [](const collide::Method&) { return true; });
+  draw_check_box(w, session, "All methods", [](const collide::Method&) { return true; });
   for (const collide::MethodGroupName& group : collide::method_groups) {
     const auto belongs = [&](const collide::Method& method) { return method.group == group.group; };
-    draw_check_box(w, shown, std::string(group.name), belongs);
+    draw_check_box(w, session, std::string(group.name), belongs);
     ImGui::Indent(w.px(list_indent));
     for (const collide::Method& method : collide::method_table())
-      if (belongs(method) && draw_method_line(w, session, method)) driver = method.key;
+      if (belongs(method)) draw_method_line(w, session, method);
     ImGui::Unindent(w.px(list_indent));
   }
   ImGui::PopStyleVar(2);
   ImGui::EndCombo();
-  session.settings.set_method(driver);
 }
 
-void draw_shown_methods(Widgets& w, Session& session) {
+void draw_shown_methods(Widgets& w, const Session& session) {
   const compare::MethodSet shown = session.comparison.shown_methods();
   const std::string preview = fmt::format("{} of {} methods", std::ranges::count(shown, true), shown.size());
   draw_method_choice(

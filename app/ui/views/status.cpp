@@ -70,12 +70,13 @@ std::string reference_sentence(const compare::CompareReport& report) {
   return report.reference_note.empty() ? text : text + ": " + report.reference_note;
 }
 
-float draw_status(Widgets& w, Session& session, FloatingBox& box, const ScreenRect& area, bool& explained, bool& open) {
+float draw_status(Widgets& w, const Session& session, bool explained, FloatingBox& box, const ScreenRect& area) {
   const float side = ImGui::GetFrameHeight();
   box.begin(w, "Status", area, box_width(w, area), false);
   const ImVec2 top = ImGui::GetCursorScreenPos();
   ImGui::SetCursorScreenPos({top.x + ImGui::GetContentRegionAvail().x - side, top.y});
-  if (w.button("x###Close lights", "Puts the lights away (L). Drag the box to move it.", side)) open = false;
+  if (w.button("x###Close lights", "Puts the lights away (L). Drag the box to move it.", side))
+    w.ask([](UiState& ui) { ui.lights = false; });
   ImGui::SetCursorScreenPos(top);
   ImGui::PushTextWrapPos(ImGui::GetContentRegionMax().x - side);
   draw_coverage_light(w, session, explained);
@@ -111,81 +112,57 @@ std::string ghost_distance_text(const Session& session) {
 
 namespace {
 
-void draw_legend_line(Widgets& w, const glm::vec3& colour, const std::string& text) {
-  w.swatch(colour);
-  ImGui::TextUnformatted(text.c_str());
-  w.register_item("Legend", nullptr);
+void draw_legend_line(Widgets& w, const render::LegendLine& line) {
+  if (line.colour) w.swatch(*line.colour);
+  line.pale ? ImGui::TextDisabled("%s", line.text.c_str()) : ImGui::TextUnformatted(line.text.c_str());
+  if (line.colour) w.register_item("Legend", nullptr);
+  if (!line.scale) return;
+  ImGui::SameLine();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = w.px(120), top = at.y + w.px(4), height = w.px(8);
+  draw_colour_scale({at.x, top}, width, top + height, 30, line.scale);
+  ImGui::Dummy({width, height});
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", line.end.c_str());
 }
 
 void draw_ghost_legend(Widgets& w, const Session& session) {
   ImGui::Text("Opaque: %s", integrator_text(*session.simulated()).c_str());
   w.register_item("Legend", nullptr);
-  draw_legend_line(w, render::ghost_colour, "Ghost: " + integrator_text(*session.ghost().world()));
+  draw_legend_line(w, {"Ghost: " + integrator_text(*session.ghost().world()), render::ghost_colour});
   ImGui::Text("RMS distance: %s", ghost_distance_text(session).c_str());
-}
-
-void draw_strain_scale(const Widgets& w) {
-  ImGui::TextDisabled("-20 %%");
-  ImGui::SameLine();
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = w.px(120), top = at.y + w.px(4), height = w.px(8);
-  draw_colour_scale({at.x, top}, width, top + height, 30,
-                    [](float share) { return render::diverging_colour(2 * share - 1); });
-  ImGui::Dummy({width, height});
-  ImGui::SameLine();
-  ImGui::TextDisabled("+20 %%");
-}
-
-void draw_surface_contacts_legend(Widgets& w, const Session& session) {
-  if (session.world().scene().contact_surface != softbody::ContactSurface::surfaces) {
-    ImGui::TextDisabled("No surface contacts (F: next contact)");
-    return;
-  }
-  draw_legend_line(w, render::contact_between_colour, "surface contact between bodies, with normal");
-  draw_legend_line(w, render::contact_inside_colour, "surface contact inside one body");
-}
-
-void draw_table_legend(Widgets& w, const Session& session, const render::Overlays& shown, bool names_method) {
-  const collide::DebugGeometry& debug = session.inspector.shown_geometry();
-  if (shown.boxes)
-    ImGui::TextUnformatted(debug.boxes.empty() ? "This method has no boxes" : "Boxes of one colour share a bucket");
-  if (shown.cells) draw_legend_line(w, render::cell_colour, "occupied cell");
-  if (names_method) ImGui::TextDisabled("%s", shown_method_text(session).c_str());
 }
 
 void draw_bucket_legend(Widgets& w, const Session& session) {
   ImGui::Text("Bucket %s", grouped(*session.inspector.selected_bucket()).c_str());
-  draw_legend_line(w, render::same_cell_colour, "entry of the chosen cell");
-  draw_legend_line(w, render::aliased_colour, "entry of another cell (aliasing)");
+  draw_legend_line(w, {"entry of the chosen cell", render::same_cell_colour});
+  draw_legend_line(w, {"entry of another cell (aliasing)", render::aliased_colour});
 }
 
 }  // namespace
 
 bool has_legend(const Session& session, const render::Overlays& shown) {
-  return shown.boxes || shown.cells || session.inspector.bucket() || session.ghost().world() || shown.contacts ||
-         shown.springs || shown.missed || shown.areas || shown.surface_contacts;
+  return session.ghost().world() || session.inspector.bucket() ||
+         std::ranges::any_of(render::overlay_table,
+                             [&](const render::OverlayRow& row) { return row.legend && shown.*row.shown; });
 }
 
 void draw_legend(Widgets& w, const Session& session, const render::Overlays& shown, bool names_method) {
   if (session.ghost().world()) draw_ghost_legend(w, session);
-  if (shown.boxes || shown.cells || session.inspector.bucket()) draw_table_legend(w, session, shown, names_method);
+  const bool table = render::shows(shown, render::OverlayBasis::table);
+  const render::LegendFacts facts{session.world(), table ? &session.inspector.shown_geometry() : nullptr,
+                                  session.comparison.missed(),
+                                  collide::method_table()[session.comparison.choice.misses_of].name};
+  const auto draw_rows = [&](bool of_table) {
+    for (const render::OverlayRow& row : render::overlay_table)
+      if (row.legend && shown.*row.shown && (row.basis == render::OverlayBasis::table) == of_table)
+        for (const render::LegendLine& line : row.legend(facts)) draw_legend_line(w, line);
+  };
+  draw_rows(true);
+  if (names_method && (table || session.inspector.bucket()))
+    ImGui::TextDisabled("%s", shown_method_text(session).c_str());
   if (session.inspector.bucket()) draw_bucket_legend(w, session);
-  if (shown.contacts) {
-    draw_legend_line(w, render::contact_between_colour, "contact between bodies");
-    draw_legend_line(w, render::contact_inside_colour, "contact inside one body");
-    draw_legend_line(w, render::contact_solid_colour, "contact with a solid");
-  }
-  if (shown.surface_contacts) draw_surface_contacts_legend(w, session);
-  if (shown.missed)
-    draw_legend_line(w, render::contact_missed_colour,
-                     std::string(session.comparison.missed() && session.comparison.missed()->empty() ? "none missed by "
-                                                                                                     : "missed by ") +
-                         collide::method_table()[session.comparison.choice.misses_of].name);
-  if (shown.areas) draw_legend_line(w, render::area_colour, "area that the exact method searches");
-  if (shown.springs) {
-    ImGui::TextUnformatted("Strain of the springs");
-    draw_strain_scale(w);
-  }
+  draw_rows(false);
 }
 
 void draw_floating_legend(Widgets& w, const Session& session, const render::Overlays& shown, const ScreenRect& area) {

@@ -4,6 +4,7 @@
 
 #include "app/render/overlays.h"
 #include "app/session/session.h"
+#include "app/ui/state/ui_state.h"
 #include "app/ui/widgets/floating_box.h"
 
 namespace app::ui {
@@ -27,7 +28,7 @@ StatusLight status_light(collide::Coverage coverage);
 StatusLight status_light(const session::StepMargin& margin);
 /// Draws the status light of the step with its numbers. Below it stand the blow-up, if there is one, and the button
 /// that rewinds.
-void draw_step_light(Widgets& widgets, Session& session);
+void draw_step_light(Widgets& widgets, const Session& session);
 
 /// Names the method whose boxes and buckets are shown: "Grid Hash, driving", or "Multi-Level SB, for comparison" if the
 /// driving method has no table.
@@ -39,10 +40,8 @@ double rounded_down(double share);
 std::string reference_sentence(const compare::CompareReport& report);
 
 /// Draws the two lights and the recall in `box` over `area`. Returns the lower end (y) of a box that stands in its
-/// place, else the upper end of the area. `explained`: the meaning of all three colours is shown. The close button sets
-/// `open` to false.
-float draw_status(Widgets& widgets, Session& session, FloatingBox& box, const ScreenRect& area, bool& explained,
-                  bool& open);
+/// place, else the upper end of the area. `explained`: the meaning of all three colours is shown.
+float draw_status(Widgets& widgets, const Session& session, bool explained, FloatingBox& box, const ScreenRect& area);
 /// Draws Layout::no_room_message and the session's notice, if any, at the upper edge of `area`. Returns their lower end
 /// (y).
 float draw_notices(Widgets& widgets, const Session& session, const std::string& no_room_message,

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "app/render/palette.h"
+#include "app/ui/state/ui_state.h"
 #include "app/ui/widgets/method_mark.h"
 
 namespace app::ui {
@@ -84,12 +85,12 @@ std::string StoryCard::sentence(const Session& session) const {
          "a face of the grid.";
 }
 
-float StoryCard::draw(Widgets& w, const Session& session, const ScreenRect& area, Action& action) {
+float StoryCard::draw(Widgets& w, const Session& session, const ScreenRect& area) {
   follow(session);
   box_.begin(w, "Story", area, box_width(w, area), true);
   if (w.closable_heading("Contacts found in the same frame###story",
                          "Puts this card away (W or Esc). W brings it back."))
-    action = Action::close;
+    w.ask([](UiState& ui) { ui.set_story(false); });
   draw_method(w, session.comparison, compare::method_index(collide::paper_method), " (the paper's)");
   if (const auto exact = exact_method(session)) draw_method(w, session.comparison, *exact, "");
   // The sentence has the same height whatever its length, so that the button does not move.
@@ -100,7 +101,7 @@ float StoryCard::draw(Widgets& w, const Session& session, const ScreenRect& area
                         (session.comparison.paper_row() && !session.comparison.paper_row()->missed.empty());
   ImGui::BeginDisabled(!may_miss);
   if (w.button("Show me a miss###Explain story", "Opens the guided tour at its page on a missed contact."))
-    action = Action::explain;
+    w.ask([](Session& s, UiState& ui) { ui.tour.start(s, ui.overlays, miss_step); });
   ImGui::EndDisabled();
   return box_.end(area);
 }

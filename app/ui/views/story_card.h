@@ -8,12 +8,9 @@ namespace app::ui {
 
 class StoryCard {
  public:
-  enum class Action { none, close, explain };
-
   /// Draws the card in the upper right corner of `area`. Returns the lower end (y) of a card that stands in its place,
-  /// else the upper end of the area. `action`: what the user clicked. The comparison must include the paper's method
-  /// (CompareChoice::with_paper).
-  float draw(Widgets& widgets, const Session& session, const ScreenRect& area, Action& action);
+  /// else the upper end of the area. The comparison must include the paper's method (CompareChoice::with_paper).
+  float draw(Widgets& widgets, const Session& session, const ScreenRect& area);
 
  private:
   struct Miss {

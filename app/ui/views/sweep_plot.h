@@ -23,7 +23,6 @@ class SweepPlot {
   /// Gathers the report's points of these methods. There are none without true contacts to measure against.
   void set(const compare::SweepReport& report, const compare::MethodSet& methods);
   const std::vector<Point>& points() const { return points_; }
-  const compare::MethodSet& methods() const { return methods_; }
 
   /// Draws the plot into the rectangle.
   void draw(const Widgets& widgets, ImVec2 min, ImVec2 max, const Emphasis& emphasis);
@@ -50,7 +49,7 @@ class SweepPlot {
   void draw_front(const Widgets& widgets) const;
 
   std::vector<Point> points_;
-  compare::MethodSet methods_ = compare::usual_methods();
+  compare::MethodSet methods_;
   std::vector<std::size_t> front_;  // indices of points_, ascending in time
   Axis time_{}, error_{};
   float bottom_ = 0;  // lower end of the band of points without error, for which a logarithmic axis has no place

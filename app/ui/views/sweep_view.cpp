@@ -127,43 +127,42 @@ void draw_progress(Widgets& w, const session::SweepState& state, float width) {
                       : state.stop_reason.c_str());
 }
 
-}  // namespace
-
-float SweepView::preferred_height(std::size_t methods, float window) {
-  const float lanes = 9 * static_cast<float>(methods);  // and lines of the legend
-  return std::clamp(0.44f * window + lanes, min_height, 370 + lanes);
-}
-
-void SweepView::draw_button(Widgets& w, const Session& session) {
+void draw_button(Widgets& w, const Session& session) {
   constexpr const char* sweep_tooltip =
       "Runs each shown method with all its levels, four bucket counts and five cell sizes on a copy of this frame. "
       "Pause (Space) for the steadiest times.";
   const float width = w.px(130);
-  if (!state_.running) {
+  if (!session.sweep().running) {
     if (w.button("Sweep this frame###Sweep", sweep_tooltip, width))
-      worker_.start(session.world(), session.comparison.shown_methods());
+      w.ask([](Session& s) { s.sweep_worker.start(s.world(), s.comparison.shown_methods()); });
     return;
   }
-  const bool cancelling = worker_.cancelling();
+  const bool cancelling = session.sweep_worker.cancelling();
   ImGui::BeginDisabled(cancelling);
   if (w.button(cancelling ? "Cancelling###Sweep" : "Cancel###Sweep", "Ends the sweep and keeps its results so far.",
-               width)) {
-    worker_.cancel();
-  }
+               width))
+    w.ask([](Session& s) { s.sweep_worker.cancel(); });
   ImGui::EndDisabled();
 }
 
-void SweepView::draw_controls(Widgets& w, Session& session) {
+void draw_controls(Widgets& w, const Session& session) {
   draw_button(w, session);
   ImGui::SameLine();
   ImGui::SetNextItemWidth(w.px(150));
   draw_shown_methods(w, session);
   ImGui::SameLine();
-  draw_progress(w, state_, ImGui::GetContentRegionAvail().x - w.px(190));
+  draw_progress(w, session.sweep(), ImGui::GetContentRegionAvail().x - w.px(190));
   ImGui::SameLine();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().FramePadding.y);
-  w.text_line(count_text(state_));
-  w.register_item("Sweep counts", not_run_text(state_.report).c_str());
+  w.text_line(count_text(session.sweep()));
+  w.register_item("Sweep counts", not_run_text(session.sweep().report).c_str());
+}
+
+}  // namespace
+
+float SweepView::preferred_height(std::size_t methods, float window) {
+  const float lanes = 9 * static_cast<float>(methods);  // and lines of the legend
+  return std::clamp(0.44f * window + lanes, min_height, 370 + lanes);
 }
 
 void SweepView::draw_legend(Widgets& w, const compare::MethodSet& shown) {
@@ -203,7 +202,7 @@ void SweepView::draw_legend(Widgets& w, const compare::MethodSet& shown) {
   ImGui::PopStyleVar();
 }
 
-void SweepView::draw_plot(Widgets& w, Session& session, float height) {
+void SweepView::draw_plot(Widgets& w, const Session& session, float height) {
   const ImVec2 min = ImGui::GetCursorScreenPos();
   const ImVec2 size{ImGui::GetContentRegionAvail().x, height};
   const bool clicked = ImGui::InvisibleButton("##scatter", size);
@@ -211,36 +210,30 @@ void SweepView::draw_plot(Widgets& w, Session& session, float height) {
   w.register_item("Scatter", nullptr);
   SweepPlot::Emphasis emphasis{.method = hovered_method_, .row = {}};
   for (const SweepPlot::Point& point : plot_.points())
-    if (in_use(state_.report.rows[point.row], session.world())) emphasis.row = point.row;
+    if (in_use(session.sweep().report.rows[point.row], session.world())) emphasis.row = point.row;
   plot_.draw(w, min, {min.x + size.x, min.y + size.y}, emphasis);
   const SweepPlot::Point* under = hovered ? plot_.hit_test(w, ImGui::GetIO().MousePos) : nullptr;
   if (!under) return;
-  const compare::SweepRow& row = state_.report.rows[under->row];
+  const compare::SweepRow& row = session.sweep().report.rows[under->row];
   w.show_tooltip(point_tooltip(row).c_str());
-  if (clicked) apply(row.configuration, session);
+  if (clicked) w.ask([c = row.configuration](Session& s) { apply(c, s); });
 }
 
-void SweepView::update() {
-  auto state = worker_.take();
-  if (!state) return;
-  state_ = std::move(*state);
-  plot_.set(state_.report, plot_.methods());
-}
-
-void SweepView::draw(Widgets& w, Session& session, const ScreenRect& area, bool& open) {
+void SweepView::draw(Widgets& w, const Session& session, const ScreenRect& area) {
   // Opaque: the scene's colours would make the points hard to tell apart.
   begin_dock("Error against run time###Sweep view", area, true, ImGuiWindowFlags_NoScrollbar);
   w.keep_tooltips_off();
-  if (w.button("x###Close sweep", "Closes the plot (E). A sweep continues.", ImGui::GetFrameHeight())) open = false;
+  if (w.button("x###Close sweep", "Closes the plot (E). A sweep continues.", ImGui::GetFrameHeight()))
+    w.ask([](UiState& ui) { ui.lower = LowerView::none; });
   ImGui::SameLine();
   draw_controls(w, session);
   const compare::MethodSet shown = session.comparison.shown_methods();
-  if (shown != plot_.methods()) plot_.set(state_.report, shown);
+  plot_.set(session.sweep().report, shown);
   draw_legend(w, shown);
   const ImGuiStyle& style = ImGui::GetStyle();
   draw_plot(w, session, ImGui::GetContentRegionAvail().y - ImGui::GetTextLineHeight() - style.ItemSpacing.y);
-  w.text_line(footer(state_));
-  const std::string& why = state_.report.reference_note;
+  w.text_line(footer(session.sweep()));
+  const std::string& why = session.sweep().report.reference_note;
   w.register_item("Sweep footing", why.empty() ? "The frame of the sweep." : why.c_str());
   end_dock();
 }

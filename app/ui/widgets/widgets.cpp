@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "app/render/palette.h"
+#include "app/ui/state/ui_state.h"
 
 namespace app::ui {
 namespace {
@@ -143,24 +144,26 @@ bool Widgets::radio(const char* label, bool active, const char* tooltip) {
   return register_item(ImGui::RadioButton(label, active), label, tooltip);
 }
 
-bool Widgets::checkbox(const char* label, bool& value, const char* tooltip) {
+bool Widgets::checkbox(const char* label, bool value, const char* tooltip) {
   return register_item(ImGui::Checkbox(label, &value), label, tooltip);
 }
 
 bool Widgets::section(const char* label, bool open_at_first) {
-  if (const auto stored = sections_.find(label); stored != sections_.end())
-    ImGui::SetNextItemOpen(stored->second, ImGuiCond_Once);
+  const auto stored = sections_.find(label);
+  if (stored != sections_.end()) ImGui::SetNextItemOpen(stored->second, ImGuiCond_Once);
   const bool open = ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-  sections_[label] = open;
+  if (stored == sections_.end() || open != stored->second)
+    ask([name = std::string(label), open](UiState& ui) { ui.sections[name] = open; });
   return register_item(open, label, nullptr);
 }
 
-bool Widgets::text_field(const char* label, std::string& value, const char* hint, const char* tooltip) {
+bool Widgets::text_field(const char* label, const std::string& value, const char* hint, const char* tooltip,
+                         std::string& (*place)(session::Session&, UiState&)) {
   std::array<char, 4096> typed{};  // the longest path
   value.copy(typed.data(), typed.size() - 1);
   if (ImGui::InputTextWithHint(fmt::format("##{}", label).c_str(), hint, typed.data(), typed.size(),
                                ImGuiInputTextFlags_AutoSelectAll))
-    value = typed.data();
+    ask([=, text = std::string(typed.data())](session::Session& s, UiState& ui) { place(s, ui) = text; });
   return register_item(ImGui::IsItemDeactivated() && is_pressed(ImGuiKey_Enter), label, tooltip);
 }
 

@@ -8,12 +8,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
 #include "app/base/text.h"
 #include "app/base/time_series.h"
+#include "app/ui/state/requests.h"
 
 namespace app::ui {
 
@@ -78,13 +80,31 @@ struct Axis {
 /// Returns an axis around all values of a series, at least `min_length` long (> 0). It rarely changes.
 Axis axis_around(const TimeSeries& series, float min_length);
 
-/// The widgets of one frame. Labels are unique; they are ImGui's identifiers too.
+/// The widgets of one frame, and what the user asks for by them. Labels are unique; they are ImGui's identifiers too.
 class Widgets {
  public:
-  /// `sections` stores which sections are open, from frame to frame.
-  Widgets(float scale, InputState& input, std::map<std::string, bool>& sections, WidgetRecorder* recorder = nullptr)
-      : scale_(scale), usual_alpha_(ImGui::GetStyle().Alpha), input_(input), sections_(sections), recorder_(recorder) {
+  /// `sections`: UiState::sections, which are open.
+  Widgets(float scale, InputState& input, const std::map<std::string, bool>& sections, Requests& requests,
+          WidgetRecorder* recorder = nullptr)
+      : scale_(scale),
+        usual_alpha_(ImGui::GetStyle().Alpha),
+        input_(input),
+        sections_(sections),
+        requests_(requests),
+        recorder_(recorder) {
     input_.update(px(3));
+  }
+
+  /// Asks for a task of the window, or for a change of the session, of what the window shows, or of both: a function of
+  /// Session&, UiState&, or both in this order. It is carried out after the drawing.
+  template <class Asked>
+  void ask(const Asked& asked) {
+    if constexpr (std::is_invocable_v<Asked, session::Session&>)
+      requests_.emplace_back([asked](session::Session& s, UiState&) { asked(s); });
+    else if constexpr (std::is_invocable_v<Asked, UiState&>)
+      requests_.emplace_back([asked](session::Session&, UiState& ui) { asked(ui); });
+    else
+      requests_.emplace_back(asked);
   }
 
   /// Converts design pixels to ImGui units.
@@ -92,7 +112,8 @@ class Widgets {
 
   bool button(const char* label, const char* tooltip, float width = 0);
   bool radio(const char* label, bool active, const char* tooltip);
-  bool checkbox(const char* label, bool& value, const char* tooltip);
+  /// Returns true if the value should be the other one.
+  bool checkbox(const char* label, bool value, const char* tooltip);
   /// Draws a title with a close button, whose label is "Close " and the title's identifier. True if it is clicked.
   bool closable_heading(const char* label, const char* tooltip);
   /// Draws the heading of a section that folds. True if it is open.
@@ -110,7 +131,9 @@ class Widgets {
   /// A field for typing a number within the limits.
   bool number_field(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max, const char* tooltip);
   /// A field for typing text. True when Enter is pressed in it. It shows a grey `hint` while it is empty.
-  bool text_field(const char* label, std::string& value, const char* hint, const char* tooltip);
+  /// What is typed is asked to become what `place` returns.
+  bool text_field(const char* label, const std::string& value, const char* hint, const char* tooltip,
+                  std::string& (*place)(session::Session&, UiState&));
   /// A list to choose from. If true, it is open: combo_item() for each item and ImGui::EndCombo() must follow.
   bool begin_combo(const char* label, const char* preview, const char* tooltip, ImGuiComboFlags flags = 0);
   bool combo_item(const char* label, bool selected, const char* tooltip);
@@ -181,7 +204,8 @@ class Widgets {
 
   float scale_, usual_alpha_;
   InputState& input_;
-  std::map<std::string, bool>& sections_;
+  const std::map<std::string, bool>& sections_;
+  Requests& requests_;
   WidgetRecorder* recorder_;
 };
 

@@ -1,6 +1,7 @@
-#include "app/render/overlay_shapes.h"
+#include "app/render/overlays.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -8,10 +9,12 @@
 #include <set>
 #include <utility>
 
+#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "app/render/palette.h"
+#include "app/render/scene_view.h"
 #include "softbody/forces/springs.h"
 #include "softbody/world/measures.h"
 
@@ -19,6 +22,7 @@ namespace app::render {
 namespace {
 
 using Points = std::span<const glm::vec3>;
+using Legend = std::vector<LegendLine>;
 
 // Share of its opacity that an overlay keeps where a surface is in front of it. The eye must tell the front from what
 // is behind, and yet find what lies only behind.
@@ -26,6 +30,9 @@ constexpr float hidden = 0.0f;         // for lines all over a body
 constexpr float faint = 0.12f;         // for what fills the scene
 constexpr float half_hidden = 0.3f;    // for contacts, most of which lie behind a surface: where bodies press together
 constexpr float seen_through = 0.45f;  // for the few that must be found: chosen with the mouse, or missed
+
+constexpr std::size_t max_boxes = 20'000;  // of each kind; the others are not drawn
+constexpr float max_shown_strain = 0.2f;   // change of length / rest length at the ends of the colour scale
 
 /// Lines and points that look alike, added to the frame. Valid until another set is added to it.
 struct LinesAndPoints {
@@ -37,35 +44,42 @@ struct LinesAndPoints {
   std::vector<engine::Point>& points;
 };
 
-/// tinted: fill the faces, too; false where other boxes already tint the same place.
-void add_body_boxes(const softbody::BodiesInMotion& world, Points positions, bool tinted, engine::FrameData& frame) {
+void add_body_boxes(const OverlayInput& from, engine::FrameData& frame) {
   engine::BoxSet& set = frame.boxes.emplace_back(engine::BoxSet{{}, 1.5f, faint});
-  if (!tinted) set.face_alpha = 0;
-  const collide::Bodies& bodies = world.bodies();
+  if (from.request.shown.boxes) set.face_alpha = 0;  // these tint the same place
+  const collide::Bodies& bodies = from.world.bodies();
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     glm::vec3 lo(std::numeric_limits<float>::max()), hi(std::numeric_limits<float>::lowest());
-    for (const glm::vec3& p : positions.subspan(bodies.first[b], bodies.size(b))) {
+    for (const glm::vec3& p : from.at.shown.subspan(bodies.first[b], bodies.size(b))) {
       lo = glm::min(lo, p);
       hi = glm::max(hi, p);
     }
-    set.boxes.push_back({lo, hi, glm::vec4(body_colour(world.body(b).number) * 0.72f, 0.95f)});
+    set.boxes.push_back({lo, hi, glm::vec4(body_colour(from.world.body(b).number) * 0.72f, 0.95f)});
   }
 }
 
 /// Adds the boxes in the colours of the buckets of their minimum corners.
-void add_boxes(const OverlayRequest& request, engine::FrameData& frame) {
-  const collide::DebugGeometry& debug = *request.debug;
+void add_boxes(const OverlayInput& from, engine::FrameData& frame) {
+  if (!from.request.debug) return;
+  const collide::DebugGeometry& debug = *from.request.debug;
   engine::BoxSet& set = frame.boxes.emplace_back(
-      engine::BoxSet{.boxes = {}, .occluded_alpha = faint, .face_alpha = request.bucket ? 0.0f : 0.05f});
-  const float alpha = request.bucket ? 0.15f : 0.85f;
-  for (std::size_t i = 0; i < std::min(debug.boxes.size(), SceneView::max_boxes); ++i) {
+      engine::BoxSet{.boxes = {}, .occluded_alpha = faint, .face_alpha = from.request.bucket ? 0.0f : 0.05f});
+  const float alpha = from.request.bucket ? 0.15f : 0.85f;
+  for (std::size_t i = 0; i < std::min(debug.boxes.size(), max_boxes); ++i) {
     const auto& [lo, hi, body] = debug.boxes[i];
     set.boxes.push_back({lo, hi, glm::vec4(bucket_colour(debug.box_bucket[debug.box_first[i]]), alpha)});
   }
 }
 
+Legend boxes_legend(const LegendFacts& facts) {
+  const bool none = !facts.debug || facts.debug->boxes.empty();
+  return {{none ? "This method has no boxes" : "Boxes of one colour share a bucket"}};
+}
+
 /// Adds the content of a bucket and its cells: one cell in one colour; what shares only the bucket in another.
-void add_bucket(const OverlayRequest& request, const glm::vec3& cell_size, Points positions, engine::FrameData& frame) {
+void add_bucket(const OverlayInput& from, engine::FrameData& frame) {
+  const OverlayRequest& request = from.request;
+  if (!request.debug || !request.bucket) return;
   const compare::CellGroup* reference = request.bucket->group(request.bucket_cell);
   engine::BoxSet boxes{.boxes = {}, .width = 2.5f, .occluded_alpha = seen_through, .face_alpha = 0.22f};
   engine::BoxSet cells{.boxes = {}, .width = 1.5f, .occluded_alpha = half_hidden, .face_alpha = 0.08f};
@@ -73,10 +87,10 @@ void add_bucket(const OverlayRequest& request, const glm::vec3& cell_size, Point
       frame.points.emplace_back(engine::PointSet{.points = {}, .diameter = 7.0f, .occluded_alpha = seen_through});
   for (const compare::CellGroup& group : request.bucket->groups) {
     const glm::vec3 colour = &group == reference ? same_cell_colour : aliased_colour;
-    cells.boxes.push_back(cell_box(group.cell, cell_size, glm::vec4(colour * 0.6f, 0.9f)));
+    cells.boxes.push_back(cell_box(group.cell, *from.world.collision().cell_size, glm::vec4(colour * 0.6f, 0.9f)));
     for (const collide::Index item : group.items) {
       if (request.bucket->vertices) {
-        points.points.push_back({positions[item], glm::vec4(colour, 1.0f)});
+        points.points.push_back({from.at.shown[item], glm::vec4(colour, 1.0f)});
       } else {
         const auto& [lo, hi, body] = request.debug->boxes[item];
         boxes.boxes.push_back({lo, hi, glm::vec4(colour * 0.9f, 1.0f)});
@@ -87,21 +101,27 @@ void add_bucket(const OverlayRequest& request, const glm::vec3& cell_size, Point
   frame.boxes.push_back(std::move(boxes));
 }
 
-void add_areas(const std::vector<collide::DebugGeometry::Box>& areas, engine::FrameData& frame) {
+void add_areas(const OverlayInput& from, engine::FrameData& frame) {
+  const std::vector<collide::DebugGeometry::Box>& areas = from.request.areas;
   engine::BoxSet& set = frame.boxes.emplace_back(
       engine::BoxSet{.boxes = {}, .width = 1.5f, .occluded_alpha = half_hidden, .face_alpha = 0.12f});
-  for (const auto& [lo, hi, body] : std::span(areas).first(std::min(areas.size(), SceneView::max_boxes)))
+  for (const auto& [lo, hi, body] : std::span(areas).first(std::min(areas.size(), max_boxes)))
     set.boxes.push_back({lo, hi, glm::vec4(area_colour, 0.9f)});
 }
 
-void add_cells(const OverlayRequest& request, const glm::vec3& size, engine::FrameData& frame) {
+Legend areas_legend(const LegendFacts&) { return {{"area that the exact method searches", area_colour}}; }
+
+void add_cells(const OverlayInput& from, engine::FrameData& frame) {
+  if (!from.request.debug) return;
   engine::BoxSet& set =
       frame.boxes.emplace_back(engine::BoxSet{.boxes = {}, .width = 1.0f, .occluded_alpha = faint, .face_alpha = 0});
-  for (const collide::DebugGeometry::Cell& cell : request.debug->cells) {
-    if (set.boxes.size() == SceneView::max_boxes) break;
-    set.boxes.push_back(cell_box(cell.index, size, glm::vec4(cell_colour, 0.6f)));
+  for (const collide::DebugGeometry::Cell& cell : from.request.debug->cells) {
+    if (set.boxes.size() == max_boxes) break;
+    set.boxes.push_back(cell_box(cell.index, *from.world.collision().cell_size, glm::vec4(cell_colour, 0.6f)));
   }
 }
+
+Legend cells_legend(const LegendFacts&) { return {{"occupied cell", cell_colour}}; }
 
 void add_contact(Points positions, const collide::Contact& contact, const glm::vec3& colour, LinesAndPoints& marks) {
   const glm::vec3 a = positions[contact.a], b = positions[contact.b];
@@ -109,37 +129,55 @@ void add_contact(Points positions, const collide::Contact& contact, const glm::v
   for (const glm::vec3& end : {a, b}) marks.points.push_back({end, glm::vec4(colour, 1.0f)});
 }
 
-void add_contacts(const softbody::BodiesInMotion& world, std::span<const softbody::SolidContactPoint> with_solids,
-                  const DrawnPoints& at, engine::FrameData& frame) {
+void add_contacts(const OverlayInput& from, engine::FrameData& frame) {
   LinesAndPoints marks(frame, 2.0f, 5.0f, half_hidden);
-  for (const collide::Contact& contact : world.detection().contacts) {
-    const bool inside = world.bodies().body_of(contact.a) == world.bodies().body_of(contact.b);
-    add_contact(at.shown, contact, inside ? contact_inside_colour : contact_between_colour, marks);
+  const collide::Bodies& bodies = from.world.bodies();
+  for (const collide::Contact& contact : from.world.detection().contacts) {
+    const bool inside = bodies.body_of(contact.a) == bodies.body_of(contact.b);
+    add_contact(from.at.shown, contact, inside ? contact_inside_colour : contact_between_colour, marks);
   }
-  for (const softbody::SolidContactPoint& contact : with_solids)
-    marks.points.push_back({at.simulated[contact.vertex], glm::vec4(contact_solid_colour, 1.0f)});
+  for (const softbody::SolidContactPoint& contact : from.request.solid_contacts)
+    marks.points.push_back({from.at.simulated[contact.vertex], glm::vec4(contact_solid_colour, 1.0f)});
 }
 
-void add_missed(const std::vector<collide::Contact>& missed, Points positions, engine::FrameData& frame) {
+Legend contacts_legend(const LegendFacts&) {
+  return {{"contact between bodies", contact_between_colour},
+          {"contact inside one body", contact_inside_colour},
+          {"contact with a solid", contact_solid_colour}};
+}
+
+void add_missed(const OverlayInput& from, engine::FrameData& frame) {
+  if (!from.request.missed) return;
   LinesAndPoints marks(frame, 3.0f, 7.0f, seen_through);
-  for (const collide::Contact& contact : missed) add_contact(positions, contact, contact_missed_colour, marks);
+  for (const collide::Contact& contact : *from.request.missed)
+    add_contact(from.at.shown, contact, contact_missed_colour, marks);
+}
+
+Legend missed_legend(const LegendFacts& facts) {
+  const bool none = facts.missed && facts.missed->empty();
+  return {{fmt::format("{} by {}", none ? "none missed" : "missed", facts.misses_of), contact_missed_colour}};
 }
 
 /// Adds both closest points, and the normal at the second one, half a mean edge long.
-void add_surface_contacts(const softbody::BodiesInMotion& world,
-                          std::span<const softbody::SurfaceContactPoint> contacts, Points particles,
-                          engine::FrameData& frame) {
+void add_surface_contacts(const OverlayInput& from, engine::FrameData& frame) {
   LinesAndPoints marks(frame, 2.0f, 5.0f, half_hidden);
-  for (const softbody::SurfaceContactPoint& contact : contacts) {
+  for (const softbody::SurfaceContactPoint& contact : from.request.surface_contacts) {
     glm::vec3 first(0.0f), second(0.0f);
     for (std::size_t k = 0; k < contact.vertex.size(); ++k)
-      (contact.weight[k] > 0 ? first : second) += std::abs(contact.weight[k]) * particles[contact.vertex[k]];
+      (contact.weight[k] > 0 ? first : second) += std::abs(contact.weight[k]) * from.at.simulated[contact.vertex[k]];
     const glm::vec4 colour(contact.a == contact.b ? contact_inside_colour : contact_between_colour, 1.0f);
-    const float length = 0.5f * static_cast<float>(world.model(contact.a).mean_edge);
+    const float length = 0.5f * static_cast<float>(from.world.model(contact.a).mean_edge);
     marks.lines.push_back({second, second + length * contact.normal, colour});
     marks.points.push_back({first, colour});
     marks.points.push_back({second, colour});
   }
+}
+
+Legend surface_contacts_legend(const LegendFacts& facts) {
+  if (facts.world.scene().contact_surface != softbody::ContactSurface::surfaces)
+    return {{.text = "No surface contacts (F: next contact)", .pale = true}};
+  return {{"surface contact between bodies, with normal", contact_between_colour},
+          {"surface contact inside one body", contact_inside_colour}};
 }
 
 /// Widens the regions of marked vertices (value 1, others 0) by about an edge of the mesh, with a smooth border: it
@@ -176,15 +214,16 @@ void spread(const softbody::BodyModel& model, std::span<float> particles, std::s
 
 /// Marks the regions of the surfaces that are inside other bodies or pierce them, with a margin that is outside and so
 /// in sight. Adds the deepest vertex of each pair of bodies, joined to the nearest point of the surface.
-void add_marks(const softbody::BodiesInMotion& world, std::span<const compare::SurfaceMark> marks, Points particles,
-               engine::FrameData& frame) {
+void add_marks(const OverlayInput& from, engine::FrameData& frame) {
+  const softbody::BodiesInMotion& world = from.world;
+  const Points particles = from.at.simulated;
   frame.mark_colour = contact_missed_colour;
   frame.marks.assign(frame.positions.size(), 0.0f);
   const collide::Bodies& bodies = *world.simulated().positions.bodies;
   std::vector<float> marked_particles(particles.size(), 0.0f);
   std::map<std::pair<softbody::BodyId, softbody::BodyId>, const compare::SurfaceMark*> deepest;
   std::set<softbody::BodyId> marked;
-  for (const compare::SurfaceMark& mark : marks) {
+  for (const compare::SurfaceMark& mark : from.request.marks) {
     assert(mark.vertex < particles.size());
     const softbody::BodyId body = bodies.body_of(mark.vertex);
     marked_particles[mark.vertex] = 1.0f;
@@ -225,7 +264,7 @@ void add_springs(const std::vector<softbody::Spring>& springs, Points body, cons
     if (!in_sight[spring.i] || !in_sight[spring.j]) continue;  // behind its own body: half of all lines
     const glm::vec3 a = body[spring.i], b = body[spring.j];
     const float strain = glm::distance(a, b) / static_cast<float>(spring.rest) - 1.0f;
-    set.lines.push_back({a, b, glm::vec4(diverging_colour(strain / SceneView::max_shown_strain), alpha)});
+    set.lines.push_back({a, b, glm::vec4(diverging_colour(strain / max_shown_strain), alpha)});
   }
 }
 
@@ -236,22 +275,30 @@ bool is_near(const softbody::BodyModel& model, Points body, const Viewpoint& vie
   return edge * viewpoint.pixels_at_one_metre > min_edge * glm::distance(body.front(), viewpoint.eye);
 }
 
-void add_springs(const softbody::BodiesInMotion& world, const Viewpoint& viewpoint, Points particles,
-                 engine::FrameData& frame) {
+void add_all_springs(const OverlayInput& from, engine::FrameData& frame) {
+  const softbody::BodiesInMotion& world = from.world;
   engine::LineSet structural{.lines = {}, .width = 1.75f, .occluded_alpha = hidden};
   engine::LineSet others{.lines = {}, .width = 1.0f, .occluded_alpha = hidden};
   const collide::Bodies& bodies = *world.simulated().positions.bodies;
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     const softbody::BodyModel& model = world.model(b);
-    const Points body = particles.subspan(bodies.first[b], bodies.size(b));
-    const std::vector<char> in_sight = vertices_in_sight(model, body, viewpoint.eye);
+    const Points body = from.at.simulated.subspan(bodies.first[b], bodies.size(b));
+    const std::vector<char> in_sight = vertices_in_sight(model, body, from.viewpoint.eye);
     add_springs(softbody::springs<softbody::StructuralSprings>(model), body, in_sight, 1.0f, structural);
-    if (!is_near(model, body, viewpoint)) continue;
+    if (!is_near(model, body, from.viewpoint)) continue;
     add_springs(softbody::springs<softbody::BendSprings>(model), body, in_sight, 0.45f, others);
     add_springs(softbody::springs<softbody::ShearSprings>(model), body, in_sight, 0.7f, others);
   }
   frame.lines.push_back(std::move(others));
   frame.lines.push_back(std::move(structural));
+}
+
+Legend springs_legend(const LegendFacts&) {
+  return {{"Strain of the springs"},
+          {.text = fmt::format("-{:.0f} %", 100 * max_shown_strain),
+           .pale = true,
+           .scale = [](float share) { return diverging_colour(2 * share - 1); },
+           .end = fmt::format("+{:.0f} %", 100 * max_shown_strain)}};
 }
 
 /// Adds the borders, and the edges between a face that is turned to the eye and one that is not. They lie a little
@@ -282,27 +329,28 @@ void add_outline(const softbody::BodiesInMotion& world, softbody::BodyId id, con
 }
 
 /// Adds fine outlines to open bodies, which show little shade, and a bold one to the selected body.
-void add_outlines(const softbody::BodiesInMotion& world, const OverlayRequest& request, const glm::vec3& eye,
-                  Points positions, engine::FrameData& frame) {
+void add_outlines(const OverlayInput& from, engine::FrameData& frame) {
+  const auto& [world, request, viewpoint, at] = from;
   engine::LineSet fine{.lines = {}, .width = 1.25f, .occluded_alpha = hidden};
   engine::LineSet bold{.lines = {}, .width = 3.0f, .occluded_alpha = seen_through};
   for (softbody::BodyId body = 0; body < world.bodies().count(); ++body) {
     if (body == request.selected_body)
-      add_outline(world, body, eye, positions, hand_colour, bold);
+      add_outline(world, body, viewpoint.eye, at.shown, hand_colour, bold);
     else if (is_open(world.model(body)) && !(request.highlight && request.highlight->fades(body)))
-      add_outline(world, body, eye, positions, 0.5f * body_colour(world.body(body).number), fine);
+      add_outline(world, body, viewpoint.eye, at.shown, 0.5f * body_colour(world.body(body).number), fine);
   }
   frame.lines.push_back(std::move(fine));
   frame.lines.push_back(std::move(bold));
 }
 
 /// Adds the spring of the mouse: from the point that it holds to its target.
-void add_grab(const softbody::BodiesInMotion& world, const softbody::Grab& grab, Points particles,
-              engine::FrameData& frame) {
+void add_grab(const OverlayInput& from, engine::FrameData& frame) {
+  if (!from.request.grab) return;
+  const softbody::Grab& grab = *from.request.grab;
+  const std::uint32_t first = from.world.simulated().positions.bodies->first[grab.body];
   glm::vec3 held(0.0f);
   for (int i = 0; i < 3; ++i)
-    held += static_cast<float>(grab.weights[i]) *
-            particles[world.simulated().positions.bodies->first[grab.body] + grab.corners[static_cast<std::size_t>(i)]];
+    held += static_cast<float>(grab.weights[i]) * from.at.simulated[first + grab.corners[static_cast<std::size_t>(i)]];
   const glm::vec4 colour(hand_colour, 1.0f);
   const glm::vec3 target(grab.target);
   frame.lines.push_back({.lines = {{held, target, colour}}, .width = 2.5f, .occluded_alpha = seen_through});
@@ -310,30 +358,63 @@ void add_grab(const softbody::BodiesInMotion& world, const softbody::Grab& grab,
       {.points = {{held, colour}, {target, colour}}, .diameter = 9.0f, .occluded_alpha = seen_through});
 }
 
+constexpr std::array rows{
+    OverlayRow{"body-boxes", "Body boxes", '1', "The bounding box of each body, in the body's colour (§2.1).",
+               &Overlays::body_boxes, add_body_boxes, nullptr, 0},
+    OverlayRow{
+        "boxes", "Subdivided boxes", '2',
+        "The boxes that the method hashes (§2.1). The colour is that of the bucket of the box's minimum corner (§2.2).",
+        &Overlays::boxes, add_boxes, boxes_legend, 1, OverlayBasis::table},
+    OverlayRow{"cells", "Occupied cells", '3', "The grid cells with at least one entry in the hash table (§2.2).",
+               &Overlays::cells, add_cells, cells_legend, 0, OverlayBasis::table},
+    OverlayRow{"contacts", "Contacts", '4',
+               "Pairs of vertices closer than the tolerance, and vertices that touch a solid (§2.3).",
+               &Overlays::contacts, add_contacts, contacts_legend},
+    OverlayRow{"springs", "Springs", '5',
+               "All springs, coloured by their strain. From far away only the springs along edges are drawn.",
+               &Overlays::springs, add_all_springs, springs_legend, 0, OverlayBasis::picture, true},
+    OverlayRow{"missed", "Missed contacts", '6',
+               "True contacts that the paper's method misses, or the method that you choose in the comparison (V). A "
+               "ring shows where, and how many.",
+               &Overlays::missed, add_missed, missed_legend},
+    OverlayRow{"areas", "Areas searched", '7',
+               "Where the exact method searches for contacts between two bodies (§2.1, §5).", &Overlays::areas,
+               add_areas, areas_legend, 2, OverlayBasis::present},
+    OverlayRow{
+        "touches", "Surface contacts", '8',
+        "The two closest points and the normal of each surface contact. There are none with vertex-vertex contact, and "
+        "none between bodies that sleep.",
+        &Overlays::surface_contacts, add_surface_contacts, surface_contacts_legend, 2, OverlayBasis::picture, true},
+    OverlayRow{
+        "true-surfaces", "True surfaces", '9',
+        "Checks the surfaces exactly: how many vertices are inside other bodies, and which of these overlaps have no "
+        "contact. The latter are drawn.",
+        &Overlays::true_surfaces, add_marks},
+};
+
 }  // namespace
+
+constinit const std::span<const OverlayRow> overlay_table(rows);
+
+bool shows(const Overlays& shown, OverlayBasis basis) {
+  return std::ranges::any_of(overlay_table,
+                             [&](const OverlayRow& row) { return row.basis >= basis && shown.*row.shown; });
+}
 
 engine::Box cell_box(const compare::Cell& cell, const glm::vec3& size, const glm::vec4& colour) {
   const glm::vec3 at(static_cast<float>(cell[0]), static_cast<float>(cell[1]), static_cast<float>(cell[2]));
   return {at * size, (at + 1.0f) * size, colour};
 }
 
-void add_overlays(const softbody::BodiesInMotion& world, const OverlayRequest& request, const Viewpoint& viewpoint,
-                  const DrawnPoints& at, engine::FrameData& frame) {
-  const Points positions = at.shown, particles = at.simulated;
-  assert(positions.size() == world.bodies().vertex_count());
-  const Overlays& shown = request.shown;
-  if (shown.springs) add_springs(world, viewpoint, particles, frame);
-  if (shown.body_boxes) add_body_boxes(world, positions, !shown.boxes, frame);
-  if (request.debug && shown.cells) add_cells(request, *world.collision().cell_size, frame);
-  if (request.debug && shown.boxes) add_boxes(request, frame);
-  if (request.debug && request.bucket) add_bucket(request, *world.collision().cell_size, positions, frame);
-  if (shown.areas) add_areas(request.areas, frame);
-  if (shown.contacts) add_contacts(world, request.solid_contacts, at, frame);
-  if (shown.missed && request.missed) add_missed(*request.missed, positions, frame);
-  if (shown.surface_contacts) add_surface_contacts(world, request.surface_contacts, particles, frame);
-  if (shown.true_surfaces) add_marks(world, request.marks, particles, frame);
-  add_outlines(world, request, viewpoint.eye, positions, frame);
-  if (request.grab) add_grab(world, *request.grab, particles, frame);
+void add_overlays(const OverlayInput& from, engine::FrameData& frame) {
+  assert(from.at.shown.size() == from.world.bodies().vertex_count());
+  for (const int layer : {0, 1, 2}) {
+    for (const OverlayRow& row : overlay_table)
+      if (row.layer == layer && from.request.shown.*row.shown) row.add(from, frame);
+    if (layer == 1) add_bucket(from, frame);
+  }
+  add_outlines(from, frame);
+  add_grab(from, frame);
 }
 
 }  // namespace app::render

@@ -12,7 +12,8 @@
 #include <glm/vec2.hpp>
 
 #include "app/session/export/frame_writers.h"
-#include "app/session/session.h"
+#include "app/session/live/live_comparison.h"
+#include "app/session/simulation.h"
 
 namespace app::session {
 
@@ -39,7 +40,11 @@ class Exporter {
   std::size_t kind = 0;            // of the next recording: an index of recording_kinds
   bool picture_requested = false;  // take a picture with the next frame
 
-  void write_curves(Session& session);
+  /// Both must outlive this.
+  Exporter(Simulation& simulation, const LiveComparison& comparison)
+      : simulation_(simulation), comparison_(comparison) {}
+
+  void write_curves();
   /// Starts a recording, or stops the one in progress.
   void toggle_recording();
   /// Returns true during a recording. Then the world moves one step per picture, so that no frame is lost, and only if
@@ -60,7 +65,7 @@ class Exporter {
 
   /// Takes and records pictures. Call it once for each frame of the window, after it is drawn. The notice says what was
   /// written.
-  void frame(Session& session, const Picture& picture);
+  void frame(const Picture& picture);
 
   /// Returns what was written last or is being written, or what failed.
   const std::string& message() const { return message_; }
@@ -68,10 +73,12 @@ class Exporter {
 
  private:
   void attempt(const std::function<std::string()>& action);
-  void show_message(Notice& notice) const { failed_ ? notice.set(message_) : notice.tell(message_); }
-  void record(const Session& session, const Picture& picture);
-  void follow_recording(Notice& notice);
+  void show_message() { failed_ ? simulation_.notice.set(message_) : simulation_.notice.tell(message_); }
+  void record(const Picture& picture);
+  void follow_recording();
 
+  Simulation& simulation_;
+  const LiveComparison& comparison_;
   std::unique_ptr<FrameRecording> recording_;
   const RecordingKind* recorded_ = nullptr;
   int recorded_frame_ = -1;                         // of the world: each is recorded once
@@ -81,6 +88,6 @@ class Exporter {
 };
 
 /// Returns the curves of the panel as CSV: a column for each curve, and a line for each frame that some curve has.
-std::string curves_csv(const Session& session);
+std::string curves_csv(const Simulation& simulation, const LiveComparison& comparison);
 
 }  // namespace app::session

@@ -1,4 +1,4 @@
-#include "app/ui/tour/tour_view.h"
+#include "app/ui/views/views.h"
 
 #include <fmt/core.h>
 
@@ -13,7 +13,7 @@ void draw_figure(Widgets& w, const TourFigure& figure) {
 }
 
 /// Draws the eight corners to choose from; `shown` is one of context.f.corners, or a corner of another box.
-void draw_corners(Widgets& w, Tour& tour, const TourContext& context, const HashedCorner& shown) {
+void draw_corners(Widgets& w, const TourContext& context, const HashedCorner& shown) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("Corner");
   const float gap = w.px(3), left = w.px(58);
@@ -25,16 +25,16 @@ void draw_corners(Widgets& w, Tour& tour, const TourContext& context, const Hash
     const std::string number = std::to_string(i + 1);
     if (w.button(fmt::format("{}###Corner {}", number, number).c_str(),
                  "Shows the hash of this corner point of the box.", width))
-      tour.choose_corner(i);
+      w.ask([i](UiState& ui) { ui.tour.choose_corner(i); });
     if (chosen) ImGui::PopStyleColor();
   }
 }
 
-void draw_step(Widgets& w, Tour& tour, const TourContext& context) {
+void draw_step(Widgets& w, const Tour& tour, const TourContext& context) {
   const TourStep& step = tour_steps()[tour.step()];
   w.wrapped_text("Tour text", step.text(context));
   ImGui::Spacing();
-  if (step.corner) draw_corners(w, tour, context, (context.*step.corner)());
+  if (step.corner) draw_corners(w, context, (context.*step.corner)());
   for (const TourFigure& figure : step.figures(context)) draw_figure(w, figure);
   ImGui::Spacing();
   ImGui::TextDisabled("The paper's method on the whole frame (§3)");
@@ -43,7 +43,7 @@ void draw_step(Widgets& w, Tour& tour, const TourContext& context) {
 }
 
 /// Says that the frame lacks the goal of the step, and offers to run ahead to it.
-void draw_lack(Widgets& w, Session& session, Tour& tour) {
+void draw_lack(Widgets& w, const Session& session, const Tour& tour) {
   const TourGoal& goal = tour_steps()[tour.step()].goal;
   const bool at_rest = session.world().all_at_rest();
   std::string text(goal.lacking);
@@ -56,13 +56,13 @@ void draw_lack(Widgets& w, Session& session, Tour& tour) {
   if (w.button(fmt::format("{}###Run ahead", goal.button).c_str(),
                "Lets the world run, several frames per picture, and pauses it there. It gives up after 20 seconds of "
                "simulated time."))
-    tour.run_ahead(session);
+    w.ask([](Session& s, UiState& ui) { ui.tour.run_ahead(s); });
   ImGui::EndDisabled();
   ImGui::Spacing();
 }
 
 /// Draws all that is between the title and the buttons.
-void draw_content(Widgets& w, Session& session, Tour& tour) {
+void draw_content(Widgets& w, const Session& session, const Tour& tour) {
   const auto context = tour.context(session);
   if (const TourGoal* goal = tour.running_to(session))
     return w.wrapped_text("Tour runs ahead",
@@ -72,25 +72,25 @@ void draw_content(Widgets& w, Session& session, Tour& tour) {
   if (context) draw_step(w, tour, *context);
 }
 
-void draw_buttons(Widgets& w, Session& session, Tour& tour, render::Overlays& shown) {
+void draw_buttons(Widgets& w, const Tour& tour) {
   const float gap = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
   const bool first = tour.step() == 0, last = tour.step() + 1 == tour_steps().size();
   ImGui::BeginDisabled(first);
-  if (w.button("Back", "The page before (left arrow).", width)) tour.back();
+  if (w.button("Back", "The page before (left arrow).", width)) w.ask([](UiState& ui) { ui.tour.back(); });
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::BeginDisabled(last);
-  if (w.button("Next", "The next page (right arrow).", width)) tour.next();
+  if (w.button("Next", "The next page (right arrow).", width)) w.ask([](UiState& ui) { ui.tour.next(); });
   ImGui::EndDisabled();
   ImGui::SameLine();
   if (w.button("Close###Close tour",
                "Ends the tour (Esc). The world goes on from this frame, unless it was paused before the tour.", width))
-    tour.close(session, shown);
+    w.ask([](Session& s, UiState& ui) { ui.tour.close(s, ui.overlays); });
 }
 
 }  // namespace
 
-void draw_tour(Widgets& w, Session& session, Tour& tour, render::Overlays& shown, const ScreenRect& area) {
+void draw_tour(Widgets& w, const Session& session, const Tour& tour, const ScreenRect& area) {
   ImGui::SetNextWindowPos(area.min);
   ImGui::SetNextWindowSize({area.max.x - area.min.x, area.max.y - area.min.y});
   ImGui::SetNextWindowBgAlpha(1);  // nothing is drawn behind it
@@ -108,7 +108,7 @@ void draw_tour(Widgets& w, Session& session, Tour& tour, render::Overlays& shown
   if (!session.simulation.notice.text().empty()) ImGui::TextWrapped("%s", session.simulation.notice.text().c_str());
   ImGui::EndChild();
   ImGui::Spacing();
-  draw_buttons(w, session, tour, shown);
+  draw_buttons(w, tour);
   ImGui::End();
 }
 

@@ -1,4 +1,4 @@
-#include "app/session/export/exporter.h"
+#include "app/session/exporter.h"
 
 #include <map>
 #include <utility>
@@ -17,14 +17,14 @@ struct Curve {
   const TimeSeries& series;
 };
 
-std::vector<Curve> curves_of(const Session& session) {
-  const StepHistory& history = session.simulation.history;
-  const StabilityHistory& motion = session.simulation.stability().history();
+std::vector<Curve> curves_of(const Simulation& simulation, const LiveComparison& comparison) {
+  const StepHistory& history = simulation.history;
+  const StabilityHistory& motion = simulation.stability().history();
   std::vector<Curve> curves{{"frame_ms", history.frame_ms},
                             {"detect_ms", history.detect_ms},
                             {"solve_ms", history.solve_ms},
                             {"contacts", history.contacts},
-                            {"recall", session.comparison.recall()},
+                            {"recall", comparison.recall()},
                             {"kinetic_J", motion.kinetic},
                             {"elastic_J", motion.elastic},
                             {"gas_J", motion.gas},
@@ -34,8 +34,8 @@ std::vector<Curve> curves_of(const Session& session) {
                             {"largest_volume", motion.max_volume},
                             {"strain", motion.strain},
                             {"speed_m_s", motion.speed}};
-  for (std::size_t i = 0; i < session.comparison.method_ms().size(); ++i)
-    curves.push_back({collide::method_table()[i].key + "_ms", session.comparison.method_ms()[i]});
+  for (std::size_t i = 0; i < comparison.method_ms().size(); ++i)
+    curves.push_back({collide::method_table()[i].key + "_ms", comparison.method_ms()[i]});
   return curves;
 }
 
@@ -46,8 +46,8 @@ fs::path absolute_folder(const std::string& folder) {
 
 }  // namespace
 
-std::string curves_csv(const Session& session) {
-  const std::vector<Curve> curves = curves_of(session);
+std::string curves_csv(const Simulation& simulation, const LiveComparison& comparison) {
+  const std::vector<Curve> curves = curves_of(simulation, comparison);
   // A frame may have several values, if the world was paused or went back. The last one counts.
   std::map<int, std::vector<std::optional<float>>> rows;
   for (std::size_t c = 0; c < curves.size(); ++c)
@@ -84,14 +84,14 @@ std::optional<glm::uvec2> Exporter::picture_size() const {
   return pixels;
 }
 
-void Exporter::write_curves(Session& session) {
+void Exporter::write_curves() {
   attempt([&] {
     files::prepare_folder(absolute_folder(folder), "");
     const fs::path file = files::next_free_path(absolute_folder(folder), "curves", ".csv");
-    files::write_file(file, curves_csv(session));
+    files::write_file(file, curves_csv(simulation_, comparison_));
     return "Curves saved: " + file.string();
   });
-  show_message(session.simulation.notice);
+  show_message();
 }
 
 void Exporter::toggle_recording() {
@@ -106,7 +106,7 @@ void Exporter::toggle_recording() {
   });
 }
 
-void Exporter::frame(Session& session, const Picture& picture) {
+void Exporter::frame(const Picture& picture) {
   if (std::exchange(picture_requested, false)) {
     attempt([&] {
       files::prepare_folder(absolute_folder(folder), "");
@@ -115,17 +115,17 @@ void Exporter::frame(Session& session, const Picture& picture) {
       files::write_file(file, engine::encode_png(image));
       return fmt::format("Picture saved: {} ({} x {})", file.string(), image.width, image.height);
     });
-    show_message(session.simulation.notice);
+    show_message();
   }
-  if (recording()) record(session, picture);
-  follow_recording(session.simulation.notice);
+  if (recording()) record(picture);
+  follow_recording();
 }
 
-void Exporter::record(const Session& session, const Picture& picture) {
-  const softbody::BodiesInMotion& world = session.world();
+void Exporter::record(const Picture& picture) {
+  const softbody::BodiesInMotion& world = simulation_.world();
   if (world.frame() == recorded_frame_ || !recording_->has_room()) return;
   // What is played begins again: all of its frames are written.
-  if (session.simulation.player() && world.frame() < recorded_frame_) return recording_->stop();
+  if (simulation_.player() && world.frame() < recorded_frame_) return recording_->stop();
   recorded_frame_ = world.frame();
   RecordedFrame frame;
   frame.number = world.frame();
@@ -143,7 +143,7 @@ void Exporter::record(const Session& session, const Picture& picture) {
   recording_->add(std::move(frame));
 }
 
-void Exporter::follow_recording(Notice& notice) {
+void Exporter::follow_recording() {
   if (!recording_) return;
   const RecordingProgress progress = recording_->update();
   failed_ = !progress.error.empty();
@@ -151,7 +151,7 @@ void Exporter::follow_recording(Notice& notice) {
   if (!failed_ && !progress.ended && progress.stopping) message_ += ", finishing";
   if (!progress.ended) return;
   recording_.reset();
-  show_message(notice);
+  show_message();
 }
 
 }  // namespace app::session

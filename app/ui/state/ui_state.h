@@ -6,8 +6,7 @@
 #include <string>
 
 #include "app/render/overlays.h"
-#include "app/session/export/exporter.h"
-#include "app/session/import.h"
+#include "app/session/session.h"
 #include "app/ui/tour/tour.h"
 
 namespace app::ui {
@@ -34,16 +33,10 @@ struct UiState : Remembered {
   bool help = false;
   bool coverage_explained = false;  // below the coverage light
   bool popup_open = false;          // a list to choose from, in the last frame
-  bool quit = false;
-  // Requests to the main loop, which clears them.
-  bool reset_camera = false;
-  bool focus_body = false;  // moves the camera to the selected body
-  bool throw_body = false;
 
   float render_scale = 1;       // of the scene's picture, see Canvas
   double picture_interval = 0;  // s from picture to picture, on purpose; infinity: drawn when something changes
   softbody::View view;          // the camera, as a scene file describes it
-  session::Exporter exporter;
   Tour tour;
 
   /// Returns the overlays that are drawn: all that are asked for, but without a solver none that needs one.
@@ -59,7 +52,11 @@ struct UiState : Remembered {
   bool shows_story() const { return marks_story() && lower == LowerView::none; }
   void toggle(LowerView part) { lower = lower == part ? LowerView::none : part; }
   void set_story(bool on) { story = story_at_start = on; }
-  session::Import import;
+  /// A hash table that is put away takes its bucket with it.
+  void toggle_hash_table(Session& session) {
+    hash_table = !hash_table;
+    if (!hash_table) session.inspector.select_bucket(std::nullopt);
+  }
   std::string save_as = "scene.toml";  // the file that the scene is saved to ...
   session::FieldNotice save_problem;   // ... why it was not written ...
   session::FieldNotice save_question;  // ... and what the user must answer first
