@@ -54,12 +54,12 @@ double ContactPass::find(double left, double ahead, double least) {
   const auto elapsed = float(found_ - left);
   if (found_ > 0 && surfaces_.candidates().check_valid(now, elapsed, float(ahead))) return 0;
   if (found_ > 0) {
-    surfaces_.candidates().update(motion(now), elapsed, float(ahead), crew_.workers());
+    surfaces_.candidates().update(motion(now), elapsed, float(ahead), shares_.workers());
     return double(surfaces_.candidates().search().work());
   }
   found_ = left;
-  since_found_.assign(std::size_t(crew_.workers().threads()), 0.0f);
-  surfaces_.set_threads(crew_.workers().threads());
+  since_found_.assign(std::size_t(shares_.workers().threads()), 0.0f);
+  surfaces_.set_threads(shares_.workers().threads());
   std::vector<collide::surface::SurfaceBody> traits;
   std::vector<ContactBody> contacts;
   for (BodyId id = 0; id < state_.body_count(); ++id) {
@@ -75,7 +75,7 @@ double ContactPass::find(double left, double ahead, double least) {
   surfaces_.candidates().find(
       motion(now), std::move(traits), std::move(contacts),
       {float(left), float(least), scene_.collision.self_collision, max_candidates_.of(state_.particle_count())},
-      float(ahead), crew_.workers());
+      float(ahead), shares_.workers());
   keep_overlapping_awake();
   return double(surfaces_.candidates().search().work());
 }
@@ -86,26 +86,26 @@ void ContactPass::keep_overlapping_awake() {
       for (const Index body : {pair.range.a, pair.range.b}) state_.memory(body).calm_frames = 0;
 }
 
-void ContactPass::apply(const Worker& worker, float h, float since_start) {
+void ContactPass::apply(const BatchShare& share, float h, float since_start) {
   constexpr int max_passes = 4;
   const auto solids = [&] {
-    for (const Batch* batch : worker.batches()) solids_.apply(*batch, h);
+    for (const Batch* batch : share.batches) solids_.apply(*batch, h);
   };
-  apply_surfaces(worker, h, since_start);
+  apply_surfaces(share, h, since_start);
   solids();
-  if (!meets_others(worker)) return;
+  if (!meets_others(share)) return;
   for (int pass = 0; pass < max_passes; ++pass) {
-    worker.barrier();
-    if (!surfaces_.find_islands(worker.index(), crew_.active(), field(std::as_const(state_.v)),
-                                [&] { worker.barrier(); }))
+    share.barrier();
+    if (!surfaces_.find_islands(share.thread, shares_.active(), field(std::as_const(state_.v)),
+                                [&] { share.barrier(); }))
       break;
     const std::vector<SurfaceContact::Island>& islands = surfaces_.islands();
-    for (auto i = std::size_t(worker.index()); i < islands.size(); i += std::size_t(crew_.active()))
-      if (islands[i].closes) solve_island(worker.index(), islands[i], h);
-    worker.barrier();
+    for (auto i = std::size_t(share.thread); i < islands.size(); i += std::size_t(shares_.active()))
+      if (islands[i].closes) solve_island(share.thread, islands[i], h);
+    share.barrier();
     solids();
   }
-  surfaces_.add_row_work(worker.index(), crew_.active());
+  surfaces_.add_row_work(share.thread, shares_.active());
 }
 
 /// Solves contacts of bodies together with those of the solids that they lie on, which apply() takes in turn.
@@ -121,18 +121,18 @@ void ContactPass::solve_island(int thread, const SurfaceContact::Island& island,
     solids_.book(island.bodies[i], std::span(rows).subspan(first, end[i] - first));
 }
 
-void ContactPass::apply_surfaces(const Worker& worker, float h, float since_start) {
-  if (!meets_others(worker)) return;
+void ContactPass::apply_surfaces(const BatchShare& share, float h, float since_start) {
+  if (!meets_others(share)) return;
   const Field<const float> x = field(std::as_const(state_.x));
-  worker.barrier();  // the velocities of all bodies are there
-  surfaces_.make_rows(worker.index(), crew_.active(), x, solids_.velocities_before(),
-                      since_found_[std::size_t(worker.index())] + since_start, h);
-  worker.barrier();
-  surfaces_.solve(worker.index(), crew_.active(), x, field(state_.v), h, [&] { worker.barrier(); });
+  share.barrier();  // the velocities of all bodies are there
+  surfaces_.make_rows(share.thread, shares_.active(), x, solids_.velocities_before(),
+                      since_found_[std::size_t(share.thread)] + since_start, h);
+  share.barrier();
+  surfaces_.solve(share.thread, shares_.active(), x, field(state_.v), h, [&] { share.barrier(); });
 }
 
-void ContactPass::advance(const Worker& worker, float h) {
-  if (has_surfaces_) since_found_[std::size_t(worker.index())] += h;
+void ContactPass::advance(const BatchShare& share, float h) {
+  if (has_surfaces_) since_found_[std::size_t(share.thread)] += h;
 }
 
 }  // namespace softbody

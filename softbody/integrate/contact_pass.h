@@ -7,7 +7,7 @@
 
 #include "softbody/contact/solid_contact.h"
 #include "softbody/contact/surface_contact.h"
-#include "softbody/integrate/crew.h"
+#include "softbody/integrate/batch_shares.h"
 #include "softbody/integrate/plan.h"
 #include "softbody/integrate/work.h"
 #include "softbody/scene/scene.h"
@@ -18,8 +18,8 @@ namespace softbody {
 class ContactPass {
  public:
   /// All of these must outlive this.
-  ContactPass(const Scene& scene, State& state, SolidContact& solids, const Crew& crew)
-      : scene_(scene), state_(state), solids_(solids), crew_(crew) {}
+  ContactPass(const Scene& scene, State& state, SolidContact& solids, const BatchShares& shares)
+      : scene_(scene), state_(state), solids_(solids), shares_(shares) {}
 
   void set_plan(const Plan& plan);
   /// Sets how many candidates there may be at one time. Searches that find more throw std::length_error.
@@ -38,20 +38,20 @@ class ContactPass {
   /// Returns for how many substeps of h seconds the candidates are likely to hold: at least one.
   int trusted_substeps(double left, double h) const;
 
-  /// True if the worker's bodies may be pushed by surfaces. Then its part of apply() waits for the other threads.
-  bool meets_others(const Worker& worker) const {
-    return has_surfaces_ && !surfaces_.candidates().empty() && !worker.is_alone();
+  /// True if the share's bodies may be pushed by surfaces. Then its part of apply() waits for the other threads.
+  bool meets_others(const BatchShare& share) const {
+    return has_surfaces_ && !surfaces_.candidates().empty() && !share.is_alone;
   }
   /// True if apply() may change velocities of the batch.
-  bool may_touch(const Worker& worker, const Batch& batch) const {
-    return meets_others(worker) || !solids_.near(batch).empty();
+  bool may_touch(const BatchShare& share, const Batch& batch) const {
+    return meets_others(share) || !solids_.near(batch).empty();
   }
   /// Changes the velocities so that in a step of h from here surfaces do not pass through each other, nor particles
   /// into solids. The velocities of all batches must be there. Needs a barrier after it.
   /// since_start: s, of the substep that has brought the positions here.
-  void apply(const Worker& worker, float h, float since_start = 0);
+  void apply(const BatchShare& share, float h, float since_start = 0);
   /// Counts a substep that this thread has done.
-  void advance(const Worker& worker, float h);
+  void advance(const BatchShare& share, float h);
 
   bool has_surfaces() const { return has_surfaces_; }
   const SurfaceContact& surfaces() const { return surfaces_; }
@@ -60,14 +60,14 @@ class ContactPass {
  private:
   void keep_overlapping_awake();
   void solve_island(int thread, const SurfaceContact::Island& island, float h);
-  void apply_surfaces(const Worker& worker, float h, float since_start);
+  void apply_surfaces(const BatchShare& share, float h, float since_start);
   collide::Frame world_positions();
   collide::surface::Motion motion(const collide::Frame& now);
 
   const Scene& scene_;
   State& state_;
   SolidContact& solids_;
-  const Crew& crew_;
+  const BatchShares& shares_;
   SurfaceContact surfaces_;
   bool has_surfaces_ = false;
   std::vector<float> since_found_;  // s, as each thread counts them

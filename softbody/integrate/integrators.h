@@ -11,7 +11,7 @@
 namespace softbody {
 
 class Motion;
-class Worker;
+struct BatchShare;
 
 struct Substep {
   float h;     // s
@@ -27,8 +27,8 @@ struct Integrator {
   std::string_view name;
   std::string_view summary;
   int order;  // of convergence for smooth motion
-  /// Advances all bodies by one substep. All threads call it at once; `worker` says what the calling one does.
-  void (*advance)(Motion& motion, const Worker& worker, const Substep& substep);
+  /// Advances all bodies by one substep. All threads call it at once; `share` says what the calling one does.
+  void (*advance)(Motion& motion, const BatchShare& share, const Substep& substep);
   /// Returns 0.8 times the largest stable step in s, for the sums of stiffness/mass (1/s^2) and damping/mass (1/s) at
   /// one particle; infinity if every step is stable. See stable_step() in mechanics/bound.h.
   double (*stable_step)(double k_m, double c_m);

@@ -22,15 +22,15 @@ void Motion::set_plan(const Plan& plan) {
   forces_.set_plan(taken);
 }
 
-void Motion::begin_frame(const Integrator& integrator, const glm::dvec3& gravity, const Crew& crew) {
+void Motion::begin_frame(const Integrator& integrator, const glm::dvec3& gravity, const BatchShares& shares) {
   gravity_ = gravity;
   scratch_.resize(std::size_t(integrator.scratch));
   for (auto& one : scratch_)
     for (auto& c : one) c.resize(parts_.state.x[0].size());
   volumes_.resize(parts_.state.batches().size());
   std::size_t most = 0;
-  for (const Batch* b : crew.moving()) most = std::max(most, b->values());
-  own_forces_.resize(std::size_t(crew.active()));
+  for (const Batch* b : shares.moving()) most = std::max(most, b->values());
+  own_forces_.resize(std::size_t(shares.active()));
   for (auto& one : own_forces_)
     for (auto& c : one) c.assign(most, 0);
 }
@@ -43,13 +43,13 @@ void Motion::begin_substeps(const Integrator& integrator, float h) {
 
 void Motion::show(const Batch& b) { parts_.penalty.gather(b, field(parts_.state.x), field(parts_.state.v)); }
 
-void Motion::contact_forces(const Worker& worker, float h) {
+void Motion::contact_forces(const BatchShare& share, float h) {
   PenaltyContact& penalty = parts_.penalty;
   if (penalty.pairs().empty()) return;
   PenaltyContact::Substep step = penalty_step_;
   step.seconds = h;
-  penalty.evaluate(worker.part(penalty.pairs().size()), step);
-  worker.barrier();
+  penalty.evaluate(share.part(penalty.pairs().size()), step);
+  share.barrier();
 }
 
 void Motion::all_forces(const Batch& b) {
@@ -57,38 +57,38 @@ void Motion::all_forces(const Batch& b) {
   forces_.add(step_of(b, h_));
 }
 
-void Motion::advance_velocities(const Worker& worker, const Batch& b, float h, Volumes how) {
+void Motion::advance_velocities(const BatchShare& share, const Batch& b, float h, Volumes how) {
   ForceBatch step = step_of(b, h);
   Field<float> drift{};
-  if (is_acted_on(worker, b)) {
+  if (is_acted_on(share, b)) {
     clear(b, forces);
   } else {
-    step.f = field(own_forces_[std::size_t(worker.index())]);
+    step.f = field(own_forces_[std::size_t(share.thread)]);
     drift = field(parts_.state.x, b.base);
   }
   forces_.advance(step, {how, drift}, volumes_[b.index]);
 }
 
-void Motion::advance_positions(const Worker& worker, const Batch& b, float h) {
-  if (is_acted_on(worker, b)) drift(b, h);
+void Motion::advance_positions(const BatchShare& share, const Batch& b, float h) {
+  if (is_acted_on(share, b)) drift(b, h);
   show(b);
 }
 
 /// Contacts stop a part of what the pressure at the end was found for. Each time the pressure is found again, what is
 /// missing becomes less by the share of the surface that contacts hold.
-void Motion::contacts_under_pressure(const Worker& worker, float h) {
+void Motion::contacts_under_pressure(const BatchShare& share, float h) {
   constexpr int times = 3;
-  contacts(worker, h);
+  contacts(share, h);
   const auto near = [&](const Batch& b) { return !parts_.solids.near(b).empty(); };
   const auto near_one = [&](const Batch* b) { return near(*b); };
-  const bool surfaces = parts_.contacts.meets_others(worker), touch = surfaces && parts_.contacts.surfaces().rows() > 0;
+  const bool surfaces = parts_.contacts.meets_others(share), touch = surfaces && parts_.contacts.surfaces().rows() > 0;
   if (!touch && (surfaces ? std::ranges::none_of(parts_.state.batches(), near)  // all threads are to agree
-                          : std::ranges::none_of(worker.batches(), near_one)))
+                          : std::ranges::none_of(share.batches, near_one)))
     return;
   for (int i = 0; i < times; ++i) {
-    for (const Batch* b : worker.batches())
+    for (const Batch* b : share.batches)
       if (touch || near(*b)) forces_.press_again(step_of(*b, h), volumes_[b->index]);
-    contacts(worker, h);
+    contacts(share, h);
   }
 }
 
@@ -103,10 +103,10 @@ void Motion::project(const Batch& b, Quantity x0, Quantity d, float h) {
 
 void Motion::pull(const Batch& b, float h) { forces_.kick(step_of(b, h)); }
 
-void Motion::solve_implicit(const Worker& worker, const Batch& b, Quantity mean, Quantity rest, float h) {
+void Motion::solve_implicit(const BatchShare& share, const Batch& b, Quantity mean, Quantity rest, float h) {
   const State& state = parts_.state;
   PenaltyContact& penalty = parts_.penalty;
-  parts_.implicit.advance(worker.index(),
+  parts_.implicit.advance(share.thread,
                           {.batch = b,
                            .x = field(state.x),
                            .v = field(state.v),

@@ -1,11 +1,11 @@
 #pragma once
 // What integrators are made of: forces, contacts and the arithmetic on the vectors of all particles. Each function acts
-// on one batch, or on the part of a worker; the arithmetic leaves lanes alone that do not move.
+// on one batch, or on the part of a share; the arithmetic leaves lanes alone that do not move.
 
 #include <vector>
 
+#include "softbody/integrate/batch_shares.h"
 #include "softbody/integrate/contact_pass.h"
-#include "softbody/integrate/crew.h"
 #include "softbody/integrate/plan.h"
 #include "softbody/mechanics/force_set.h"
 #include "softbody/state/state.h"
@@ -38,20 +38,20 @@ class Motion {
 
   void set_plan(const Plan& plan);
   /// gravity in m/s^2.
-  void begin_frame(const Integrator& integrator, const glm::dvec3& gravity, const Crew& crew);
+  void begin_frame(const Integrator& integrator, const glm::dvec3& gravity, const BatchShares& shares);
   /// h: of the coming substeps of this integrator, s.
   void begin_substeps(const Integrator& integrator, float h);
 
   /// Shows contact_forces() a batch as it is now. Needs a barrier after it.
   void show(const Batch& batch);
-  /// Evaluates the penalty contacts of the worker's part, for all_forces() of all batches. h: s, for which friction
+  /// Evaluates the penalty contacts of the share's part, for all_forces() of all batches. h: s, for which friction
   /// slips. The batches are those of the start of a frame, or of the last show().
-  void contact_forces(const Worker& worker, float h);
+  void contact_forces(const BatchShare& share, float h);
   void all_forces(const Batch& batch);  // at the current positions and velocities
   /// Does what all_forces() and kick() do together, faster, and drift() where nothing else acts on the batch.
-  void advance_velocities(const Worker& worker, const Batch& batch, float h, Volumes how);
+  void advance_velocities(const BatchShare& share, const Batch& batch, float h, Volumes how);
   /// Ends a substep that advance_velocities() has begun: drift() where it has not done so, and show().
-  void advance_positions(const Worker& worker, const Batch& batch, float h);
+  void advance_positions(const BatchShare& share, const Batch& batch, float h);
   void other_forces(const Batch& batch);   // all but those that project() and pull() stand for
   void kick(const Batch& batch, float h);  // v += h (f / m + g)
   void accelerations(const Batch& batch);  // f = f / m + g
@@ -60,18 +60,18 @@ class Motion {
   void note_velocities(const Batch& batch) { parts_.solids.note_velocities(batch); }
   /// Changes the velocities so that in a step of h from here surfaces do not pass through each other, nor particles
   /// into solids. The velocities of all batches must be there. Needs a barrier after it.
-  void contacts(const Worker& worker, float h) { parts_.contacts.apply(worker, h); }
+  void contacts(const BatchShare& share, float h) { parts_.contacts.apply(share, h); }
   /// Does the same after advance_velocities() with Volumes::implicit_, so that the pressure is the one at the end.
-  void contacts_under_pressure(const Worker& worker, float h);
+  void contacts_under_pressure(const BatchShare& share, float h);
   /// Does the same for the positions that a substep of h ends with.
-  void contacts_at_end(const Worker& worker, float h) { parts_.contacts.apply(worker, h, h); }
+  void contacts_at_end(const BatchShare& share, float h) { parts_.contacts.apply(share, h, h); }
   /// XPBD, on displacements d in this step of h, which starts at x0. Wants the positions to be x0 + d.
   void project(const Batch& batch, Quantity x0, Quantity d, float h);
   /// Adds what the hand does in a step of h to velocities that hold what all else does, after other_forces().
   void pull(const Batch& batch, float h);
   /// Solves for the end of an implicit step of h: `mean` becomes the velocities that lead there, and `rest` what is to
   /// be added to them after drift(). Wants contact_forces() and the positions and velocities of all batches.
-  void solve_implicit(const Worker& worker, const Batch& batch, Quantity mean, Quantity rest, float h);
+  void solve_implicit(const BatchShare& share, const Batch& batch, Quantity mean, Quantity rest, float h);
   void copy(const Batch& batch, Quantity from, Quantity to);           // to = from
   void add(const Batch& batch, Quantity to, float times, Quantity q);  // to += times q
   void scale(const Batch& batch, Quantity q, float times);             // q *= times
@@ -84,8 +84,8 @@ class Motion {
   ForceBatch step_of(const Batch& batch, float h) { return {parts_.state, batch, double(h), gravity_, f(batch)}; }
 
   /// True if contacts or the hand may act on the batch after its forces.
-  bool is_acted_on(const Worker& worker, const Batch& b) const {
-    return parts_.contacts.may_touch(worker, b) || parts_.hand.holds(parts_.state, b);
+  bool is_acted_on(const BatchShare& share, const Batch& b) const {
+    return parts_.contacts.may_touch(share, b) || parts_.hand.holds(parts_.state, b);
   }
 
   MotionParts parts_;

@@ -21,15 +21,15 @@ std::size_t SolverState::bytes() const {
   return bodies.bytes() + penalty.pairs.bytes() + bytes_of(pushes) + rebounds.bytes() + surface.bytes();
 }
 
-Solver::Solver(const Scene& scene, const Crew& crew)
+Solver::Solver(const Scene& scene, const BatchShares& shares)
     : scene_(scene),
-      crew_(crew),
+      shares_(shares),
       penalty_(scene.collision.tolerance),
       solids_(state_),
-      contacts_(scene, state_, solids_, crew_),
+      contacts_(scene, state_, solids_, shares_),
       implicit_(std::make_unique<ImplicitSteps>()),
       motion_({state_, hand_, penalty_, solids_, contacts_, *implicit_}),
-      bounds_(state_, penalty_, solids_, crew_) {}
+      bounds_(state_, penalty_, solids_, shares_) {}
 
 Solver::~Solver() = default;
 
@@ -60,7 +60,7 @@ void Solver::join(BodyId body) {
   joined_[state_.body(body).batch] = true;
 }
 
-/// Hands the batches that move to the crew. Returns how many particles they have.
+/// Hands the batches that move to the shares. Returns how many particles they have.
 std::size_t Solver::take_moving_batches() {
   std::vector<const Batch*> batches;
   std::size_t particles = 0;
@@ -69,7 +69,7 @@ std::size_t Solver::take_moving_batches() {
     batches.push_back(&b);
     particles += b.particles() * std::size_t(b.used);
   }
-  crew_.take(std::move(batches), particles);
+  shares_.take(std::move(batches), particles);
   return particles;
 }
 
@@ -78,7 +78,7 @@ void Solver::mark_touched() {
   for (const auto* bodies : {&penalty_.pairs().body_a, &penalty_.pairs().body_b})
     for (const BodyId body : *bodies) join(body);
   if (hand_.grab()) mark_pushed(hand_.grab()->body);
-  for (const Batch* b : crew_.moving())
+  for (const Batch* b : shares_.moving())
     if (has_external_force(*b->model)) pushed_[b->index] = ~0u;
 }
 
@@ -90,9 +90,9 @@ StepBound Solver::begin_frame(double seconds) {
   pushed_.assign(state_.batches().size(), 0);
   joined_.assign(state_.batches().size(), false);
   const std::size_t particles = take_moving_batches();
-  const std::vector<const Batch*>& moving = crew_.moving();
+  const std::vector<const Batch*>& moving = shares_.moving();
   std::vector<Extent> extents(moving.size());
-  crew_.for_each(moving.size(), [&](std::size_t i) { extents[i] = state_.extent(*moving[i], state_.x, state_.v); });
+  shares_.for_each(moving.size(), [&](std::size_t i) { extents[i] = state_.extent(*moving[i], state_.x, state_.v); });
   for (std::size_t i = 0; i < moving.size(); ++i)
     solids_.add(*moving[i], extents[i], scene_.solids, scene_.gravity, seconds);
   if (std::ranges::any_of(moving, [&](const Batch* b) { return solids_.pushed(*b) != 0; }))  // eased out
@@ -112,7 +112,7 @@ StepBound Solver::begin_frame(double seconds) {
        .sleep_speed = scene_.sleep.speed},
       bound);
   steps_.spend(work::surface * searches);
-  motion_.begin_frame(*steps_.plan().integrator, gravity(), crew_);
+  motion_.begin_frame(*steps_.plan().integrator, gravity(), shares_);
   mark_touched();
   return bound;
 }
@@ -121,7 +121,7 @@ FrameResult Solver::advance(double seconds, const AfterSubstep& after_substep) {
   const StepBound bound = begin_frame(seconds);
   const double held = penalty_energy();
   const FrameResult done =
-      crew_.moving().empty() ? FrameResult{.seconds = seconds} : take_substeps(seconds, bound, after_substep);
+      shares_.moving().empty() ? FrameResult{.seconds = seconds} : take_substeps(seconds, bound, after_substep);
   solids_.end_frame();
   penalty_.take_impacts(rebounds_);
   state_.ledger.book(WorkBy::surfaces, rebounds_.give_back(state_, done.seconds));
@@ -141,7 +141,7 @@ FrameResult Solver::take_substeps(double seconds, StepBound bound, const AfterSu
   };
   MomentumRestorer momenta;
   if (!integrator.implicit && series.substeps >= many_substeps)
-    for (const Batch* b : crew_.moving()) momenta.note({*b, field(state_.x, b->base), field(state_.v, b->base)});
+    for (const Batch* b : shares_.moving()) momenta.note({*b, field(state_.x, b->base), field(state_.v, b->base)});
   if (steps_.fixed()) set_staggering(stable_staggering(static_cast<float>(series.h())));
   // What pulls at bodies shows only after a substep: in their speed, if they were moved by hand or let go, and in how
   // far they leave the motion that candidates were found for.
@@ -168,7 +168,7 @@ FrameResult Solver::take_substeps(double seconds, StepBound bound, const AfterSu
     done.needed = std::min(done.needed, steps_.plan().needed);
   }
   done.seconds = seconds - series.left_after();
-  for (const Batch* b : crew_.moving()) pushed_[b->index] |= solids_.pushed(*b);
+  for (const Batch* b : shares_.moving()) pushed_[b->index] |= solids_.pushed(*b);
   momenta.restore(done.seconds * gravity(), integrator.conserves_spin, pushed_);
   return done;
 }
@@ -233,12 +233,12 @@ void Solver::prepare_implicit(float h) {
   implicit_->retain([this](const BodyModel& model) {
     return std::ranges::any_of(state_.batches(), [&](const Batch& b) { return b.model.get() == &model; });
   });
-  for (const Batch* b : crew_.moving()) implicit_->prepare(b->model, double(h), crew_.active());
+  for (const Batch* b : shares_.moving()) implicit_->prepare(b->model, double(h), shares_.active());
 }
 
 /// in_step: all batches take each substep together, as if contacts joined them all.
 void Solver::share_batches(bool in_step) {
-  crew_.share([&](const Batch& b) {
+  shares_.deal([&](const Batch& b) {
     if (!in_step && !joined_[b.index]) return std::size_t{0};
     return b.values() + std::size_t(work::penalty_pair / 2 * double(penalty_.ends_of(b).size()));
   });
@@ -251,34 +251,34 @@ void Solver::run(int count, float h, bool first, const AfterSubstep& after_subst
   motion_.begin_substeps(integrator, h);
   if (integrator.implicit) prepare_implicit(h);
   const auto holds_body = [&](const Batch* b) { return hand_.holds(state_, *b); };
-  const auto advance = [&](const Worker& worker, int s) {
-    for (const Batch* b : worker.batches()) solids_.note_velocities(*b);
-    const bool holds = std::ranges::any_of(worker.batches(), holds_body);
+  const auto advance = [&](const BatchShare& share, int s) {
+    for (const Batch* b : share.batches) solids_.note_velocities(*b);
+    const bool holds = std::ranges::any_of(share.batches, holds_body);
     if (holds) hand_.note_point(state_);
-    integrator.advance(motion_, worker, {h, first && s == 0});
+    integrator.advance(motion_, share, {h, first && s == 0});
     if (holds) hand_.book_work(state_);
   };
   share_batches(bool(after_substep));
   std::atomic<std::size_t> next = 0;
-  crew_.run([&](const Worker& worker) {
+  shares_.run([&](const BatchShare& share) {
     for (int s = 0; s < count; ++s) {
-      advance(worker, s);
-      contacts_.advance(worker, h);
+      advance(share, s);
+      contacts_.advance(share, h);
       if (!after_substep) continue;
-      worker.barrier();
-      if (worker.index() == 0) after_substep();
-      worker.barrier();
+      share.barrier();
+      if (share.thread == 0) after_substep();
+      share.barrier();
     }
     // Batches that are alone take all their substeps at once, while they are in the cache.
-    for (std::size_t i; (i = next++) < crew_.alone().size();)
-      for (int s = 0; s < count; ++s) advance(worker.alone_with(crew_.alone()[i]), s);
+    for (std::size_t i; (i = next++) < shares_.alone().size();)
+      for (int s = 0; s < count; ++s) advance(share.alone_with(shares_.alone()[i]), s);
   });
 }
 
 void Solver::finish_frame(double seconds, Field<float> places) {
   penalty_.end_frame(seconds);
   const std::span<const Batch> batches = state_.batches();
-  crew_.for_each(batches.size(), [&](std::size_t i) {
+  shares_.for_each(batches.size(), [&](std::size_t i) {
     if (batches[i].any_moves()) finish(batches[i], seconds);
     state_.write_positions(batches[i], contacts_.vertices().first, places);  // while they are in the cache
   });
@@ -304,8 +304,8 @@ void Solver::finish(const Batch& b, double seconds) {
 
 void Solver::write_positions(Field<float> to) const {
   const std::span<const Batch> batches = state_.batches();
-  crew_.for_each(batches.size(),
-                 [&](std::size_t i) { state_.write_positions(batches[i], contacts_.vertices().first, to); });
+  shares_.for_each(batches.size(),
+                   [&](std::size_t i) { state_.write_positions(batches[i], contacts_.vertices().first, to); });
 }
 
 SolverState Solver::save() const {
@@ -321,7 +321,7 @@ void Solver::restore(const SolverState& saved) {
   rebounds_ = saved.rebounds;
   contacts_.surfaces().restore(saved.surface);
   steps_.set_hysteresis(saved.substep_hysteresis);
-  crew_.take({}, 0);
+  shares_.take({}, 0);
 }
 
 }  // namespace softbody

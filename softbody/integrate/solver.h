@@ -7,8 +7,8 @@
 
 #include "softbody/forces/hand.h"
 #include "softbody/forces/penalty_contact.h"
+#include "softbody/integrate/batch_shares.h"
 #include "softbody/integrate/contact_pass.h"
-#include "softbody/integrate/crew.h"
 #include "softbody/integrate/momentum_restorer.h"
 #include "softbody/integrate/motion.h"
 #include "softbody/integrate/resistance.h"
@@ -42,7 +42,7 @@ class Solver {
   using AfterSubstep = std::function<void()>;
 
   /// The scene must outlive this.
-  Solver(const Scene& scene, const Crew& crew);
+  Solver(const Scene& scene, const BatchShares& shares);
   Solver(const Solver&) = delete;
   ~Solver();
 
@@ -67,7 +67,7 @@ class Solver {
   void forget_impacts(BodyId body) { state_.memory(body).impact = {}, rebounds_.forget(body); }
   /// Takes the contacts for the coming frame of `seconds`.
   void set_contacts(const DetectedContacts& detected, double seconds) {
-    penalty_.find(detected, state_, seconds, crew_.workers());
+    penalty_.find(detected, state_, seconds, shares_.workers());
   }
   /// Bodies may come closer than the tolerance from now on: the layer of penalty contact grows anew, from nothing.
   void let_bodies_closer() { penalty_.reset_layer(); }
@@ -105,7 +105,7 @@ class Solver {
   void mark_pushed(BodyId body) { pushed_[state_.body(body).batch] |= 1u << state_.body(body).lane; }
   void join(BodyId body);
   /// Returns what the pairs of the frame hold at its start or after the last substep, in J.
-  double penalty_energy() { return penalty_.stored_energy(crew_.workers(), crew_.active()); }
+  double penalty_energy() { return penalty_.stored_energy(shares_.workers(), shares_.active()); }
   void finish(const Batch& batch, double seconds);
   std::size_t take_moving_batches();
   void mark_touched();
@@ -126,7 +126,7 @@ class Solver {
   void run(int count, float h, bool first, const AfterSubstep& after_substep);
 
   const Scene& scene_;
-  Crew crew_;
+  BatchShares shares_;
   State state_;
   Hand hand_;
   PenaltyContact penalty_;

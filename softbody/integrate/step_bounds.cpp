@@ -28,9 +28,9 @@ double max_coordinate(const Extent& e, std::size_t l) {
 }  // namespace
 
 StepBound StepBounds::measure(const Integrator& integrator) const {
-  const std::vector<const Batch*>& moving = crew_.moving();
+  const std::vector<const Batch*>& moving = shares_.moving();
   std::vector<StepBound> bounds(moving.size());
-  crew_.for_each(moving.size(), [&](std::size_t i) { bounds[i] = measure(*moving[i], integrator); });
+  shares_.for_each(moving.size(), [&](std::size_t i) { bounds[i] = measure(*moving[i], integrator); });
   StepBound most;
   for (const StepBound& b : bounds)
     for (const auto member : {&StepBound::stable, &StepBound::breathing, &StepBound::deformation, &StepBound::passing,
@@ -66,10 +66,10 @@ double StepBounds::pace(const Batch& b, const Extent& motion) {
 }
 
 double StepBounds::fastest() const {
-  const std::vector<const Batch*>& moving = crew_.moving();
+  const std::vector<const Batch*>& moving = shares_.moving();
   std::vector<double> paces(moving.size());
-  crew_.for_each(moving.size(),
-                 [&](std::size_t i) { paces[i] = pace(*moving[i], state_.extent(*moving[i], state_.v, state_.v)); });
+  shares_.for_each(moving.size(),
+                   [&](std::size_t i) { paces[i] = pace(*moving[i], state_.extent(*moving[i], state_.v, state_.v)); });
   return paces.empty() ? 0 : *std::ranges::max_element(paces);
 }
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "softbody/contact/solid_contact.h"
-#include "softbody/integrate/crew.h"
+#include "softbody/integrate/batch_shares.h"
 #include "softbody/integrate/step_controller.h"
 #include "softbody/mechanics/force_set.h"
 
@@ -13,8 +13,8 @@ namespace softbody {
 class StepBounds {
  public:
   /// All of these must outlive this.
-  StepBounds(const State& state, const PenaltyContact& penalty, const SolidContact& solids, const Crew& crew)
-      : state_(state), penalty_(penalty), solids_(solids), crew_(crew) {}
+  StepBounds(const State& state, const PenaltyContact& penalty, const SolidContact& solids, const BatchShares& shares)
+      : state_(state), penalty_(penalty), solids_(solids), shares_(shares) {}
 
   /// Returns the bounds of steps of this integrator. No step is to change the shape of a body by more than a tenth of
   /// its radius, nor to move it by more where solids are near.
@@ -34,7 +34,7 @@ class StepBounds {
   const State& state_;
   const PenaltyContact& penalty_;
   const SolidContact& solids_;
-  const Crew& crew_;
+  const BatchShares& shares_;
 };
 
 }  // namespace softbody

@@ -38,7 +38,7 @@ World::Parts::Parts(Scene s, const Options& o)
       frame_time(o.frame_time),
       workers(o.threads, o.least_share),
       plan(make_plan(scene, models.all())),
-      solver(scene, Crew(workers)) {
+      solver(scene, BatchShares(workers)) {
   particles.detector = method().make();
   solver.steps().set_budget(o.budget);
   solver.set_max_candidates(o.max_candidates);

@@ -16,11 +16,11 @@ StepBound bound_of(const World& world) {
   const PenaltyContact penalty;
   const SolidContact solids(state);
   collide::Workers workers(1);
-  Crew crew(workers);
+  BatchShares shares(workers);
   std::vector<const Batch*> moving;
   for (const Batch& b : state.batches()) moving.push_back(&b);
-  crew.take(std::move(moving), state.particle_count());
-  return StepBounds(state, penalty, solids, crew).measure(world.integrator_choice().integrator());
+  shares.take(std::move(moving), state.particle_count());
+  return StepBounds(state, penalty, solids, shares).measure(world.integrator_choice().integrator());
 }
 
 TEST(StepBounds, AreOfTheBodyThatNeedsMost) {

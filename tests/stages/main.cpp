@@ -85,43 +85,43 @@ struct FrameFacts {
 };
 
 /// Does what the integrator does in a substep.
-void take_substep(const SolverTestAccess& s, const softbody::Worker& worker, float h, StopWatch& watch) {
+void take_substep(const SolverTestAccess& s, const softbody::BatchShare& share, float h, StopWatch& watch) {
   const bool implicit = s.solver.steps().plan().integrator->implicit_volume;
   watch.skip();
-  for (const softbody::Batch* b : worker.batches()) s.solids.note_velocities(*b);
+  for (const softbody::Batch* b : share.batches) s.solids.note_velocities(*b);
   watch.add(contacts);
   if (!s.penalty.pairs().empty()) {
-    s.penalty.evaluate(worker.part(s.penalty.pairs().size()), {h, softbody::PenaltyContact::max_damped / h});
+    s.penalty.evaluate(share.part(s.penalty.pairs().size()), {h, softbody::PenaltyContact::max_damped / h});
     watch.add(pairs);
-    worker.barrier();
+    share.barrier();
     watch.add(wait);
   }
-  for (const softbody::Batch* b : worker.batches())
-    s.motion.advance_velocities(worker, *b, h, implicit ? softbody::Volumes::implicit_ : softbody::Volumes::explicit_);
+  for (const softbody::Batch* b : share.batches)
+    s.motion.advance_velocities(share, *b, h, implicit ? softbody::Volumes::implicit_ : softbody::Volumes::explicit_);
   watch.add(kick);
   if (implicit)
-    s.motion.contacts_under_pressure(worker, h);
+    s.motion.contacts_under_pressure(share, h);
   else
-    s.motion.contacts(worker, h);
+    s.motion.contacts(share, h);
   watch.add(contacts);
-  for (const softbody::Batch* b : worker.batches()) s.motion.advance_positions(worker, *b, h);
+  for (const softbody::Batch* b : share.batches) s.motion.advance_positions(share, *b, h);
   watch.add(drift);
-  worker.barrier();
+  share.barrier();
   watch.add(wait);
 }
 
 /// Takes the substeps of a frame as the solver does. Returns the times of each thread.
 std::vector<StopWatch> take_substeps(SolverTestAccess& s, int substeps, float h) {
-  std::vector<StopWatch> watches(std::size_t(s.crew.active()));
+  std::vector<StopWatch> watches(std::size_t(s.shares.active()));
   s.motion.begin_substeps(*s.solver.steps().plan().integrator, h);
   s.share_batches();
   std::atomic<std::size_t> next = 0;
-  s.crew.run([&](const softbody::Worker& worker) {
+  s.shares.run([&](const softbody::BatchShare& share) {
     StopWatch watch;
-    for (int i = 0; i < substeps; ++i) take_substep(s, worker, h, watch);
-    for (std::size_t b; (b = next++) < s.crew.alone().size();)
-      for (int i = 0; i < substeps; ++i) take_substep(s, worker.alone_with(s.crew.alone()[b]), h, watch);
-    watches[std::size_t(worker.index())] = watch;
+    for (int i = 0; i < substeps; ++i) take_substep(s, share, h, watch);
+    for (std::size_t b; (b = next++) < s.shares.alone().size();)
+      for (int i = 0; i < substeps; ++i) take_substep(s, share.alone_with(s.shares.alone()[b]), h, watch);
+    watches[std::size_t(share.thread)] = watch;
   });
   return watches;
 }
@@ -161,12 +161,12 @@ Times measure(World& world, const softbody::Snapshot& start, FrameFacts& facts) 
     for (const StopWatch& of_thread : watches) times[stage] = std::max(times[stage], of_thread.times()[stage]);
   times[detect] = world.last_step().detect_ms;
   times[whole] = world.last_step().total_ms;
-  const softbody::Batch& batch = *s.crew.moving().front();
+  const softbody::Batch& batch = *s.shares.moving().front();
   facts = {.particles = n,
            .pairs = s.penalty.pairs().size(),
            .batch_bytes = 2 * vector * batch.values(),
            .substeps = substeps,
-           .alone = 2 * s.crew.alone().size() > s.crew.moving().size(),
+           .alone = 2 * s.shares.alone().size() > s.shares.moving().size(),
            .springs = double(softbody::springs<softbody::StructuralSprings>(*batch.model).size() +
                              softbody::springs<softbody::BendSprings>(*batch.model).size()) /
                       double(batch.particles()),
@@ -211,7 +211,7 @@ void print(const Moment& moment, int threads, double root_and_quotient) {
 void run(int repetitions, int threads) {
   const softbody::Scene scene = softbody::find_scene("drop-3000", SBCOLLIDE_SCENES);
   World one(scene, {.threads = 1}), all(scene, {.threads = threads});
-  collide::Workers lone(1), crew(threads);
+  collide::Workers lone(1), together(threads);
   app::Timings dividing_alone, dividing;  // ns
   std::array<Moment, 2> moments{{{.name = "Free fall", .frame = 10}, {.name = "Heap", .frame = 60}}};
   for (Moment& moment : moments) {
@@ -220,7 +220,7 @@ void run(int repetitions, int threads) {
   }
   for (int r = 0; r < repetitions; ++r) {
     dividing_alone.ms.push_back(stages::root_and_quotient_ns(lone));
-    dividing.ms.push_back(stages::root_and_quotient_ns(crew));
+    dividing.ms.push_back(stages::root_and_quotient_ns(together));
     for (Moment& moment : moments)
       for (const bool shared : {false, true}) {
         const Times times = measure(shared ? all : one, moment.start, moment.facts);

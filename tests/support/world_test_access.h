@@ -48,13 +48,13 @@ struct WorldTestAccess {
 /// The parts of a solver with which a benchmark takes a frame by itself, stage by stage.
 struct SolverTestAccess {
   explicit SolverTestAccess(Solver& s)
-      : solver(s), crew(s.crew_), motion(s.motion_), penalty(s.penalty_), solids(s.solids_), bounds(s.bounds_) {}
+      : solver(s), shares(s.shares_), motion(s.motion_), penalty(s.penalty_), solids(s.solids_), bounds(s.bounds_) {}
   void begin_frame(double seconds) { solver.begin_frame(seconds); }
   void share_batches() { solver.share_batches(false); }
   double penalty_energy() { return solver.penalty_energy(); }
 
   Solver& solver;
-  Crew& crew;
+  BatchShares& shares;
   Motion& motion;
   PenaltyContact& penalty;
   SolidContact& solids;

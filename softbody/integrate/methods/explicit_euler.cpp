@@ -3,21 +3,21 @@
 
 namespace softbody {
 
-void explicit_euler(Motion& motion, const Worker& worker, const Substep& substep) {
+void explicit_euler(Motion& motion, const BatchShare& share, const Substep& substep) {
   if (substep.first) {  // the velocities at hand may be another step's
-    motion.contacts(worker, substep.h);
-    for (const Batch* batch : worker.batches()) motion.show(*batch);
-    worker.barrier();
+    motion.contacts(share, substep.h);
+    for (const Batch* batch : share.batches) motion.show(*batch);
+    share.barrier();
   }
-  motion.contact_forces(worker, substep.h);
-  for (const Batch* batch : worker.batches()) {
+  motion.contact_forces(share, substep.h);
+  for (const Batch* batch : share.batches) {
     motion.all_forces(*batch);
     motion.drift(*batch, substep.h);
     motion.kick(*batch, substep.h);
   }
-  motion.contacts_at_end(worker, substep.h);
-  for (const Batch* batch : worker.batches()) motion.show(*batch);
-  worker.barrier();
+  motion.contacts_at_end(share, substep.h);
+  for (const Batch* batch : share.batches) motion.show(*batch);
+  share.barrier();
 }
 
 }  // namespace softbody

@@ -3,12 +3,12 @@
 
 namespace softbody {
 
-void imex_euler(Motion& motion, const Worker& worker, const Substep& substep) {
-  motion.contact_forces(worker, substep.h);
-  for (const Batch* batch : worker.batches()) motion.advance_velocities(worker, *batch, substep.h, Volumes::implicit_);
-  motion.contacts_under_pressure(worker, substep.h);
-  for (const Batch* batch : worker.batches()) motion.advance_positions(worker, *batch, substep.h);
-  worker.barrier();
+void imex_euler(Motion& motion, const BatchShare& share, const Substep& substep) {
+  motion.contact_forces(share, substep.h);
+  for (const Batch* batch : share.batches) motion.advance_velocities(share, *batch, substep.h, Volumes::implicit_);
+  motion.contacts_under_pressure(share, substep.h);
+  for (const Batch* batch : share.batches) motion.advance_positions(share, *batch, substep.h);
+  share.barrier();
 }
 
 }  // namespace softbody

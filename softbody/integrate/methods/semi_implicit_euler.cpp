@@ -3,12 +3,12 @@
 
 namespace softbody {
 
-void semi_implicit_euler(Motion& motion, const Worker& worker, const Substep& substep) {
-  motion.contact_forces(worker, substep.h);
-  for (const Batch* batch : worker.batches()) motion.advance_velocities(worker, *batch, substep.h, Volumes::explicit_);
-  motion.contacts(worker, substep.h);
-  for (const Batch* batch : worker.batches()) motion.advance_positions(worker, *batch, substep.h);
-  worker.barrier();
+void semi_implicit_euler(Motion& motion, const BatchShare& share, const Substep& substep) {
+  motion.contact_forces(share, substep.h);
+  for (const Batch* batch : share.batches) motion.advance_velocities(share, *batch, substep.h, Volumes::explicit_);
+  motion.contacts(share, substep.h);
+  for (const Batch* batch : share.batches) motion.advance_positions(share, *batch, substep.h);
+  share.barrier();
 }
 
 }  // namespace softbody

@@ -3,10 +3,10 @@
 
 namespace softbody {
 
-void xpbd(Motion& motion, const Worker& worker, const Substep& substep) {
+void xpbd(Motion& motion, const BatchShare& share, const Substep& substep) {
   constexpr Quantity start = scratch(0), displacements = velocities;
-  motion.contact_forces(worker, substep.h);
-  for (const Batch* batch : worker.batches()) {
+  motion.contact_forces(share, substep.h);
+  for (const Batch* batch : share.batches) {
     motion.other_forces(*batch);
     motion.kick(*batch, substep.h);
     motion.copy(*batch, positions, start);
@@ -17,12 +17,12 @@ void xpbd(Motion& motion, const Worker& worker, const Substep& substep) {
     motion.copy(*batch, start, positions);  // hand and contacts see where the velocities lead to from here
     motion.pull(*batch, substep.h);
   }
-  motion.contacts(worker, substep.h);
-  for (const Batch* batch : worker.batches()) {
+  motion.contacts(share, substep.h);
+  for (const Batch* batch : share.batches) {
     motion.drift(*batch, substep.h);
     motion.show(*batch);
   }
-  worker.barrier();
+  share.barrier();
 }
 
 }  // namespace softbody

@@ -12,53 +12,40 @@
 namespace softbody {
 
 struct Batch;
-class Crew;
+class BatchShares;
 
-/// One of the threads at work, as it sees itself: it integrates some batches in step with the other threads, or one
-/// that no contact joins to others, by itself.
-class Worker {
- public:
-  /// `index`: of the thread, from 0 to one below crew.active().
-  Worker(const Crew& crew, int index);
-  /// Returns the same thread as it integrates only this batch. It shares no items then, and waits for nobody.
-  Worker alone_with(const Batch* const& batch) const { return {crew_, index_, std::span(&batch, 1), true}; }
+/// What one of the threads at work integrates: some batches in step with the other threads, or one batch that no
+/// contact joins to others, by itself.
+struct BatchShare {
+  const BatchShares& all;
+  int thread;                             // its number, from 0 to one below all.active()
+  std::span<const Batch* const> batches;  // that move; no other thread writes to them
+  bool is_alone = false;                  // with one batch: shares no items, and waits for nobody
 
-  /// Returns the number of this thread. Thread 0 is always at work.
-  int index() const { return index_; }
-  /// Returns the moving batches that this thread integrates. No other thread writes to them.
-  std::span<const Batch* const> batches() const { return batches_; }
-  bool is_alone() const { return alone_; }
+  /// Returns the same thread with only this batch.
+  BatchShare alone_with(const Batch* const& batch) const { return {all, thread, std::span(&batch, 1), true}; }
   /// Returns this thread's part of `count` items, which all threads at work share.
   collide::Part part(std::size_t count) const;
   /// Waits until all threads at work have called it.
   void barrier() const;
-
- private:
-  Worker(const Crew& crew, int index, std::span<const Batch* const> batches, bool alone)
-      : crew_(crew), index_(index), batches_(batches), alone_(alone) {}
-
-  const Crew& crew_;
-  int index_;
-  std::span<const Batch* const> batches_;
-  bool alone_ = false;
 };
 
 /// Shares what moves in a frame among the threads.
-class Crew {
+class BatchShares {
  public:
-  explicit Crew(collide::Workers& workers) : workers_(workers) {}
+  explicit BatchShares(collide::Workers& workers) : workers_(workers) {}
 
   /// Takes the batches that move in the coming frame, and how many particles they have in all. They must not be moved
-  /// in memory as long as anybody asks for them. Until share() is called, all are joined, and cost the same.
+  /// in memory as long as anybody asks for them. Until deal() is called, all are joined, and cost the same.
   void take(std::vector<const Batch*> moving, std::size_t particles);
   /// Takes what each batch that contacts join to others costs in a substep, and 0 for those that are alone.
-  void share(const std::function<std::size_t(const Batch&)>& cost);
+  void deal(const std::function<std::size_t(const Batch&)>& cost);
   /// Returns the batches that move in the frame at hand.
   const std::vector<const Batch*>& moving() const { return moving_; }
   /// Returns how many threads are at work on them.
   int active() const { return active_; }
-  /// Returns the joined batches that a thread integrates.
-  std::span<const Batch* const> joined(int thread) const;
+  /// Returns the joined batches that a thread at work integrates. Thread 0 is always at work.
+  BatchShare share(int thread) const;
   /// Returns those that are alone, for whichever thread has time.
   const std::vector<const Batch*>& alone() const { return alone_; }
   /// Returns all threads that there are.
@@ -67,7 +54,7 @@ class Crew {
   /// wait at a barrier.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& use) const;
   /// Calls the task once on each thread at work. Returns when all calls have returned. Rethrows what one has thrown.
-  void run(const std::function<void(const Worker&)>& task) const;
+  void run(const std::function<void(const BatchShare&)>& task) const;
 
  private:
   collide::Workers& workers_;
