@@ -14,7 +14,7 @@ collide/exact: collide/core collide/trees
 collide/surface: collide/core
 collide/oracle: collide/core collide/surface
 collide: collide/core collide/methods collide/exact
-collide/api: collide/api/sbcollide collide/core collide
+collide/api: collide/api/sbcollide collide
 softbody/mesh: collide/core collide/surface collide/oracle
 softbody/model: collide/surface softbody/mesh
 softbody/state: softbody/mesh softbody/model

@@ -30,7 +30,7 @@ class Session : private SimulationObserver {
   BodyControls bodies;
   SettingControls settings;
   DetectionInspector inspector;
-  // On threads of their own, some frames late.
+  // Beside the window, see Background: their answers come some frames late.
   LiveComparison comparison;
   SurfaceMonitor surfaces;
   SweepWorker sweep_worker;

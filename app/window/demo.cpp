@@ -161,13 +161,14 @@ class Demo {
     const engine::Viewport viewport = scene_viewport();
     move_by_mouse(viewport);
     follow_tour();
-    for (const ui::WindowTask task : tasks) carry_out(task, viewport.size);
+    for (const ui::WindowTask task : tasks) perform(task, viewport.size);
     camera_.advance(elapsed);
   }
 
   void draw_frame(double elapsed) {
     seconds_ += elapsed;
     session_.import.drop(graphics_->window.take_dropped_files());
+    if (session_.import.update()) perform(ui::WindowTask::show_joined, scene_viewport().size);
     // Handles all waiting input in this frame, a click at a time, so that a slow world does not delay typing and
     // clicks.
     handle_input(elapsed);
@@ -332,7 +333,7 @@ class Demo {
     return {viewport.origin.x, graphics_->window.framebuffer_size().y - viewport.origin.y - viewport.size.y};
   }
 
-  void carry_out(ui::WindowTask task, glm::ivec2 size) {
+  void perform(ui::WindowTask task, glm::ivec2 size) {
     using Task = ui::WindowTask;
     const auto& selected = session_.bodies.selected();
     const auto& joined = session_.import.joined();

@@ -32,7 +32,7 @@ ScenePicture scene_picture(const Session& session, const ui::UiState& ui, const 
   if (!ui.tour.open() && session.ghost().world() && !session.ghost().blown_up())
     picture.ghost = session.ghost().revision();
   // What is found out about the present state is drawn with the bodies in it.
-  const bool of_present = picture.shown.boxes || picture.shown.cells || picture.shown.areas || picture.bucket;
+  const bool of_present = render::shows(picture.shown, render::OverlayBasis::present) || picture.bucket;
   picture.between = of_present ? 1.0f : session.simulation.between();
   picture.camera = camera;
   picture.scale = scale;

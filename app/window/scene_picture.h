@@ -8,8 +8,8 @@
 
 namespace app::window {
 
-/// All that a picture of the scene depends on. It is drawn from nothing else, so pictures of equal values are equal.
-/// Numbers stand for what is too large to compare, and change with it; nothing: it is not in the picture.
+/// All that a picture of the scene depends on: pictures of equal values are equal. Numbers stand for what is too large
+/// to compare, and change with it; nothing: it is not in the picture.
 struct ScenePicture : render::OverlayChoice {
   std::optional<std::uint32_t> bucket;
   std::optional<std::size_t> misses_of;  // of this method, an index in collide::method_table()

@@ -95,7 +95,8 @@ StepBound Solver::begin_frame(double seconds) {
   shares_.for_each(moving.size(), [&](std::size_t i) { extents[i] = state_.extent(*moving[i], state_.x, state_.v); });
   for (std::size_t i = 0; i < moving.size(); ++i)
     solids_.add(*moving[i], extents[i], scene_.solids, scene_.gravity, seconds);
-  if (std::ranges::any_of(moving, [&](const Batch* b) { return solids_.pushed(*b) != 0; }))  // eased out
+  const bool eased_out = std::ranges::any_of(moving, [&](const Batch* b) { return solids_.pushed(*b) != 0; });
+  if (eased_out && !penalty_.pairs().empty())
     penalty_.gather(field(std::as_const(state_.x)), field(std::as_const(state_.v)));
   const StepBound bound = bounds_.measure(steps_.bounds_of());
   steps_.begin_frame(

@@ -29,6 +29,7 @@ class PanelRig {
     session.advance(tick);
     target_.bind();
     gui_.begin_frame(input_);
+    if (session.import.update()) tasks.push_back(ui::WindowTask::show_joined);
     carry_out({});
     carry_out(interface.draw(session, ui, gui_.scale(), 0.0, &recorder));
     gui_.end_frame();

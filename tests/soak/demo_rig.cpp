@@ -22,6 +22,7 @@ void DemoRig::resize(glm::ivec2 size) {
 void DemoRig::frame(bool draw) {
   target_.bind();
   gui_.begin_frame(input);
+  session.import.update();
   carry_out({}, session, ui);
   carry_out(interface_.draw(session, ui, gui_.scale(), 10), session, ui);
   const bool over_scene = !gui_.wants_mouse();

@@ -39,7 +39,7 @@ struct RecordingProgress {
   std::string name, error;  // error: empty if all went well
 };
 
-/// Writes a frame, and completes the result where there is none. A task for Background.
+/// Writes a frame. A question without a frame completes the recording. A task for Background.
 class RecordingTask {
  public:
   using Question = std::optional<RecordedFrame>;

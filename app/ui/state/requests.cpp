@@ -11,7 +11,6 @@ std::vector<WindowTask> carry_out(const Requests& requests, session::Session& se
       for_window.push_back(*task);
     else
       std::get<0>(request)(session, ui);
-  if (session.import.update()) for_window.push_back(WindowTask::show_joined);
   const Tour::Camera camera = ui.tour.update(session, &ui.view);
   if (camera.overview) for_window.push_back(WindowTask::show_as_before_tour);
   if (camera.framing) for_window.push_back(WindowTask::show_highlight);

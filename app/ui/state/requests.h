@@ -30,9 +30,8 @@ using Request = std::variant<std::function<void(session::Session&, UiState&)>, W
 /// In the order in which they were asked.
 using Requests = std::vector<Request>;
 
-/// Carries out the requests, in order. Then takes what was imported, lets the tour follow the world, and tells the
-/// session what the window wants to have worked out. To be called before and after each drawing. Returns what is left
-/// for the window.
+/// Carries out the requests, in order. Then lets the tour follow the world, and tells the session what the window wants
+/// to have worked out. To be called before and after each drawing. Returns what is left for the window.
 std::vector<WindowTask> carry_out(const Requests& requests, session::Session& session, UiState& ui);
 
 }  // namespace app::ui
