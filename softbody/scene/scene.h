@@ -13,7 +13,7 @@
 
 #include "collide/methods.h"
 #include "softbody/contact/solid.h"
-#include "softbody/mesh/mesh_source.h"
+#include "softbody/mesh/mesh_import.h"
 #include "softbody/model/material.h"
 #include "softbody/model/scene_error.h"
 
