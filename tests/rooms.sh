@@ -59,7 +59,7 @@ model/key model/material model/body_model model/scene_error
 contact/contacts contact/keys contact/solid contact/solid_surface
 forces/coordinates forces/gas forces/grab forces/shape_matching forces/springs
 mechanics/body_measures mechanics/bound mechanics/material_keys
-scene/scene scene/scene_keys scene/scene_write scene/toml_table scene/toml_text
+scene/scene scene/scene_keys scene/toml_table scene/toml_text
 integrate/integrators integrate/work integrate/plan
 world/bodies_in_motion world/energy_watch world/measures world/body_model_set world/snapshot world/world
 "

@@ -1,5 +1,5 @@
 #pragma once
-// The bodies that take part: shared by both parts of the oracle, surface_overlaps.cpp and surface_crossings.cpp.
+// The bodies that take part: shared by both files of the oracle, surface_overlaps.cpp and surface_oracle.cpp.
 
 #include <cmath>
 #include <stdexcept>

@@ -105,6 +105,13 @@ Scene load_scene(const std::filesystem::path& file, const std::filesystem::path&
 /// the meshes that the text names. Throws SceneError as load_scene() does.
 Scene parse_scene(std::string_view text, const std::filesystem::path& file, const std::filesystem::path& presets = {});
 
+/// Returns the text of a scene file, the inverse of load_scene(). If the file is put into `folder`, that reads it back
+/// to an equal scene. Mesh files are named relative to `folder`; their contents are not written. The scene's key is the
+/// name of the file, so it is not in the text. Throws SceneError if no scene file can hold the scene: it has no body
+/// and no dropper, two materials have the same name, a text is not UTF-8, or the result is larger than
+/// max_toml_file_size.
+std::string scene_toml(const Scene& scene, const std::filesystem::path& folder);
+
 /// Reads a file of materials, each with a name of its own. Throws SceneError as load_scene() does.
 std::vector<Material> load_presets(const std::filesystem::path& file);
 

@@ -15,7 +15,7 @@
 #include "require.h"
 #include "softbody/model/body_model.h"
 #include "softbody/scene/scene_keys.h"
-#include "softbody/scene/scene_write.h"
+#include "softbody/scene/scene.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/snapshot.h"
 #include "softbody/world/world.h"
