@@ -53,7 +53,7 @@ app: app/base app/files app/cli app/report app/window
 # They include only each other of softbody, so that no change of the solver reaches app.
 public="
 mesh/coarse_mesh mesh/embedding mesh/file_mesh mesh/mesh mesh/mesh_import
-mesh/points mesh/polygon mesh/surface
+mesh/points mesh/polygon mesh/shortest_text mesh/surface
 state/best_rotation state/body state/energy_ledger state/lanes
 model/key model/material model/body_model model/scene_error
 contact/contacts contact/keys contact/solid contact/solid_surface
