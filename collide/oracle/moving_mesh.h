@@ -28,7 +28,7 @@ struct MovingMesh {
 
 /// A vertex and a face, or two edges of which the smaller one comes first. They have no common vertex.
 struct MovingPair {
-  enum class Kind { vertex_face, edge_edge };
+  using Kind = MovingFeatures::Kind;
   Kind kind;
   std::array<Index, 2> feature;  // {vertex, vertex}, or the ends of the edge
   std::array<Index, 3> against;  // the face, or {end, end, end} of the edge
