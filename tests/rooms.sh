@@ -24,7 +24,6 @@ softbody/mechanics: softbody/state softbody/model softbody/contact softbody/forc
 softbody/scene: collide softbody/mesh softbody/model softbody/contact softbody/mechanics
 softbody/integrate/implicit: softbody/state softbody/model softbody/contact softbody/forces softbody/mechanics
 softbody/integrate: collide/core softbody/state softbody/contact softbody/forces softbody/mechanics softbody/scene softbody/integrate/implicit
-softbody/integrate/methods: softbody/integrate
 softbody/world: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/mechanics softbody/scene softbody/integrate
 softbody/api/sbcollide:
 softbody/api: collide/api softbody/api/sbcollide softbody/mesh softbody/model softbody/mechanics softbody/scene softbody/world
@@ -53,14 +52,14 @@ app: app/base app/files app/cli app/report app/window
 
 # They include only each other of softbody, so that no change of the solver reaches app.
 public="
-mesh/coarse_mesh mesh/embedding mesh/file_mesh mesh/mesh mesh/mesh_import mesh/mesh_source
-mesh/points mesh/polygon mesh/surface
+mesh/coarse_mesh mesh/embedding mesh/file_mesh mesh/mesh mesh/mesh_import
+mesh/points mesh/polygon mesh/shortest_text mesh/surface
 state/best_rotation state/body state/energy_ledger state/lanes
 model/key model/material model/body_model model/scene_error
 contact/contacts contact/keys contact/solid contact/solid_surface
 forces/coordinates forces/gas forces/grab forces/shape_matching forces/springs
 mechanics/body_measures mechanics/bound mechanics/material_keys
-scene/scene scene/scene_keys scene/scene_write scene/toml_table scene/toml_text
+scene/scene scene/scene_keys scene/toml_table scene/toml_text
 integrate/integrators integrate/work integrate/plan
 world/bodies_in_motion world/energy_watch world/measures world/body_model_set world/snapshot world/world
 "

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "app/files/output_file.h"
+#include "softbody/scene/scene.h"
 #include "softbody/scene/scene_keys.h"
-#include "softbody/scene/scene_write.h"
 #include "softbody/scene/toml_text.h"
 
 namespace app::session {

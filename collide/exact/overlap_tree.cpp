@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "collide/core/midpoint_cut.h"
+#include "collide/core/aabb.h"
 
 namespace collide::exact {
 

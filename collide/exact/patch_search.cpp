@@ -1,7 +1,6 @@
 #include "collide/exact/patch_search.h"
 
 #include <cassert>
-#include <cmath>
 #include <limits>
 
 #include <glm/common.hpp>

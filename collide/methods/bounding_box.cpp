@@ -25,15 +25,11 @@ class BoundingBox final : public Detector {
     const auto body_pairs = static_cast<double>(pairs.size() + (settings.self_collision ? slots_.size() : 0));
     const int parts = workers.threads_for(test_ns * mean * mean * body_pairs);
     search_.begin(frame, settings, points_, parts);
-    workers.run(parts, [&](int part) {
-      const Part between = part_of(pairs.size(), part, parts);
-      for (std::size_t k = between.begin; k < between.end; ++k) {
-        search_.test(part, by_body_[pairs[k].a], by_body_[pairs[k].b]);
-      }
-      if (!settings.self_collision) return;
-      const Part within = part_of(slots_.size(), part, parts);
-      for (std::size_t k = within.begin; k < within.end; ++k) search_.test(part, slots_[k], slots_[k]);
-    });
+    workers.share(parts, pairs.size(),
+                  [&](int thread, std::size_t k) { search_.test(thread, by_body_[pairs[k].a], by_body_[pairs[k].b]); });
+    if (settings.self_collision)
+      workers.share(parts, slots_.size(),
+                    [&](int thread, std::size_t k) { search_.test(thread, slots_[k], slots_[k]); });
     search_.finish(result);
   }
 

@@ -17,21 +17,14 @@ class BruteForce final : public Detector {
     const auto vertices = static_cast<double>(points_.size());
     const int parts = workers.threads_for(test_ns * vertices * vertices / 2);
     search_.begin(frame, settings, points_, parts);
-    workers.run(parts, [&](int part) { test_rows(part, parts, settings.self_collision); });
+    workers.share(parts, ranges_.size(), [&](int thread, std::size_t k) {
+      if (settings.self_collision) search_.test(thread, ranges_[k], ranges_[k]);
+      search_.test(thread, ranges_[k], {ranges_[k].end, points_.size()});
+    });
     search_.finish(result);
   }
 
  private:
-  /// Bodies are dealt to the threads like cards, since each has fewer bodies behind it than the one before.
-  void test_rows(int thread, int threads, bool self_collision) {
-    const Index count = points_.size();
-    for (auto k = static_cast<std::size_t>(thread); k < ranges_.size(); k += static_cast<std::size_t>(threads)) {
-      const Range body = ranges_[k];
-      if (self_collision) search_.test(thread, body, body);
-      search_.test(thread, body, {body.end, count});
-    }
-  }
-
   BodyBoxes bodies_;
   Points points_;
   std::vector<Range> ranges_;

@@ -32,13 +32,10 @@ class SweepAndPrune final : public Detector {
     const int parts = workers.threads_for(sweep_ns * trees_.points().size());
     search_.begin(frame, settings, trees_.points(), parts);
     threads_.resize(static_cast<std::size_t>(parts));
-    workers.run(parts, [&](int part) {
-      const Part between = part_of(pairs.size(), part, parts);
-      for (std::size_t k = between.begin; k < between.end; ++k) sweep_between(part, pairs[k]);
-      if (!settings.self_collision) return;
-      const Part within = part_of(bodies_.live.size(), part, parts);
-      for (std::size_t k = within.begin; k < within.end; ++k) sweep_within(part, patches_of(bodies_.live[k]));
-    });
+    workers.share(parts, pairs.size(), [&](int thread, std::size_t k) { sweep_between(thread, pairs[k]); });
+    if (settings.self_collision)
+      workers.share(parts, bodies_.live.size(),
+                    [&](int thread, std::size_t k) { sweep_within(thread, patches_of(bodies_.live[k])); });
     search_.finish(result);
   }
 
@@ -71,17 +68,12 @@ class SweepAndPrune final : public Detector {
     axis_ = longest_axis(most * 0.5f - least * 0.5f);
     patches_.resize(patches);
     const int parts = workers.threads_for(sort_ns * trees_.points().size());
-    workers.run(parts, [&](int number) {
-      const Part part = part_of(bodies_.live.size(), number, parts);
-      for (std::size_t k = part.begin; k < part.end; ++k) {
-        const Index body = bodies_.live[k];
-        Patch* next = &patches_[first_patch_[body]];
-        for (const trees::Node& node : trees_.nodes_of(k)) {
-          if (node.is_leaf()) *next++ = {node.box, node.slots()};
-        }
-        std::sort(&patches_[first_patch_[body]], next,
-                  [this](const Patch& a, const Patch& b) { return a.box.lo[axis_] < b.box.lo[axis_]; });
+    workers.share(parts, bodies_.live.size(), [&](int, std::size_t k) {
+      Patch *const first = &patches_[first_patch_[bodies_.live[k]]], *next = first;
+      for (const trees::Node& node : trees_.nodes_of(k)) {
+        if (node.is_leaf()) *next++ = {node.box, node.slots()};
       }
+      std::sort(first, next, [this](const Patch& a, const Patch& b) { return a.box.lo[axis_] < b.box.lo[axis_]; });
     });
   }
 

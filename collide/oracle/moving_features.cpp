@@ -188,24 +188,14 @@ std::optional<Passage> first_passage(const Points& points) {
 
 }  // namespace
 
-std::optional<Meeting> vertex_meets_face(const MovingPoint& p, const MovingPoint& a, const MovingPoint& b,
-                                         const MovingPoint& c) {
-  return first_meeting<VertexFace>({p, a, b, c});
+std::optional<Meeting> meeting_of(const MovingFeatures& f) {
+  return f.kind == MovingFeatures::Kind::vertex_face ? first_meeting<VertexFace>(f.points)
+                                                     : first_meeting<EdgeEdge>(f.points);
 }
 
-std::optional<Meeting> edge_meets_edge(const MovingPoint& p, const MovingPoint& q, const MovingPoint& u,
-                                       const MovingPoint& v) {
-  return first_meeting<EdgeEdge>({p, q, u, v});
-}
-
-std::optional<Passage> vertex_through_face(const MovingPoint& p, const MovingPoint& a, const MovingPoint& b,
-                                           const MovingPoint& c) {
-  return first_passage<VertexFace>({p, a, b, c});
-}
-
-std::optional<Passage> edge_through_edge(const MovingPoint& p, const MovingPoint& q, const MovingPoint& u,
-                                         const MovingPoint& v) {
-  return first_passage<EdgeEdge>({p, q, u, v});
+std::optional<Passage> passage_of(const MovingFeatures& f) {
+  return f.kind == MovingFeatures::Kind::vertex_face ? first_passage<VertexFace>(f.points)
+                                                     : first_passage<EdgeEdge>(f.points);
 }
 
 }  // namespace collide::oracle

@@ -5,6 +5,7 @@
 // the coordinates: edges may have no length and faces no area, all points may stay in one plane, features may rest,
 // slide, or touch at the first or the last instant only. README.md has the proof in short.
 
+#include <array>
 #include <optional>
 
 #include <glm/vec3.hpp>
@@ -15,34 +16,29 @@ struct MovingPoint {
   glm::dvec3 from, to;  // m, at the times 0 and 1
 };
 
+/// A vertex p and a face abc, sides and corners included, or two edges pq and uv, ends included.
+struct MovingFeatures {
+  enum class Kind { vertex_face, edge_edge };
+  Kind kind;
+  std::array<MovingPoint, 4> points;  // p, a, b, c or p, q, u, v; all coordinates must be finite
+};
+
 /// The first time at which two features meet lies between these times, which are at most 1e-12 apart.
 struct Meeting {
   double low, high;  // 0 .. 1
 };
 
-/// Returns the first meeting of a vertex p with a face abc, sides and corners included. Precondition of all four
-/// functions: all coordinates are finite.
-std::optional<Meeting> vertex_meets_face(const MovingPoint& p, const MovingPoint& a, const MovingPoint& b,
-                                         const MovingPoint& c);
-
-/// Returns the first meeting of an edge pq with an edge uv, ends included.
-std::optional<Meeting> edge_meets_edge(const MovingPoint& p, const MovingPoint& q, const MovingPoint& u,
-                                       const MovingPoint& v);
+/// Returns the first meeting of two features.
+std::optional<Meeting> meeting_of(const MovingFeatures& features);
 
 struct Passage {
   double time;  // 0 .. 1; rounded
   bool inward;  // the side changes from positive to negative
 };
 
-/// Returns the first passage of a vertex p through a face abc, sides and corners included. The side of p is positive if
-/// the corners appear counter-clockwise from p or p lies in their plane, else negative. A passage is a change of side
-/// at a time at which the features meet.
-std::optional<Passage> vertex_through_face(const MovingPoint& p, const MovingPoint& a, const MovingPoint& b,
-                                           const MovingPoint& c);
-
-/// Returns the first passage of an edge pq through an edge uv, ends included. The side is the sign of
-/// (u - p) . ((q - p) x (v - u)), where 0 counts as positive.
-std::optional<Passage> edge_through_edge(const MovingPoint& p, const MovingPoint& q, const MovingPoint& u,
-                                         const MovingPoint& v);
+/// Returns the first passage of two features through each other: a change of side at a time at which they meet. The
+/// side of p is positive if the corners abc appear counter-clockwise from p or p lies in their plane, else negative.
+/// The side of two edges is the sign of (u - p) . ((q - p) x (v - u)), where 0 counts as positive.
+std::optional<Passage> passage_of(const MovingFeatures& features);
 
 }  // namespace collide::oracle

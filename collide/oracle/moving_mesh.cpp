@@ -4,23 +4,21 @@ namespace collide::oracle {
 
 namespace {
 
-/// Calls the query of the kind of the pair with its four points.
-template <class VertexFace, class EdgeEdge>
-auto ask(const MovingMesh& mesh, const MovingPair& pair, const VertexFace& vertex_face, const EdgeEdge& edge_edge) {
-  const auto point = [&](Index v) -> const MovingPoint& { return mesh.points[v]; };
+MovingFeatures features_of(const MovingMesh& mesh, const MovingPair& pair) {
+  const std::vector<MovingPoint>& points = mesh.points;
   const auto& [kind, a, b] = pair;
-  return kind == MovingPair::Kind::vertex_face ? vertex_face(point(a[0]), point(b[0]), point(b[1]), point(b[2]))
-                                               : edge_edge(point(a[0]), point(a[1]), point(b[0]), point(b[1]));
+  if (kind == MovingPair::Kind::vertex_face) return {kind, {points[a[0]], points[b[0]], points[b[1]], points[b[2]]}};
+  return {kind, {points[a[0]], points[a[1]], points[b[0]], points[b[1]]}};
 }
 
 }  // namespace
 
 std::optional<Meeting> meeting_of(const MovingMesh& mesh, const MovingPair& pair) {
-  return ask(mesh, pair, vertex_meets_face, edge_meets_edge);
+  return meeting_of(features_of(mesh, pair));
 }
 
 std::optional<Passage> passage_of(const MovingMesh& mesh, const MovingPair& pair) {
-  return ask(mesh, pair, vertex_through_face, edge_through_edge);
+  return passage_of(features_of(mesh, pair));
 }
 
 void find_meetings(const MovingMesh& mesh, Workers& workers,

@@ -28,7 +28,7 @@ struct MovingMesh {
 
 /// A vertex and a face, or two edges of which the smaller one comes first. They have no common vertex.
 struct MovingPair {
-  enum class Kind { vertex_face, edge_edge };
+  using Kind = MovingFeatures::Kind;
   Kind kind;
   std::array<Index, 2> feature;  // {vertex, vertex}, or the ends of the edge
   std::array<Index, 3> against;  // the face, or {end, end, end} of the edge
@@ -104,16 +104,14 @@ void search_features(const MovingMesh& mesh, const std::vector<Feature>& feature
   constexpr std::size_t slice = 1 << 14;
   constexpr double search_ns = 500;  // of work, of a feature
   const int parts = workers.threads_for(search_ns * static_cast<double>(std::min(slice, features.size())));
-  const auto step = static_cast<std::size_t>(parts);
-  std::vector<std::vector<Found>> found(step);
+  std::vector<std::vector<Found>> found(static_cast<std::size_t>(parts));
   for (std::size_t begin = 0; begin < features.size(); begin += slice) {
     const std::size_t end = std::min(begin + slice, features.size());
-    workers.run(parts, [&](int part) {
-      const auto own = static_cast<std::size_t>(part);
-      for (std::size_t k = begin + own; k < end; k += step) look_at(features[k], found[own]);
+    workers.share(parts, end - begin, [&](int thread, std::size_t k) {
+      look_at(features[begin + k], found[static_cast<std::size_t>(thread)]);
     });
     std::vector<Found>& all = found.front();
-    for (std::size_t other = 1; other < step; ++other) {
+    for (std::size_t other = 1; other < found.size(); ++other) {
       all.insert(all.end(), found[other].begin(), found[other].end());
       found[other].clear();
     }

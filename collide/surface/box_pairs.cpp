@@ -9,7 +9,7 @@
 
 #include <glm/common.hpp>
 
-#include "collide/core/midpoint_cut.h"
+#include "collide/core/aabb.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "collide/surface/box_pairs.cpp"

@@ -68,11 +68,8 @@ void BodyTrees::find_patterns(const Frame& frame, std::span<const Index> which, 
   for (const auto& [pattern, body] : fresh) vertices += static_cast<double>(frame.bodies->size(body));
   const int parts = workers.threads_for(cut_ns * vertices);
   items_.resize(static_cast<std::size_t>(parts));
-  workers.run(parts, [&](int number) {
-    const Part part = part_of(fresh.size(), number, parts);
-    for (std::size_t k = part.begin; k < part.end; ++k) {
-      fresh[k].first->cut(frame, fresh[k].second, items_[static_cast<std::size_t>(number)]);
-    }
+  workers.share(parts, fresh.size(), [&](int thread, std::size_t k) {
+    fresh[k].first->cut(frame, fresh[k].second, items_[static_cast<std::size_t>(thread)]);
   });
   std::erase_if(patterns, [](const auto& item) { return !item.second.used; });
 }
@@ -118,17 +115,14 @@ void BodyTrees::refit(const Frame& frame, Workers& workers) {
     }
   });
   const int parts = workers.threads_for(upper_ns * vertices);
-  workers.run(parts, [&](int number) {
-    const Part bodies = part_of(which_.size(), number, parts);
-    for (std::size_t k = bodies.begin; k < bodies.end; ++k) {
-      for (Index at = first_node_[k + 1]; at-- > first_node_[k];) {
-        Node& node = nodes_[at];
-        if (node.is_leaf()) continue;
-        const Aabb &one = nodes_[node.first].box, &other = nodes_[node.first + std::size_t{1}].box;
-        node.box = {glm::min(one.lo, other.lo), glm::max(one.hi, other.hi)};
-      }
-      spread_[k] = spread_of(k);
+  workers.share(parts, which_.size(), [&](int, std::size_t k) {
+    for (Index at = first_node_[k + 1]; at-- > first_node_[k];) {
+      Node& node = nodes_[at];
+      if (node.is_leaf()) continue;
+      const Aabb &one = nodes_[node.first].box, &other = nodes_[node.first + std::size_t{1}].box;
+      node.box = {glm::min(one.lo, other.lo), glm::max(one.hi, other.hi)};
     }
+    spread_[k] = spread_of(k);
   });
 }
 

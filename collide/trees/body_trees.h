@@ -4,7 +4,6 @@
 
 #include <unordered_map>
 
-#include "collide/trees/item.h"
 #include "collide/trees/tree_search.h"
 
 namespace collide::trees {

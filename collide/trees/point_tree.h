@@ -2,7 +2,6 @@
 // A tree over all vertices, built anew from the top: each node is cut as a method wants it. Memory: 60 bytes a vertex,
 // and 40 bytes a node.
 
-#include "collide/trees/item.h"
 #include "collide/trees/tree_search.h"
 
 namespace collide::trees {

@@ -10,21 +10,16 @@ void TreeSearch::run(std::span<const Node> nodes, bool self, float cutoff, Conta
   };
   pairs_.assign(1, {0, 0});
   const NodePairs node_pairs{nodes};
-  const int parts = search.parts();
-  node_pairs.deal(pairs_, parts, apart);
-  workers.run(parts, [&](int part) {
-    const auto test = [&](NodePair pair) {
+  node_pairs.deal(pairs_, search.parts(), apart);
+  workers.share(search.parts(), pairs_.size(), [&](int thread, std::size_t k) {
+    node_pairs.for_each_below(pairs_[k], apart, [&](NodePair pair) {
       const Node &a = nodes[pair.a], &b = nodes[pair.b];
       if (pair.a == pair.b) {
-        search.test(part, a.slots(), a.slots());
+        search.test(thread, a.slots(), a.slots());
       } else {
-        search.test(part, a.slots(), b.slots(), b.box);
+        search.test(thread, a.slots(), b.slots(), b.box);
       }
-    };
-    const auto step = static_cast<std::size_t>(parts);
-    for (auto k = static_cast<std::size_t>(part); k < pairs_.size(); k += step) {
-      node_pairs.for_each_below(pairs_[k], apart, test);
-    }
+    });
   });
 }
 

@@ -46,24 +46,20 @@ void BoxPass::update(const FrameData& frame) {
 }
 
 void BoxPass::draw_shadows(const glm::mat4& light_clip_from_world) const {
-  if (box_count_ == 0) return;
   shadow_program_.use();
   shadow_program_.set("light_clip_from_world", light_clip_from_world);
   draw_instances(0, box_count_, cube_begin, cube_vertices);
 }
 
 void BoxPass::draw() const {
-  if (box_count_ > 0) {
-    box_program_.use();
-    draw_instances(0, box_count_, cube_begin, cube_vertices);
-  }
-  if (instances_.size() > box_count_) {
-    plane_program_.use();
-    draw_instances(box_count_, instances_.size() - box_count_, face_begin, face_vertices);
-  }
+  box_program_.use();
+  draw_instances(0, box_count_, cube_begin, cube_vertices);
+  plane_program_.use();
+  draw_instances(box_count_, instances_.size() - box_count_, face_begin, face_vertices);
 }
 
 void BoxPass::draw_instances(std::size_t first, std::size_t count, GLint begin, GLsizei vertices) const {
+  if (count == 0) return;
   array_.bind();
   glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.id());
   constexpr GLsizei stride = sizeof(Instance);

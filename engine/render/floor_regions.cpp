@@ -31,20 +31,16 @@ void FloorRegions::update(std::span<const glm::vec4> spheres, const Floor& floor
     if (height + sphere.w < 0.0f) continue;
     const glm::vec2 foot(sphere.x, sphere.z), shadow = foot - slant * height;
     const glm::vec2 half = sphere.w * stretch + softness;
-    add_shadow({shadow - half, shadow + half}, floor);
+    if (const FloorRect visible = clipped({shadow - half, shadow + half}, floor); !visible.empty()) {
+      shadows_.push_back(visible);
+      shadowed_ = united(shadowed_, visible);
+    }
     if (height > occlusion_height * sphere.w) continue;
     occluded_ = united(occluded_, {foot - occlusion_radius * sphere.w, foot + occlusion_radius * sphere.w});
   }
   occluded_ = clipped(occluded_, floor);
   cells_.fill(false);
   for (const FloorRect& rect : shadows_) mark_cells(rect);
-}
-
-void FloorRegions::add_shadow(const FloorRect& rect, const Floor& floor) {
-  const FloorRect visible = clipped(rect, floor);
-  if (visible.empty()) return;
-  shadows_.push_back(visible);
-  shadowed_ = united(shadowed_, visible);
 }
 
 void FloorRegions::mark_cells(const FloorRect& rect) {

@@ -42,7 +42,6 @@ class FloorRegions {
 
  private:
   static std::size_t index(int column, int row);
-  void add_shadow(const FloorRect& rect, const Floor& floor);
   void mark_cells(const FloorRect& rect);
 
   std::vector<FloorRect> shadows_;

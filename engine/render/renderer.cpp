@@ -36,11 +36,85 @@ struct Renderer::Passes {
         environment(shaders),
         overlays(shaders) {}
 
-  void update(const Camera& camera, const Viewport& viewport, const FrameData& frame);
-  void draw_shadows();
-  void draw_scene(const Viewport& viewport, const FrameData& frame);
-  void find_casters(const FrameData& frame);
-  FrameUniforms frame_uniforms(const Camera& camera, const Viewport& viewport, const FrameData& frame) const;
+  void find_casters(const FrameData& frame) {
+    casters.clear();
+    for (std::size_t i = 0; i < frame.meshes.size(); ++i) {
+      const glm::vec3 centre(occlusion.spheres()[i]);
+      const MeshDraw& draw = frame.meshes[i];
+      const bool finite = occlusion.spheres()[i].w > 0;
+      if (finite)
+        casters.emplace_back(centre,
+                             max_distance(centre, frame.positions.subspan(draw.first_vertex, draw.vertex_count)));
+    }
+    for (const Sphere& s : frame.spheres) casters.emplace_back(s.centre, s.radius);
+    for (const Capsule& c : frame.capsules)
+      casters.emplace_back(0.5f * (c.from + c.to), 0.5f * glm::distance(c.from, c.to) + c.radius);
+    for (const OrientedBox& b : frame.oriented_boxes) {
+      const glm::mat3& a = b.half_axes;
+      casters.emplace_back(b.centre, std::sqrt(glm::dot(a[0], a[0]) + glm::dot(a[1], a[1]) + glm::dot(a[2], a[2])));
+    }
+  }
+
+  FrameUniforms frame_uniforms(const Camera& camera, const Viewport& viewport, const FrameData& frame) const {
+    const glm::vec3& centre = frame.bounds_centre;
+    const float radius = frame.bounds_radius;
+    FrameUniforms values{};
+    values.clip_from_world = camera.projection(viewport.size) * camera.view();
+    values.shadow_from_world = light.texture_from_world();
+    values.eye = glm::vec4(camera.eye(), frame.pixel_scale);
+    values.to_light = glm::vec4(to_light, light.texel_size);
+    values.viewport = glm::vec4(viewport.origin, viewport.size);
+    values.floor_map =
+        glm::vec4(centre.x, centre.z, 0.5f / (floor_map_half_size * radius), frame.floor_height.value_or(0.0f));
+    values.scene = glm::vec4(centre.x, centre.z, radius, grid_spacing(radius));
+    values.shadow_bounds = light.shadow_bounds(casters);
+    values.flags.x = frame.floor_height ? 1.0f : 0.0f;
+    return values;
+  }
+
+  void update(const Camera& camera, const Viewport& viewport, const FrameData& frame) {
+    light = shadow_map.light_view(to_light, frame.bounds_centre, frame.bounds_radius);
+    occlusion.update(frame);
+    find_casters(frame);
+    const FrameUniforms values = frame_uniforms(camera, viewport, frame);
+    uniform_buffer.stream(GL_UNIFORM_BUFFER, std::span(&values, 1));
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniform_buffer.id());
+    const float pixels_at_one_metre = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
+    bodies.update(frame, occlusion, camera.eye(), pixels_at_one_metre);
+    spheres.update(frame, occlusion);
+    boxes.update(frame);
+    environment.update(frame, casters, to_light, 8.0f * light.texel_size);
+  }
+
+  void draw_shadows() {
+    shadow_map.begin();
+    bodies.draw_shadows(light.clip_from_world);
+    spheres.draw_shadows(light.clip_from_world);
+    boxes.draw_shadows(light.clip_from_world);
+    shadow_map.end();
+  }
+
+  void draw_scene(const Viewport& viewport, const FrameData& frame) {
+    glViewport(viewport.origin.x, viewport.origin.y, viewport.size.x, viewport.size.y);
+    glScissor(viewport.origin.x, viewport.origin.y, viewport.size.x, viewport.size.y);
+    glEnable(GL_SCISSOR_TEST);
+    glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    glDisable(GL_SCISSOR_TEST);
+    shadow_map.texture().bind(unit_shadow_map, GL_TEXTURE_2D);
+    if (std::ranges::any_of(frame.translucent, &TranslucentSet::behind_bodies)) glEnable(GL_STENCIL_TEST);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    glStencilFunc(GL_ALWAYS, stencil_bodies, stencil_bodies);
+    bodies.draw(frame);
+    glStencilFunc(GL_ALWAYS, 0, stencil_bodies);
+    spheres.draw();
+    boxes.draw();
+    glDisable(GL_STENCIL_TEST);
+    environment.draw(frame.floor_height.has_value());
+    if (software_renderer) glFlush();  // so that the driver's threads draw while this one prepares the overlays
+    bodies.draw_translucent(true);
+    overlays.draw(frame);
+    bodies.draw_translucent(false);
+  }
 
   const bool software_renderer = uses_software_renderer();
   glm::vec3 to_light = glm::normalize(glm::vec3(-0.40f, 1.0f, 0.42f));
@@ -56,86 +130,6 @@ struct Renderer::Passes {
   OverlayPass overlays;
   Buffer uniform_buffer;
 };
-
-void Renderer::Passes::find_casters(const FrameData& frame) {
-  casters.clear();
-  for (std::size_t i = 0; i < frame.meshes.size(); ++i) {
-    const glm::vec3 centre(occlusion.spheres()[i]);
-    const MeshDraw& draw = frame.meshes[i];
-    const bool finite = occlusion.spheres()[i].w > 0;
-    if (finite)
-      casters.emplace_back(centre, max_distance(centre, frame.positions.subspan(draw.first_vertex, draw.vertex_count)));
-  }
-  for (const Sphere& s : frame.spheres) casters.emplace_back(s.centre, s.radius);
-  for (const Capsule& c : frame.capsules)
-    casters.emplace_back(0.5f * (c.from + c.to), 0.5f * glm::distance(c.from, c.to) + c.radius);
-  for (const OrientedBox& b : frame.oriented_boxes) {
-    const glm::mat3& a = b.half_axes;
-    casters.emplace_back(b.centre, std::sqrt(glm::dot(a[0], a[0]) + glm::dot(a[1], a[1]) + glm::dot(a[2], a[2])));
-  }
-}
-
-FrameUniforms Renderer::Passes::frame_uniforms(const Camera& camera, const Viewport& viewport,
-                                               const FrameData& frame) const {
-  const glm::vec3& centre = frame.bounds_centre;
-  const float radius = frame.bounds_radius;
-  FrameUniforms values{};
-  values.clip_from_world = camera.projection(viewport.size) * camera.view();
-  values.shadow_from_world = light.texture_from_world();
-  values.eye = glm::vec4(camera.eye(), frame.pixel_scale);
-  values.to_light = glm::vec4(to_light, light.texel_size);
-  values.viewport = glm::vec4(viewport.origin, viewport.size);
-  values.floor_map =
-      glm::vec4(centre.x, centre.z, 0.5f / (floor_map_half_size * radius), frame.floor_height.value_or(0.0f));
-  values.scene = glm::vec4(centre.x, centre.z, radius, grid_spacing(radius));
-  values.shadow_bounds = light.shadow_bounds(casters);
-  values.flags.x = frame.floor_height ? 1.0f : 0.0f;
-  return values;
-}
-
-void Renderer::Passes::update(const Camera& camera, const Viewport& viewport, const FrameData& frame) {
-  light = shadow_map.light_view(to_light, frame.bounds_centre, frame.bounds_radius);
-  occlusion.update(frame);
-  find_casters(frame);
-  const FrameUniforms values = frame_uniforms(camera, viewport, frame);
-  uniform_buffer.stream(GL_UNIFORM_BUFFER, std::span(&values, 1));
-  glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniform_buffer.id());
-  const float pixels_at_one_metre = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
-  bodies.update(frame, occlusion, camera.eye(), pixels_at_one_metre);
-  spheres.update(frame, occlusion);
-  boxes.update(frame);
-  environment.update(frame, casters, to_light, 8.0f * light.texel_size);
-}
-
-void Renderer::Passes::draw_shadows() {
-  shadow_map.begin();
-  bodies.draw_shadows(light.clip_from_world);
-  spheres.draw_shadows(light.clip_from_world);
-  boxes.draw_shadows(light.clip_from_world);
-  shadow_map.end();
-}
-
-void Renderer::Passes::draw_scene(const Viewport& viewport, const FrameData& frame) {
-  glViewport(viewport.origin.x, viewport.origin.y, viewport.size.x, viewport.size.y);
-  glScissor(viewport.origin.x, viewport.origin.y, viewport.size.x, viewport.size.y);
-  glEnable(GL_SCISSOR_TEST);
-  glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-  glDisable(GL_SCISSOR_TEST);
-  shadow_map.texture().bind(unit_shadow_map, GL_TEXTURE_2D);
-  if (std::ranges::any_of(frame.translucent, &TranslucentSet::behind_bodies)) glEnable(GL_STENCIL_TEST);
-  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-  glStencilFunc(GL_ALWAYS, stencil_bodies, stencil_bodies);
-  bodies.draw(frame);
-  glStencilFunc(GL_ALWAYS, 0, stencil_bodies);
-  spheres.draw();
-  boxes.draw();
-  glDisable(GL_STENCIL_TEST);
-  environment.draw(frame.floor_height.has_value());
-  if (software_renderer) glFlush();  // so that the driver's threads draw while this one prepares the overlays
-  bodies.draw_translucent(true);
-  overlays.draw(frame);
-  bodies.draw_translucent(false);
-}
 
 Renderer::Renderer(const std::filesystem::path& shaders) : passes_(std::make_unique<Passes>(shaders)) {}
 Renderer::~Renderer() = default;

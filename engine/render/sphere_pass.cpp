@@ -60,19 +60,18 @@ void SpherePass::update(const FrameData& frame, const AmbientOcclusion& occlusio
 }
 
 void SpherePass::draw_shadows(const glm::mat4& light_clip_from_world) const {
-  if (instances_.empty()) return;
   shadow_program_.use();
   shadow_program_.set("light_clip_from_world", light_clip_from_world);
   draw_instances();
 }
 
 void SpherePass::draw() const {
-  if (instances_.empty()) return;
   program_.use();
   draw_instances();
 }
 
 void SpherePass::draw_instances() const {
+  if (instances_.empty()) return;
   array_.bind();
   glEnable(GL_CULL_FACE);
   glDrawElementsInstanced(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr,

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody/state/lane_math.h"
+#include "softbody/state/simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace softbody {

@@ -14,7 +14,6 @@
 #include "softbody/contact/solid_law.h"
 #include "softbody/contact/solid_overlap.h"
 #include "softbody/contact/solid_shapes.h"
-#include "softbody/contact/surface_vectors.h"
 #include "softbody/state/kernels.h"
 
 namespace softbody {
@@ -74,12 +73,11 @@ bool SolidContact::lies_in(const Batch& b, int lane, const Solid& solid) const {
 /// beside that. The impulse counts as one of the solid.
 void SolidContact::ease_out(const Batch& b, int lane, const glm::dvec3& way, const glm::dvec3& gravity,
                             double seconds) {
-  const Field<float> v = field(state_.v, b.base);
-  const auto slot = [&](std::size_t i) { return i * std::size_t(b.width) + std::size_t(lane); };
+  const BodyField v = state_.field_of(b.body[std::size_t(lane)], state_.v);
   glm::dvec3 mean(0.0);
-  for (std::size_t i = 0; i < b.particles(); ++i) mean += glm::dvec3(read(v, slot(i))) / double(b.particles());
+  for (std::size_t i = 0; i < b.particles(); ++i) mean += v(i) / double(b.particles());
   const glm::vec3 change(law::max_separation_speed * way - 0.5 * seconds * gravity - mean);
-  for (std::size_t i = 0; i < b.particles(); ++i) softbody::add(v, slot(i), change);
+  for (std::size_t i = 0; i < b.particles(); ++i) v.add(i, glm::dvec3(change));
   const glm::dvec3 given = double(b.particles()) * b.model->particle_mass * glm::dvec3(change);  // N s
   BodyField{sums(b).impulse, std::size_t(lane), 1}.add(0, given);
   state_.ledger.book(WorkBy::easing, glm::dot(given, mean + 0.5 * glm::dvec3(change)));

@@ -11,7 +11,7 @@
 #endif
 
 #include "softbody/contact/solid_geometry.h"
-#include "softbody/state/lane_math.h"
+#include "softbody/state/simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace softbody {

@@ -34,7 +34,7 @@ Solver::Solver(const Scene& scene, const BatchShares& shares)
 Solver::~Solver() = default;
 
 void Solver::set_plan(const Plan& plan) {
-  has_gravity_ = plan.has(Stage::gravity);
+  gravity_ = plan.has(Stage::gravity) ? scene_.gravity : glm::dvec3(0.0);
   motion_.set_plan(plan);
   resistance_.set_plan(plan);
   contacts_.set_plan(plan);
@@ -51,8 +51,6 @@ void Solver::remove(BodyId body) {
   hand_.remove(body);
   state_.remove(body);
 }
-
-glm::dvec3 Solver::gravity() const { return has_gravity_ ? scene_.gravity : glm::dvec3(0.0); }
 
 /// Notes that this one may touch others, or itself.
 void Solver::join(BodyId body) {
@@ -113,7 +111,7 @@ StepBound Solver::begin_frame(double seconds) {
        .sleep_speed = scene_.sleep.speed},
       bound);
   steps_.spend(work::surface * searches);
-  motion_.begin_frame(*steps_.plan().integrator, gravity(), shares_);
+  motion_.begin_frame(*steps_.plan().integrator, gravity_, shares_);
   mark_touched();
   return bound;
 }
@@ -170,7 +168,7 @@ FrameResult Solver::take_substeps(double seconds, StepBound bound, const AfterSu
   }
   done.seconds = seconds - series.left_after();
   for (const Batch* b : shares_.moving()) pushed_[b->index] |= solids_.pushed(*b);
-  momenta.restore(done.seconds * gravity(), integrator.conserves_spin, pushed_);
+  momenta.restore(done.seconds * gravity_, integrator.conserves_spin, pushed_);
   return done;
 }
 
@@ -226,7 +224,7 @@ void Solver::set_staggering(double seconds) {
   if (std::abs(seconds - before) <= close * std::max(seconds, before)) return;
   now = seconds;
   double power = 0;
-  for (const BodyMeasures& b : measure_bodies(state_, gravity())) power += b.power;
+  for (const BodyMeasures& b : measure_bodies(state_, gravity_)) power += b.power;
   state_.ledger.book(WorkBy::steps, (now - before) / 2 * power);
 }
 
@@ -301,12 +299,6 @@ void Solver::finish(const Batch& b, double seconds) {
     state_.memory(b.body[l]).impact = impacts[l];
     if (b.moves[l] > 0) state_.memory(b.body[l]).speed = speeds[l];
   }
-}
-
-void Solver::write_positions(Field<float> to) const {
-  const std::span<const Batch> batches = state_.batches();
-  shares_.for_each(batches.size(),
-                   [&](std::size_t i) { state_.write_positions(batches[i], contacts_.vertices().first, to); });
 }
 
 SolverState Solver::save() const {

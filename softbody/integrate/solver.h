@@ -49,7 +49,6 @@ class Solver {
   State& state() { return state_; }
   const State& state() const { return state_; }
   Hand& hand() { return hand_; }
-  const Hand& hand() const { return hand_; }
   StepController& steps() { return steps_; }
   const StepController& steps() const { return steps_; }
   const SurfaceContact& surface_contact() const { return contacts_.surfaces(); }
@@ -78,10 +77,9 @@ class Solver {
   /// substeps and have many contacts. after_substep: called by one thread while the others wait.
   FrameResult advance(double seconds, const AfterSubstep& after_substep = {});
   /// Ends a frame of `seconds`, after advance(): applies what resists the bodies' motion as a whole, lets their origins
-  /// follow, notes how fast they are, and writes all positions to `places` as write_positions() does.
+  /// follow, notes how fast they are, and writes the positions of all particles in the world to `places`, in the order
+  /// of the world's vertices.
   void finish_frame(double seconds, Field<float> places);
-  /// Writes the positions of all particles in the world, in the order of the world's vertices.
-  void write_positions(Field<float> to) const;
   double last_substep() const { return double(last_substep_); }  // s, how long it was
 
   SolverState save() const;
@@ -101,7 +99,6 @@ class Solver {
     double left_after() const { return taken == substeps ? 0 : left - taken * h(); }
   };
 
-  glm::dvec3 gravity() const;
   void mark_pushed(BodyId body) { pushed_[state_.body(body).batch] |= 1u << state_.body(body).lane; }
   void join(BodyId body);
   /// Returns what the pairs of the frame hold at its start or after the last substep, in J.
@@ -138,7 +135,7 @@ class Solver {
   Rebounds rebounds_;
   StepController steps_;
   StepBounds bounds_;
-  bool has_gravity_ = false;
+  glm::dvec3 gravity_{0.0};       // m/s^2; 0 if the plan has none
   std::vector<unsigned> pushed_;  // of each batch, bits: lanes that something may push in this frame
   std::vector<char> joined_;      // of each batch: whether contacts may join it to others, or act within it
   float last_substep_ = 0;        // s

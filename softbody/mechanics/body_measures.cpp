@@ -45,14 +45,13 @@ class WideMotion {
 BodyMeasures measures_of(const BodyModel& model, const MotionSums& sums, std::size_t lane, const glm::dvec3& origin,
                          const glm::dvec3& gravity) {
   const double mass = model.particle_mass;
-  const glm::dvec3 place(sums.place.x[lane], sums.place.y[lane], sums.place.z[lane]);
-  const glm::dvec3 velocity(sums.velocity.x[lane], sums.velocity.y[lane], sums.velocity.z[lane]);
+  const glm::dvec3 place = sums.place[lane];
   BodyMeasures m;
   m.energy = {.kinetic = mass / 2 * sums.square[lane],
               .elastic = sums.elastic[lane],
               .gas = sums.gas[lane],
               .gravity = -mass * glm::dot(gravity, double(model.mesh.vertices.size()) * origin + place)};
-  m.momentum = mass * velocity;
+  m.momentum = mass * sums.velocity[lane];
   m.power = glm::dot(gravity, m.momentum) - sums.growth[lane];
   m.closed = model.mesh.closed;
   if (m.closed) m.volume_ratio = sums.volume[lane] / model.start_volume;

@@ -13,7 +13,7 @@
 
 #include "softbody/forces/spring_law.h"
 #include "softbody/mechanics/kernel_types.h"
-#include "softbody/state/lane_math.h"
+#include "softbody/state/simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace softbody {

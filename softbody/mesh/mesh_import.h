@@ -2,8 +2,10 @@
 // Imports a mesh from an OBJ or PLY file and prepares it for a soft body: it comes to the origin, seams are welded,
 // polygons are cut into triangles, unused vertices are dropped, faces are turned outwards, and the surface is checked.
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -64,5 +66,24 @@ ImportedMesh import_mesh(const MeshFile& file, const std::function<void(std::str
 /// Returns one line for people, e.g. "12 vertices welded, 3 unused ones dropped; open; 2 components". It is empty for a
 /// closed mesh in one piece that was not changed.
 std::string remarks(const ImportedMesh& imported);
+
+/// Where a body's mesh comes from.
+struct MeshSource {
+  std::string kind = "icosphere";
+  int subdivisions = 2;                            // icosphere
+  double radius = 0.5;                             // m, icosphere
+  int columns = 32, rows = 32;                     // grid
+  double width = 3, depth = 3;                     // m, grid
+  MeshFile file{};                                 // file
+  std::shared_ptr<const ImportedMesh> imported{};  // file: the imported mesh, shared by all its bodies
+  /// Imports the file as import_mesh() does.
+  static MeshSource from_file(const MeshFile& file, const std::function<void(std::string_view)>& begin_stage = {});
+  /// Returns the mesh that is simulated.
+  Mesh make() const;
+  // Found without making a mesh.
+  std::uint64_t particle_count() const;  // vertices of the mesh that is simulated
+  std::uint64_t vertex_count() const;    // of the one that is shown
+  bool operator==(const MeshSource&) const = default;
+};
 
 }  // namespace softbody

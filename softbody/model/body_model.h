@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "softbody/mesh/mesh_source.h"
+#include "softbody/mesh/mesh_import.h"
 #include "softbody/model/material.h"
 
 namespace collide {

@@ -13,7 +13,7 @@
 
 #include "collide/methods.h"
 #include "softbody/contact/solid.h"
-#include "softbody/mesh/mesh_source.h"
+#include "softbody/mesh/mesh_import.h"
 #include "softbody/model/material.h"
 #include "softbody/model/scene_error.h"
 
@@ -104,6 +104,13 @@ Scene load_scene(const std::filesystem::path& file, const std::filesystem::path&
 /// Reads the text of a scene file, which may have no body yet. `file` names it in messages, and its folder is that of
 /// the meshes that the text names. Throws SceneError as load_scene() does.
 Scene parse_scene(std::string_view text, const std::filesystem::path& file, const std::filesystem::path& presets = {});
+
+/// Returns the text of a scene file, the inverse of load_scene(). If the file is put into `folder`, that reads it back
+/// to an equal scene. Mesh files are named relative to `folder`; their contents are not written. The scene's key is the
+/// name of the file, so it is not in the text. Throws SceneError if no scene file can hold the scene: it has no body
+/// and no dropper, two materials have the same name, a text is not UTF-8, or the result is larger than
+/// max_toml_file_size.
+std::string scene_toml(const Scene& scene, const std::filesystem::path& folder);
 
 /// Reads a file of materials, each with a name of its own. Throws SceneError as load_scene() does.
 std::vector<Material> load_presets(const std::filesystem::path& file);

@@ -1,11 +1,10 @@
 // Writes scene files, in the order in which scene_toml.cpp reads them.
 
-#include "softbody/scene/scene_write.h"
-
 #include <algorithm>
 #include <utility>
 
 #include "softbody/mechanics/material_keys.h"
+#include "softbody/scene/scene.h"
 #include "softbody/scene/scene_keys.h"
 #include "softbody/scene/solid_toml.h"
 #include "softbody/scene/toml_table.h"

@@ -12,12 +12,10 @@ namespace softbody {
 namespace {
 
 std::string range(double lo, double hi) {
+  if (hi == Table::any) return {};
   std::ostringstream s;
   s.precision(10);  // 16777216, not 1.67772e+07
-  if (lo > -Table::any && hi < Table::any)
-    s << " from " << lo << " to " << hi;
-  else if (lo > -Table::any)
-    s << " of at least " << lo;
+  s << " from " << lo << " to " << hi;
   return s.str();
 }
 

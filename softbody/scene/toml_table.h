@@ -34,11 +34,11 @@ class Table {
       : table_(table), file_(std::move(file)), name_(std::move(name)) {}
 
   // Return the value of a key, or the fallback if the key is missing.
-  double number(const std::string& key, double fallback, double lo = -any, double hi = any);
+  double number(const std::string& key, double fallback, double lo, double hi);
   int integer(const std::string& key, int fallback, int lo, int hi);
   bool boolean(const std::string& key, bool fallback);
   std::string text(const std::string& key, std::string fallback);
-  glm::dvec3 vector(const std::string& key, glm::dvec3 fallback, double lo = -any, double hi = any);
+  glm::dvec3 vector(const std::string& key, glm::dvec3 fallback, double lo, double hi);
   glm::dmat3 matrix(const std::string& key);  // written by columns; the key must exist
   glm::dvec3 whole_vector(const std::string& key, glm::dvec3 fallback, double lo, double hi);
 

@@ -3,8 +3,6 @@
 #include <array>
 #include <cstdio>
 
-#include "softbody/mesh/shortest_text.h"
-
 namespace softbody {
 namespace {
 
@@ -16,10 +14,6 @@ std::string list(const auto& vector) {
 
 }  // namespace
 
-std::string toml_value(double value) { return shortest_text(value); }
-std::string toml_value(float value) { return shortest_text(value); }
-std::string toml_value(std::int64_t value) { return shortest_text(value); }
-std::string toml_value(bool value) { return value ? "true" : "false"; }
 std::string toml_value(const glm::dvec3& value) { return list(value); }
 std::string toml_value(const glm::vec3& value) { return list(value); }
 std::string toml_value(const glm::dmat3& value) { return list(value); }

@@ -1,26 +1,27 @@
 #pragma once
 // Writes TOML: values as text that reads back to the same bits, and lines of them.
 
-#include <concepts>
-#include <cstdint>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include "softbody/mesh/shortest_text.h"
+
 namespace softbody {
 
 // Return the shortest text that stands for the value. Numbers must be finite. Text may be any UTF-8.
-std::string toml_value(double value);
-std::string toml_value(float value);  // the shortest for a float: 0.1, not 0.10000000149
-std::string toml_value(std::int64_t value);
-std::string toml_value(bool value);
+inline std::string toml_value(bool value) { return value ? "true" : "false"; }
+template <class Number>
+requires std::is_arithmetic_v<Number> std::string toml_value(Number value) {  // of a float: 0.1, not 0.10000000149
+  return shortest_text(value);
+}
 std::string toml_value(std::string_view value);
 std::string toml_value(const glm::dvec3& value);
 std::string toml_value(const glm::vec3& value);
 std::string toml_value(const glm::dmat3& value);  // by columns
-std::string toml_value(std::integral auto value) { return toml_value(static_cast<std::int64_t>(value)); }
 inline std::string toml_value(const char* value) { return toml_value(std::string_view(value)); }
 inline std::string toml_value(const std::string& value) { return toml_value(std::string_view(value)); }
 

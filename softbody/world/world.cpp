@@ -122,7 +122,8 @@ void World::Parts::count_vertices() {
 }
 
 void World::Parts::update_positions() {
-  solver.write_positions(particles.positions.resized(particles.bodies.vertex_count()));
+  const Field<float> places = particles.positions.resized(particles.bodies.vertex_count());
+  for (const Batch& b : solver.state().batches()) solver.state().write_positions(b, particles.bodies.first, places);
   place_fine_meshes();
 }
 
@@ -201,10 +202,7 @@ void World::step(const std::function<void()>& after_substep) {
   double looking_ms = 0;
   const auto look = [&] {
     const auto from = Clock::now();
-    const Field<float> places = touching.positions.resized(touching.bodies.vertex_count());
-    for (const Batch& b : s.solver.state().batches())
-      s.solver.state().write_positions(b, touching.bodies.first, places);
-    s.place_fine_meshes();
+    s.update_positions();
     after_substep();
     looking_ms += ms_since(from);
   };

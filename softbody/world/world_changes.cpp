@@ -1,4 +1,4 @@
-// World: what is changed by hand, between frames.
+// World: what is changed by hand, between frames, and snapshots to return to.
 
 #include <algorithm>
 #include <cassert>
@@ -12,6 +12,7 @@
 #include "softbody/mesh/limits.h"
 #include "softbody/scene/scene_keys.h"
 #include "softbody/world/measures.h"
+#include "softbody/world/snapshot.h"
 #include "softbody/world/world_parts.h"
 
 namespace softbody {
@@ -237,6 +238,34 @@ void World::apply(const Scene& wanted) {
   if (closer) s.solver.let_bodies_closer();
   for (BodyId b = 0; solids && b < s.particles.bodies.count(); ++b) s.solver.state().memory(b).may_lie_in_solid = true;
   if (wakes) s.wake_all();
+}
+
+std::size_t Snapshot::bytes() const {
+  const Values& all = *values;
+  return sizeof(*this) + sizeof(all) + bytes_of(all.world.scene.bodies) + bytes_of(all.world.arrived) +
+         bytes_of(all.world.added) + all.solver.bytes();
+}
+
+Snapshot World::snapshot() const {
+  const Parts& s = *parts_;
+  return {.frame = s.frame,
+          .grab = grabbed(),
+          .values = std::make_shared<const Snapshot::Values>(Snapshot::Values{s, s.solver.save()})};
+}
+
+void World::restore(const Snapshot& snapshot) {
+  assert(snapshot.values);
+  Parts& s = *parts_;
+  static_cast<WorldValues&>(s) = snapshot.values->world;
+  s.settings = s.settings_of(s.scene);
+  s.update_plan();
+  s.set_integrator();  // without a check: the state may be one that a new scene would be refused for
+  s.solver.restore(snapshot.values->solver);
+  s.solver.hand().take(snapshot.grab);
+  s.particles.detector = s.method().make();  // a new one: the old one caches another state
+  s.count_vertices();
+  s.update_positions();
+  s.detect();
 }
 
 }  // namespace softbody

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "softbody/model/body_model.h"
-#include "softbody/scene/scene_write.h"
+#include "softbody/scene/scene.h"
 #include "tests/app/panel_rig.h"
 #include "tests/temporary_folder.h"
 

@@ -17,6 +17,7 @@ namespace cli::test {
 namespace {
 
 using collide::oracle::Meeting;
+using collide::oracle::MovingFeatures;
 using collide::oracle::MovingPoint;
 using nlohmann::json;
 
@@ -87,22 +88,22 @@ struct Motion {
   std::vector<Row> meetings() const {
     std::vector<Row> rows;
     const auto at = [&](int v) -> const MovingPoint& { return points[static_cast<std::size_t>(v)]; };
-    const auto add = [&](bool ee, const std::array<int, 5>& v, const std::optional<Meeting>& meeting, bool passes) {
-      if (meeting) rows.push_back({ee, v, meeting->low, meeting->high, passes});
+    using Kind = MovingFeatures::Kind;
+    const auto add = [&](const std::array<int, 5>& v, const MovingFeatures& features) {
+      if (const std::optional<Meeting> meeting = meeting_of(features))
+        rows.push_back(
+            {features.kind == Kind::edge_edge, v, meeting->low, meeting->high, passage_of(features).has_value()});
     };
     for (int v = 0; v < static_cast<int>(points.size()); ++v)
       for (const auto& [a, b, c] : faces)
-        if (v != a && v != b && v != c)
-          add(false, {v, -1, a, b, c}, vertex_meets_face(at(v), at(a), at(b), at(c)),
-              vertex_through_face(at(v), at(a), at(b), at(c)).has_value());
+        if (v != a && v != b && v != c) add({v, -1, a, b, c}, {Kind::vertex_face, {at(v), at(a), at(b), at(c)}});
     const auto all = edges();
     for (std::size_t i = 0; i < all.size(); ++i)
       for (std::size_t k = i + 1; k < all.size(); ++k) {
         const auto [a, b] = all[i];
         const auto [c, d] = all[k];
         if (a != c && a != d && b != c && b != d)
-          add(true, {a, b, c, d, -1}, edge_meets_edge(at(a), at(b), at(c), at(d)),
-              edge_through_edge(at(a), at(b), at(c), at(d)).has_value());
+          add({a, b, c, d, -1}, {Kind::edge_edge, {at(a), at(b), at(c), at(d)}});
       }
     std::ranges::sort(rows);
     return rows;

@@ -35,18 +35,6 @@ std::optional<KnownQuery> parse(std::string_view line) {
 
 }  // namespace
 
-std::optional<oracle::Meeting> meeting_of(const Query& query) {
-  const auto& [a, b, c, d] = query.points;
-  return query.kind == Query::Kind::vertex_face ? oracle::vertex_meets_face(a, b, c, d)
-                                                : oracle::edge_meets_edge(a, b, c, d);
-}
-
-std::optional<oracle::Passage> passage_of(const Query& query) {
-  const auto& [a, b, c, d] = query.points;
-  return query.kind == Query::Kind::vertex_face ? oracle::vertex_through_face(a, b, c, d)
-                                                : oracle::edge_through_edge(a, b, c, d);
-}
-
 std::vector<KnownQuery> read_queries(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::vector<KnownQuery> queries;

@@ -10,14 +10,7 @@
 
 namespace collide::test {
 
-/// A vertex and the corners of a face, or the ends of two edges.
-struct Query {
-  enum class Kind { vertex_face, edge_edge };
-  Kind kind;
-  std::array<oracle::MovingPoint, 4> points;
-};
-std::optional<oracle::Meeting> meeting_of(const Query& query);
-std::optional<oracle::Passage> passage_of(const Query& query);
+using Query = oracle::MovingFeatures;
 
 struct KnownQuery : Query {
   bool meets;

@@ -25,8 +25,8 @@ glm::dvec3 random_point(std::mt19937& random, double largest) {
 
 struct Four {
   std::array<MovingPoint, 4> v;
-  auto vertex_face() const { return vertex_through_face(v[0], v[1], v[2], v[3]); }
-  auto edge_edge() const { return edge_through_edge(v[0], v[1], v[2], v[3]); }
+  auto vertex_face() const { return passage_of({MovingFeatures::Kind::vertex_face, v}); }
+  auto edge_edge() const { return passage_of({MovingFeatures::Kind::edge_edge, v}); }
 };
 const std::array<MovingPoint, 3> floor_face{still({0, 0, 0}), still({0, 0, 4}), still({4, 0, 0})};  // faces up
 Four over_floor(const MovingPoint& p) { return {{p, floor_face[0], floor_face[1], floor_face[2]}}; }

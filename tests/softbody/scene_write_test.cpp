@@ -7,7 +7,7 @@
 #include <random>
 
 #include "softbody/mechanics/material_keys.h"
-#include "softbody/scene/scene_write.h"
+#include "softbody/scene/scene.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

@@ -4,7 +4,7 @@
 #define HWY_TARGET_INCLUDE "softbody/integrate/implicit/kernels.cpp"
 #include <hwy/foreach_target.h>
 
-#include "softbody/state/lane_math.h"
+#include "softbody/state/simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace softbody {

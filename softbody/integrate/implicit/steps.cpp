@@ -1,5 +1,6 @@
 #include "softbody/integrate/implicit/steps.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include <glm/geometric.hpp>
@@ -72,6 +73,22 @@ void add_pair_impacts(const ImplicitBodies& bodies, const ImplicitBatch& b, doub
 }
 
 }  // namespace
+
+void ImplicitMatrices::prepare(const BodyModel& model, double h) {
+  if (const auto known = std::ranges::find(entries_, h, &Entry::h); known != entries_.end()) {
+    std::rotate(known, known + 1, entries_.end());
+    return;
+  }
+  auto matrix = std::make_unique<const ImplicitMatrix>(model, h, entries_.empty() ? nullptr : entries_[0].matrix.get());
+  if (entries_.size() >= max_lengths) entries_.erase(entries_.begin());
+  entries_.push_back({h, std::move(matrix)});
+}
+
+const ImplicitMatrix& ImplicitMatrices::at(double h) const {
+  const auto found = std::ranges::find(entries_, h, &Entry::h);
+  assert(found != entries_.end());
+  return *found->matrix;
+}
 
 void ImplicitSteps::retain(const std::function<bool(const BodyModel&)>& in_use) {
   std::erase_if(models_, [&](const auto& entry) { return !in_use(*entry.first); });

@@ -10,7 +10,7 @@
 #include "softbody/contact/contact_row.h"
 #include "softbody/contact/solid_law.h"
 #include "softbody/forces/penalty_contact.h"
-#include "softbody/integrate/implicit/matrices.h"
+#include "softbody/integrate/implicit/matrix.h"
 #include "softbody/integrate/implicit/quasi_newton.h"
 
 namespace softbody {
@@ -37,6 +37,25 @@ struct ImplicitBatch {
 struct ImplicitResult {
   Field<float> mean, rest;  // m/s, of all batches: velocities that lead to the end, and what they change by there
   SolidSums solids;
+};
+
+/// Keeps up to eight matrices of one body model, by step length. Two of them are in use at a time.
+class ImplicitMatrices {
+ public:
+  static constexpr std::size_t max_lengths = 8;
+
+  /// Makes the matrix for steps of h (s), unless it is there. For a ninth step length the one that has not been
+  /// prepared for longest is forgotten. Throws SceneError as ImplicitMatrix does.
+  void prepare(const BodyModel& model, double h);
+  /// Returns the matrix for steps of h, which must be prepared.
+  const ImplicitMatrix& at(double h) const;
+
+ private:
+  struct Entry {
+    double h;
+    std::unique_ptr<const ImplicitMatrix> matrix;
+  };
+  std::vector<Entry> entries_;  // in the order in which they were prepared last
 };
 
 /// Takes the steps, and owns the matrices and the workspaces that they need.
