@@ -24,6 +24,7 @@ softbody/mechanics: softbody/state softbody/model softbody/contact softbody/forc
 softbody/scene: collide softbody/mesh softbody/model softbody/contact softbody/mechanics
 softbody/integrate/implicit: softbody/state softbody/model softbody/contact softbody/forces softbody/mechanics
 softbody/integrate: collide/core softbody/state softbody/contact softbody/forces softbody/mechanics softbody/scene softbody/integrate/implicit
+softbody/integrate/methods: softbody/integrate
 softbody/world: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/mechanics softbody/scene softbody/integrate
 softbody/api/sbcollide:
 softbody/api: collide/api softbody/api/sbcollide softbody/mesh softbody/model softbody/mechanics softbody/scene softbody/world

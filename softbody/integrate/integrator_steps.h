@@ -1,5 +1,5 @@
 #pragma once
-// The integrators' steps; integrators.cpp lists them. a(x, v) is force over mass, gravity included.
+// The integrators' steps, one file each; integrators.cpp lists them. a(x, v) is force over mass, gravity included.
 // Contacts act on velocities: on those that a step drifts by, so that it ends outside of all solids, and once more on
 // those that it ends with where they have been changed since.
 

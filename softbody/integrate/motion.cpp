@@ -43,11 +43,6 @@ void Motion::begin_substeps(const Integrator& integrator, float h) {
 
 void Motion::show(const Batch& b) { parts_.penalty.gather(b, field(parts_.state.x), field(parts_.state.v)); }
 
-void Motion::show(const BatchShare& share) {
-  for (const Batch* b : share.batches) show(*b);
-  share.barrier();
-}
-
 void Motion::contact_forces(const BatchShare& share, float h) {
   PenaltyContact& penalty = parts_.penalty;
   if (penalty.pairs().empty()) return;

@@ -42,16 +42,15 @@ class Motion {
   /// h: of the coming substeps of this integrator, s.
   void begin_substeps(const Integrator& integrator, float h);
 
-  /// Shows contact_forces() the share's batches as they are now. Returns when all threads at work have done so.
-  void show(const BatchShare& share);
+  /// Shows contact_forces() a batch as it is now. Needs a barrier after it.
+  void show(const Batch& batch);
   /// Evaluates the penalty contacts of the share's part, for all_forces() of all batches. h: s, for which friction
   /// slips. The batches are those of the start of a frame, or of the last show().
   void contact_forces(const BatchShare& share, float h);
   void all_forces(const Batch& batch);  // at the current positions and velocities
   /// Does what all_forces() and kick() do together, faster, and drift() where nothing else acts on the batch.
   void advance_velocities(const BatchShare& share, const Batch& batch, float h, Volumes how);
-  /// Ends a substep that advance_velocities() has begun: drift() where it has not done so, and shows the batch as
-  /// show() does. Needs a barrier after it.
+  /// Ends a substep that advance_velocities() has begun: drift() where it has not done so, and show().
   void advance_positions(const BatchShare& share, const Batch& batch, float h);
   void other_forces(const Batch& batch);   // all but those that project() and pull() stand for
   void kick(const Batch& batch, float h);  // v += h (f / m + g)
@@ -79,7 +78,6 @@ class Motion {
   void clear(const Batch& batch, Quantity q);                          // q = 0
 
  private:
-  void show(const Batch& batch);
   VectorArray& array(Quantity q);
   Field<float> v(const Batch& b) { return field(parts_.state.v, b.base); }
   Field<float> f(const Batch& b) { return field(parts_.state.f, b.base); }
