@@ -5,9 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include <glm/common.hpp>
-
 #include "app/report/solid_passages.h"
+#include "collide/surface/box_tree.h"
 #include "softbody/forces/gas.h"
 #include "softbody/world/energy_watch.h"
 
@@ -21,9 +20,9 @@ using softbody::World;
 /// Returns the longest side (m) of the box around some points.
 double extent_of(const std::vector<dvec3>& points) {
   assert(!points.empty());
-  dvec3 lo = points[0], hi = lo;
-  for (const dvec3& p : points) lo = glm::min(lo, p), hi = glm::max(hi, p);
-  return std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
+  collide::surface::Box box;
+  for (const dvec3& p : points) box.add(p);
+  return std::max({box.extent(0), box.extent(1), box.extent(2)});
 }
 
 /// A run, frame by frame.
