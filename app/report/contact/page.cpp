@@ -17,50 +17,56 @@ std::string choice_name(const ContactChoice& choice) {
                      choice.tolerance);
 }
 
-namespace {
-
 // ---- the table of figures ----
 
-TableRow row_of(const ContactCase& c, const ContactTrial& t) {
-  const bool run = t.was_run();
-  const auto* surface =
-      std::ranges::find(softbody::contact_surfaces, t.choice.surface, &softbody::ContactSurfaceInfo::value);
-  const bool vertices = t.choice.surface == softbody::ContactSurface::vertices;  // else it has no method and tolerance
-  return {
-      {"part", c.speed ? "impact" : "scene"},
-      {"scene", c.scene.key},
-      {"speed", c.speed},
-      {"contact_surface", surface->key},
-      {"method", when(vertices, t.choice.method)},
-      {"tolerance_ratio", when(vertices, t.choice.tolerance)},
-      {"tolerance", when(vertices && run, t.tolerance)},
-      {"not_run", t.not_run},
-      {"radius", when(run && t.radius > 0, t.radius)},
-      {"bodies", when(run, t.bodies)},
-      {"vertices", when(run, t.vertices)},
-      {"frames", when(run, t.frames)},
-      {"looks", when(run, t.looks)},
-      {"cpu_ms", when(run, t.cpu_ms)},
-      {"detect_ms", when(run, t.detect_ms)},
-      {"solve_ms", when(run, t.solve_ms)},
-      {"penetrations", when(run, t.penetrations)},
-      {"missed", when(run && vertices, t.missed)},
-      {"deepest", when(run, t.deepest)},
-      {"mean_depth", when(run, t.mean_depth)},
-      {"solid_depth", when(run, t.solid_depth)},
-      {"crossed_vertices", when(run, t.crossed_vertices)},
-      {"edge_crossings", when(run, t.edge_crossings)},
-      {"passed", when(run, t.passed)},
-      {"through_solids", when(run, t.through_solids)},
-      {"finite", when(run, t.finite)},
-      {"asleep", when(run, t.asleep)},
-      {"end_depth", when(run, t.end_depth)},
-      {"end_overlapping_pairs", when(run, t.overlapping_pairs)},
-      {"end_self_intersecting", when(run, t.self_intersecting)},
-      {"jitter", when(run, t.jitter)},
-      {"failures", when(run, joined(t.failures(), "; "))},
-  };
+Table contact_table(const ContactResults& results) {
+  Table table;
+  for (const ContactCase& c : results.cases)
+    for (const ContactTrial& t : c.trials) {
+      const bool run = t.was_run();
+      const bool vertices =
+          t.choice.surface == softbody::ContactSurface::vertices;  // else it has no method and tolerance
+      const auto* surface =
+          std::ranges::find(softbody::contact_surfaces, t.choice.surface, &softbody::ContactSurfaceInfo::value);
+      table.add({
+          {"part", c.speed ? "impact" : "scene"},
+          {"scene", c.scene.key},
+          {"speed", c.speed},
+          {"contact_surface", surface->key},
+          {"method", when(vertices, t.choice.method)},
+          {"tolerance_ratio", when(vertices, t.choice.tolerance)},
+          {"tolerance", when(vertices && run, t.tolerance)},
+          {"not_run", t.not_run},
+          {"radius", when(run && t.radius > 0, t.radius)},
+          {"bodies", when(run, t.bodies)},
+          {"vertices", when(run, t.vertices)},
+          {"frames", when(run, t.frames)},
+          {"looks", when(run, t.looks)},
+          {"cpu_ms", when(run, t.cpu_ms)},
+          {"detect_ms", when(run, t.detect_ms)},
+          {"solve_ms", when(run, t.solve_ms)},
+          {"penetrations", when(run, t.penetrations)},
+          {"missed", when(run && vertices, t.missed)},
+          {"deepest", when(run, t.deepest)},
+          {"mean_depth", when(run, t.mean_depth)},
+          {"solid_depth", when(run, t.solid_depth)},
+          {"crossed_vertices", when(run, t.crossed_vertices)},
+          {"edge_crossings", when(run, t.edge_crossings)},
+          {"passed", when(run, t.passed)},
+          {"through_solids", when(run, t.through_solids)},
+          {"finite", when(run, t.finite)},
+          {"asleep", when(run, t.asleep)},
+          {"end_depth", when(run, t.end_depth)},
+          {"end_overlapping_pairs", when(run, t.overlapping_pairs)},
+          {"end_self_intersecting", when(run, t.self_intersecting)},
+          {"jitter", when(run, t.jitter)},
+          {"failures", when(run, joined(t.failures(), "; "))},
+      });
+    }
+  return table;
 }
+
+namespace {
 
 // ---- plots ----
 
@@ -199,13 +205,6 @@ void add_impact(Page& page, std::span<const ContactCase> cases) {
 }
 
 }  // namespace
-
-Table contact_table(const ContactResults& results) {
-  Table table;
-  for (const ContactCase& c : results.cases)
-    for (const ContactTrial& t : c.trials) table.add(row_of(c, t));
-  return table;
-}
 
 Page contact_page(const ContactResults& results) {
   Page page(results.options);
