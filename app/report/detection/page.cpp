@@ -118,8 +118,8 @@ Plot error_against_time(const Page& page, const SceneResult& scene) {
 
 std::string in_words(const compare::Configuration& c) {
   std::string text = method_of(c).name;
-  if (method_of(c).uses_levels) text += fmt::format(", level {}", levels_of(c));
-  if (method_of(c).uses_hash) text += fmt::format(", {} buckets, cell {}", buckets_of(c), cell_of(c));
+  if (method_of(c).uses_levels) text += fmt::format(", level {}", c.settings.levels);
+  if (method_of(c).uses_hash) text += fmt::format(", {} buckets, cell x {:g}", grouped(c.settings.buckets), c.cell);
   return text;
 }
 
@@ -148,7 +148,8 @@ void add_table_1(Page& page, const DetectionResults& r) {
     const std::string_view whose = method.key == collide::paper_method     ? " (the paper's)"
                                    : method.key == collide::default_method ? " (ours)"
                                                                            : "";
-    TableRow row{{"group", group_name(method)}, {"method", fmt::format("{}{}", method.name, whose)}};
+    const auto group = std::ranges::find(collide::method_groups, method.group, &collide::MethodGroupName::group);
+    TableRow row{{"group", group->name}, {"method", fmt::format("{}{}", method.name, whose)}};
     for (const SceneResult& s : r.scenes)
       if (std::ranges::count(paper_scenes, s.scene) > 0)
         row.push_back({fmt::format("{}: {} bodies, {} buckets", s.scene, s.states.back().bodies.count(), s.buckets),
@@ -189,9 +190,9 @@ Table best_table(const std::vector<Mean>& all) {
     const compare::Configuration& c = m.configuration;
     using Row = const compare::SweepRow*;
     table.add({{"method", method_of(c).name},
-               {"level", levels_of(c)},
-               {"buckets", buckets_of(c)},
-               {"cell", cell_of(c)},
+               {"level", when(method_of(c).uses_levels, c.settings.levels)},
+               {"buckets", when(method_of(c).uses_hash, grouped(c.settings.buckets))},
+               {"cell", when(method_of(c).uses_hash, fmt::format("x {:g}", c.cell))},
                {"ms median", brief(m.ms())},
                {"ms min", brief(m.mean([](Row r) { return r->times.min(); }))},
                {"recall", m.error() > 0 ? fmt::format("{:.5f}", 1 - m.error()) : "1"},

@@ -4,10 +4,6 @@
 #include <cassert>
 #include <limits>
 
-#include <fmt/core.h>
-
-#include "app/base/text.h"
-
 namespace app::report {
 bool Mean::ran() const {
   return std::ranges::all_of(rows, [](const compare::SweepRow* row) { return row->not_run.empty(); });
@@ -57,16 +53,6 @@ std::vector<std::size_t> pareto_front(const std::vector<Mean>& means) {
   for (const Mean& m : means)
     points.push_back(m.ran() ? compare::Tradeoff{m.ms(), m.error()} : compare::Tradeoff{never, never});
   return pareto_front(points);
-}
-
-std::string levels_of(const compare::Configuration& c) {
-  return method_of(c).uses_levels ? std::to_string(c.settings.levels) : "";
-}
-std::string buckets_of(const compare::Configuration& c) {
-  return method_of(c).uses_hash ? grouped(c.settings.buckets) : "";
-}
-std::string cell_of(const compare::Configuration& c) {
-  return method_of(c).uses_hash ? fmt::format("x {:g}", c.cell) : "";
 }
 
 }  // namespace app::report

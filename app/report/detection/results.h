@@ -85,15 +85,6 @@ inline constexpr int paper_level = 3;
 
 inline const collide::Method& method_of(const compare::Configuration& c) { return collide::method_table()[c.method]; }
 
-inline std::string_view group_name(const collide::Method& method) {
-  return std::ranges::find(collide::method_groups, method.group, &collide::MethodGroupName::group)->name;
-}
-
-// A setting as text; empty if the method does not use it.
-std::string levels_of(const compare::Configuration& c);
-std::string buckets_of(const compare::Configuration& c);
-std::string cell_of(const compare::Configuration& c);
-
 /// Returns detection.csv: every row of every state. What a method does not use, and what was not measured, is empty.
 Table detection_table(const DetectionResults& results);
 
