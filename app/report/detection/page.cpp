@@ -123,17 +123,6 @@ std::string in_words(const compare::Configuration& c) {
   return text;
 }
 
-void add_introduction(Page& page, const DetectionResults& r) {
-  const compare::SweepLimits& l = r.limits;
-  const std::size_t files = r.options.files.size();
-  const int threads = r.options.threads.value_or(1);
-  page.introduce(fmt::arg("sequence", files > 0 ? page.text_of("sequence", fmt::arg("files", grouped(files))) : ""),
-                 fmt::arg("shape", files > 0 ? "at rest (without --rest, in the first frame)" : "at rest"),
-                 fmt::arg("threads", threads), fmt::arg("plural", threads == 1 ? "" : "s"),
-                 fmt::arg("repetitions", l.repetitions), fmt::arg("repeat_ms", l.repeat_ms),
-                 fmt::arg("budget", grouped(l.budget)));
-}
-
 // ---- Table 1 ----
 
 std::string detections_per_second(const Mean* m) {
@@ -248,10 +237,17 @@ Table detection_table(const DetectionResults& results) {
 
 Page detection_page(const DetectionResults& results) {
   Page page(results.options);
-  add_introduction(page, results);
+  const compare::SweepLimits& limits = results.limits;
+  const std::size_t files = results.options.files.size();
+  const int threads = results.options.threads.value_or(1);
+  page.introduce(fmt::arg("sequence", files > 0 ? page.text_of("sequence", fmt::arg("files", grouped(files))) : ""),
+                 fmt::arg("shape", files > 0 ? "at rest (without --rest, in the first frame)" : "at rest"),
+                 fmt::arg("threads", threads), fmt::arg("plural", threads == 1 ? "" : "s"),
+                 fmt::arg("repetitions", limits.repetitions), fmt::arg("repeat_ms", limits.repeat_ms),
+                 fmt::arg("budget", grouped(limits.budget)));
   page.warn(warn_of_busy_machine(results.timed));
   add_table_1(page, results);
-  page.add("best", fmt::arg("scenes", results.options.files.size() > 0 ? "The sequence" : "Scenes"));
+  page.add("best", fmt::arg("scenes", files > 0 ? "The sequence" : "Scenes"));
   for (const SceneResult& scene : results.scenes) {
     const std::vector<Mean> all = means(scene);
     page.text("### {}", scene.name);
