@@ -1,6 +1,7 @@
 #include "app/cli/options.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <thread>
@@ -9,9 +10,8 @@
 #include <CLI/CLI.hpp>
 
 #include "app/base/parse_numbers.h"
-#include "app/cli/add_option.h"
+#include "app/files/inputs.h"
 #include "app/files/playback.h"
-#include "app/files/scene_folder.h"
 #include "softbody/scene/scene_keys.h"
 #include "softbody/world/world.h"
 
@@ -90,6 +90,33 @@ std::optional<glm::vec3> read_cell_size(const std::string& text) {
   if (!sides || (sides->size() != 1 && sides->size() != 3))
     throw UsageError("--cell-size " + text + ": must be a number of metres, three of them as X,Y,Z, or auto");
   return glm::vec3((*sides)[0], (*sides)[sides->size() / 2], sides->back());
+}
+
+/// Accepts decimal numbers from min to max. CLI::Range would call a fraction out of range.
+CLI::Validator integer_in_range(std::int64_t min, std::int64_t max) {
+  assert(min <= max);
+  const std::string from = std::to_string(min), to = std::to_string(max);
+  return CLI::Validator(
+      [=](std::string& text) {
+        const auto number = parse_integer(text);
+        if (!number || *number < min || *number > max)
+          return "must be a whole number from " + from + " to " + to + ", not " + text;
+        text = std::to_string(*number);  // CLI11 would read 010 as 8
+        return std::string();
+      },
+      "INT in [" + from + " - " + to + "]");
+}
+
+/// Adds an option with a value of this type, as the help calls it.
+template <class Value>
+CLI::Option* add(CLI::App& command, const char* name, const char* type, Value& value, const std::string& text) {
+  return command.add_option(name, value, text)->type_name(type);
+}
+/// Adds an option for a whole number from min to max.
+template <class Value>
+void add(CLI::App& command, const char* name, const char* type, std::int64_t min, std::int64_t max, Value& value,
+         const std::string& text) {
+  add(command, name, type, value, text)->transform(integer_in_range(min, max));
 }
 
 void add_common_options(CLI::App& command, Options& options) {
