@@ -19,7 +19,6 @@
 #include "app/files/inputs.h"
 #include "app/files/obj_writer.h"
 #include "app/files/output_file.h"
-#include "app/files/scene_folder.h"
 #include "softbody/world/measures.h"
 #if SBCOLLIDE_GRAPHICS
 #include "app/render/animation.h"

@@ -8,7 +8,6 @@
 #include "app/base/streams.h"
 #include "app/files/inputs.h"
 #include "app/files/output_file.h"
-#include "app/files/scene_folder.h"
 
 namespace app::report {
 namespace {

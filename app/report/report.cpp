@@ -4,7 +4,7 @@
 #include <array>
 
 #include "app/base/usage_error.h"
-#include "app/files/scene_folder.h"
+#include "app/files/inputs.h"
 #include "app/report/contact/results.h"
 #include "app/report/detection/results.h"
 #include "app/report/solver/results.h"

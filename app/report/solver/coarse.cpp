@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/files/scene_folder.h"
+#include "app/files/inputs.h"
 #include "app/reference/body_shape.h"
 #include "app/report/files.h"
 #include "app/report/solver/results.h"
