@@ -1,7 +1,6 @@
 #pragma once
 // What `report detection` measures, and its table, page and plots.
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>

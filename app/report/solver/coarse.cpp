@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include <glm/geometric.hpp>
 
 #include "app/files/inputs.h"

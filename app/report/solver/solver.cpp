@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <array>
-
 #include "app/base/usage_error.h"
 #include "app/files/output_file.h"
 #include "app/report/files.h"

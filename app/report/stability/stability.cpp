@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <functional>
 
 #include "app/base/usage_error.h"
 #include "app/files/output_file.h"
