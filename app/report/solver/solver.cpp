@@ -7,9 +7,6 @@
 namespace app::report {
 namespace {
 
-constexpr std::array quick_scenes{"free-1e3", "contact-1e3", "rest-1e3", "cloth",
-                                  "inflated", "stretched",   "swollen",  "four-balls"};
-
 /// Adds points with more and more steps to a curve, which have no cost yet but that of the run itself.
 void find_errors(const SolverCase& c, WorkCurve& curve, const SolverEffort& effort) {
   const softbody::Integrator& integrator = *curve.integrator;
@@ -82,7 +79,7 @@ std::vector<SolverScene> scenes_for(const ReportOptions& options) {
   }
   std::vector<SolverScene> scenes = solver_scenes();
   if (options.quick)
-    std::erase_if(scenes, [](const SolverScene& s) { return std::ranges::count(quick_scenes, s.key) == 0; });
+    std::erase_if(scenes, [](const SolverScene& s) { return s.key.ends_with("1e6"); });  // the stiff ones
   return scenes;
 }
 
