@@ -26,13 +26,11 @@ Table contact_table(const ContactResults& results) {
       const bool run = t.was_run();
       const bool vertices =
           t.choice.surface == softbody::ContactSurface::vertices;  // else it has no method and tolerance
-      const auto* surface =
-          std::ranges::find(softbody::contact_surfaces, t.choice.surface, &softbody::ContactSurfaceInfo::value);
       table.add({
           {"part", c.speed ? "impact" : "scene"},
           {"scene", c.scene.key},
           {"speed", c.speed},
-          {"contact_surface", surface->key},
+          {"contact_surface", softbody::contact_surfaces[static_cast<std::size_t>(t.choice.surface)].key},
           {"method", when(vertices, t.choice.method)},
           {"tolerance_ratio", when(vertices, t.choice.tolerance)},
           {"tolerance", when(vertices && run, t.tolerance)},
@@ -77,13 +75,6 @@ Series series(const ContactChoice& choice, std::string_view lines, std::vector<P
   const int shape = surface ? 7 : x < 0.5 ? 9 : x < 1 ? 11 : x > 1 ? 13 : 5;
   return {choice_name(choice), surface ? "#000000" : colour(*collide::find_method(choice.method)),
           fmt::format("{} pointtype {} pointsize 1.5 linewidth 2", lines, shape), std::move(points)};
-}
-
-Plot depth_against_time(const Page& page, const ContactCase& c) {
-  Plot plot = page.plot_of("depth against time", "contact-time-" + c.scene.key, fmt::arg("scene", c.scene.name));
-  for (const ContactTrial& t : c.trials)
-    if (t.was_run() && t.radius > 0) plot.add(series(t.choice, "points", {{t.cpu_ms, t.deepest / t.radius}}));
-  return plot;
 }
 
 Plot passed_against_speed(const Page& page, std::span<const ContactCase> cases) {
@@ -172,8 +163,10 @@ void add_scene(Page& page, const ContactCase& c) {
   if (std::ranges::none_of(c.trials, &ContactTrial::was_run))
     return page.text("Not run: {}.", c.trials.front().not_run);
   Table table;
+  Plot plot = page.plot_of("depth against time", "contact-time-" + c.scene.key, fmt::arg("scene", c.scene.name));
   for (const ContactTrial& t : c.trials) {
     const bool run = t.was_run();
+    if (run && t.radius > 0) plot.add(series(t.choice, "points", {{t.cpu_ms, t.deepest / t.radius}}));
     const auto in_radii = [&](double depth) { return when(run && t.radius > 0, brief(t.in_radii(depth))); };
     table.add({{"contact", choice_name(t.choice)},
                {"penetrating", when(run, brief(static_cast<double>(t.penetrations) / std::max(t.looks, 1)))},
@@ -188,7 +181,7 @@ void add_scene(Page& page, const ContactCase& c) {
                {"verdict", verdict(t)}});
   }
   page.table(table);
-  page.plot(depth_against_time(page, c));
+  page.plot(std::move(plot));
 }
 
 /// A row per choice, a column per speed.
