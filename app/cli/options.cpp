@@ -18,17 +18,13 @@
 namespace app::cli {
 namespace {
 
-std::string one_line(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
-/// Returns why CLI11 refuses the command line.
+/// Returns why CLI11 refuses the command line, in one line.
 std::string reason(const CLI::ParseError& error) {
   constexpr std::string_view value_of_flag = " was given a disallowed flag override";  // after its bare name
   constexpr std::string_view no_value = "Could not convert: ";                         // NAME = VALUE
-  std::string why = one_line(error.what());
+  std::string why = error.what();
+  while (why.ends_with('\n')) why.pop_back();
+  std::ranges::replace(why, '\n', ' ');
   if (why.starts_with(no_value)) return why.substr(no_value.size()) + ": is no number; write e.g. 0.25";
   if (!why.ends_with(value_of_flag)) return why;
   return "--" + why.substr(0, why.size() - value_of_flag.size()) + ": a flag, to be written without a value";
