@@ -62,10 +62,10 @@ class ZeroBand {
   explicit ZeroBand(const std::vector<Mean>& means) {
     double min = 0.1;
     for (const Mean& m : means)
-      if (m.ran() && m.error() > 0) min = std::min(min, m.error());
+      if (m.ran && m.error > 0) min = std::min(min, m.error);
     top_ = std::pow(10, std::floor(std::log10(min)));
   }
-  Point point(const Mean& m) const { return {m.ms(), m.error() > 0 ? m.error() : lane(m.configuration.method)}; }
+  Point point(const Mean& m) const { return {m.ms, m.error > 0 ? m.error : lane(m.configuration.method)}; }
   double bottom() const { return lane(collide::method_table().size()); }
   double top() const { return top_; }
   /// Returns the ticks above the band as gnuplot reads them.
@@ -90,8 +90,7 @@ void add_method(Plot& plot, const std::vector<Mean>& means, const ZeroBand& band
     Series series{title, colour(row),
                   fmt::format("points pointtype {} pointsize {:g} linewidth 1.5", point_type(row), size)};
     for (const Mean& m : means)
-      if (m.ran() && m.configuration.method == method &&
-          (!row.uses_levels || m.configuration.settings.levels == *level))
+      if (m.ran && m.configuration.method == method && (!row.uses_levels || m.configuration.settings.levels == *level))
         series.points.push_back(band.point(m));
     if (!series.points.empty()) title.clear();
     plot.add(std::move(series));
@@ -126,7 +125,7 @@ std::string in_words(const compare::Configuration& c) {
 
 std::string detections_per_second(const Mean* m) {
   if (!m) return "not run";
-  return whole(1000 / m->ms()) + (m->error() > 0 ? fmt::format(" (recall {:.4f})", 1 - m->error()) : "");
+  return whole(1000 / m->ms) + (m->error > 0 ? fmt::format(" (recall {:.4f})", 1 - m->error) : "");
 }
 
 void add_table_1(Page& page, const DetectionResults& r) {
@@ -158,10 +157,10 @@ std::vector<std::size_t> best_rows(const std::vector<Mean>& means) {
   for (std::size_t method = 0; method < collide::method_table().size(); ++method) {
     std::vector<std::size_t> ran;
     for (std::size_t i = 0; i < means.size(); ++i)
-      if (means[i].configuration.method == method && means[i].ran()) ran.push_back(i);
+      if (means[i].configuration.method == method && means[i].ran) ran.push_back(i);
     if (ran.empty()) continue;
-    const auto ms = [&](std::size_t i) { return means[i].ms(); };
-    const auto error = [&](std::size_t i) { return std::pair(means[i].error(), means[i].ms()); };
+    const auto ms = [&](std::size_t i) { return means[i].ms; };
+    const auto error = [&](std::size_t i) { return std::pair(means[i].error, means[i].ms); };
     const std::size_t fastest = *std::ranges::min_element(ran, {}, ms),
                       most_accurate = *std::ranges::min_element(ran, {}, error);
     best.push_back(fastest);
@@ -181,10 +180,10 @@ Table best_table(const std::vector<Mean>& all) {
                {"level", when(method_of(c).uses_levels, c.settings.levels)},
                {"buckets", when(method_of(c).uses_hash, grouped(c.settings.buckets))},
                {"cell", when(method_of(c).uses_hash, fmt::format("x {:g}", c.cell))},
-               {"ms median", brief(m.ms())},
+               {"ms median", brief(m.ms)},
                {"ms min", brief(m.mean([](Row r) { return r->times.min(); }))},
-               {"recall", m.error() > 0 ? fmt::format("{:.5f}", 1 - m.error()) : "1"},
-               {"precision", fmt::format("{:g}", m.precision())},
+               {"recall", m.error > 0 ? fmt::format("{:.5f}", 1 - m.error) : "1"},
+               {"precision", fmt::format("{:g}", m.precision)},
                {"pair tests", whole(m.mean([](Row r) { return r->counters.pair_tests; }))},
                {"hashes", whole(m.mean([](Row r) { return r->counters.hashes; }))},
                {"boxes", whole(m.mean([](Row r) { return r->counters.boxes; }))},
@@ -211,7 +210,7 @@ std::string over_budget(const std::vector<Mean>& means) {
   std::vector<std::string> methods;
   for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
     const auto count = [&](bool ran) {
-      return std::ranges::count_if(means, [&](const Mean& m) { return m.configuration.method == i && m.ran() == ran; });
+      return std::ranges::count_if(means, [&](const Mean& m) { return m.configuration.method == i && m.ran == ran; });
     };
     if (count(false) > 0)
       methods.push_back(

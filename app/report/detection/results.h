@@ -55,16 +55,15 @@ struct Mean {
   compare::Configuration configuration;
   std::vector<const compare::SweepRow*> rows{};  // of the states
   std::size_t true_contacts = 0;                 // of all states
+  bool ran = true;                               // on all states; if not, nothing else has a meaning
+  double ms = 0;                                 // mean of the states' medians
+  double error = 0;                              // 1 - recall over all states
+  double precision = 1;                          // over all states
 
-  /// Returns whether it was run on all states. If not, nothing else has a meaning.
-  bool ran() const;
   template <class Figure>
   double mean(const Figure& figure) const {
     return sum_of(rows, figure) / static_cast<double>(rows.size());
   }
-  double ms() const;     // mean of the states' medians
-  double error() const;  // 1 - recall over all states
-  double precision() const;
 };
 
 /// Returns them in the order of the configurations. They point into the scene.
