@@ -45,7 +45,8 @@ class Run {
   }
 
   void step(World& world) {
-    join(world);
+    const std::vector<softbody::BodySource>& sources = start_.scene.bodies;  // in the order in which they join
+    while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame()) above_balance_ += add_body().kinetic();
     world.step();
     ++frame_;
     time_ += world.frame_time();
@@ -107,12 +108,6 @@ class Run {
     weight_ += member.weight();
     lightest_ = std::min(lightest_, member.model->particle_mass);
     return member;
-  }
-
-  /// Counts bodies that join in the coming step.
-  void join(const World& world) {
-    const std::vector<softbody::BodySource>& sources = start_.scene.bodies;  // in this order
-    while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame()) above_balance_ += add_body().kinetic();
   }
 
   const StabilityStart& start_;
