@@ -7,8 +7,8 @@
 
 #include "app/base/streams.h"
 #include "app/cli/commands.h"
+#include "app/files/inputs.h"
 #include "app/files/output_file.h"
-#include "app/files/scene_folder.h"
 #include "app/report/report.h"
 #if SBCOLLIDE_GRAPHICS
 #include "app/window/demo.h"

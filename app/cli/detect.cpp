@@ -45,9 +45,8 @@ SequenceTask read_sequence(const Options& options, std::vector<std::string>& not
   files::FrameSequence sequence({d.files.begin(), d.files.end()}, {.by = d.by, .rest = d.rest});
   const std::size_t vertices = sequence.bodies()->bodies.vertex_count();
   if (vertices * sequence.count() > max_positions)
-    throw UsageError(std::to_string(sequence.count()) + " files of " + std::to_string(vertices) +
-                     " vertices each: at most " + std::to_string(max_positions) +
-                     " together; give fewer files at a time");
+    throw UsageError(fmt::format("{} files of {} vertices each: at most {} together; give fewer files at a time",
+                                 sequence.count(), vertices, max_positions));
   SequenceTask task{d.files, {}, {}, options.threads, d.repeat, d.reuse};
   for (std::size_t f = 0; f < sequence.count(); ++f) task.frames.push_back(sequence.read(f));
   std::ranges::copy(sequence.notes(), std::back_inserter(notes));

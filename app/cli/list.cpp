@@ -3,7 +3,7 @@
 #include <iostream>
 #include <optional>
 
-#include "app/files/scene_folder.h"
+#include "app/files/inputs.h"
 #include "collide/methods.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/scene/scene.h"

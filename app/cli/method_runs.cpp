@@ -1,9 +1,7 @@
 #include "app/cli/method_runs.h"
 
-#include <algorithm>
 #include <exception>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 

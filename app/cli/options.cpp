@@ -1,33 +1,30 @@
 #include "app/cli/options.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 #include <thread>
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include "app/base/parse_numbers.h"
-#include "app/cli/add_option.h"
+#include "app/files/inputs.h"
 #include "app/files/playback.h"
-#include "app/files/scene_folder.h"
 #include "softbody/scene/scene_keys.h"
 #include "softbody/world/world.h"
 
 namespace app::cli {
 namespace {
 
-std::string one_line(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
-/// Returns why CLI11 refuses the command line.
+/// Returns why CLI11 refuses the command line, in one line.
 std::string reason(const CLI::ParseError& error) {
   constexpr std::string_view value_of_flag = " was given a disallowed flag override";  // after its bare name
   constexpr std::string_view no_value = "Could not convert: ";                         // NAME = VALUE
-  std::string why = one_line(error.what());
+  std::string why = error.what();
+  while (why.ends_with('\n')) why.pop_back();
+  std::ranges::replace(why, '\n', ' ');
   if (why.starts_with(no_value)) return why.substr(no_value.size()) + ": is no number; write e.g. 0.25";
   if (!why.ends_with(value_of_flag)) return why;
   return "--" + why.substr(0, why.size() - value_of_flag.size()) + ": a flag, to be written without a value";
@@ -71,8 +68,64 @@ softbody::View read_view(const std::string& text) {
   return {.target = {(*v)[0], (*v)[1], (*v)[2]}, .distance = (*v)[3], .azimuth = (*v)[4], .elevation = (*v)[5]};
 }
 
+std::array<std::uint32_t, 3> read_primes(const std::string& text) {
+  const auto parts = split(text, ',');
+  const auto prime = [&](std::size_t axis) {
+    const auto number = parts.size() == 3 ? parse_integer(parts[axis]) : std::nullopt;
+    if (!number || *number < 1 || *number > std::numeric_limits<std::uint32_t>::max())
+      throw UsageError("--primes " + text +
+                       ": must be three whole numbers from 1 to 4294967295, e.g. 73856093,19349669,83492791");
+    return static_cast<std::uint32_t>(*number);
+  };
+  return {prime(0), prime(1), prime(2)};
+}
+
+std::optional<glm::vec3> read_cell_size(const std::string& text) {
+  if (text == "auto") return std::nullopt;
+  const auto sides = parse_reals(text, ',');
+  if (!sides || (sides->size() != 1 && sides->size() != 3))
+    throw UsageError("--cell-size " + text + ": must be a number of metres, three of them as X,Y,Z, or auto");
+  return glm::vec3((*sides)[0], (*sides)[sides->size() / 2], sides->back());
+}
+
+/// Accepts decimal numbers from min to max. CLI::Range would call a fraction out of range.
+CLI::Validator integer_in_range(std::int64_t min, std::int64_t max) {
+  assert(min <= max);
+  const std::string from = std::to_string(min), to = std::to_string(max);
+  return CLI::Validator(
+      [=](std::string& text) {
+        const auto number = parse_integer(text);
+        if (!number || *number < min || *number > max)
+          return "must be a whole number from " + from + " to " + to + ", not " + text;
+        text = std::to_string(*number);  // CLI11 would read 010 as 8
+        return std::string();
+      },
+      "INT in [" + from + " - " + to + "]");
+}
+
+/// Adds an option with a value of this type, as the help calls it.
+template <class Value>
+CLI::Option* add(CLI::App& command, const char* name, const char* type, Value& value, const std::string& text) {
+  return command.add_option(name, value, text)->type_name(type);
+}
+/// Adds an option for a whole number from min to max.
+template <class Value>
+void add(CLI::App& command, const char* name, const char* type, std::int64_t min, std::int64_t max, Value& value,
+         const std::string& text) {
+  add(command, name, type, value, text)->transform(integer_in_range(min, max));
+}
+
 void add_common_options(CLI::App& command, Options& options) {
-  add_detection_options(command, options.detection);
+  DetectionOptions& detection = options.detection;
+  add(command, "--method", "M", detection.method, "detector: a key of `list methods`");
+  add(command, "--levels", "N", 0, collide::max_levels, detection.levels,
+      "subdivision level: each body's box is cut into 2^N boxes");
+  add(command, "--buckets", "N", 1, collide::max_buckets, detection.buckets, "number of buckets of the hash table");
+  add(command, "--cell-size", "S|X,Y,Z|auto", detection.cell_size,
+      "sides of a grid cell in metres, or auto: as large as the largest subdivided box at rest + the tolerance");
+  add(command, "--primes", "A,B,C", detection.primes,
+      "factors of a cell's x, y and z in the hash function (default: 73856093,19349669,83492791)");
+  add(command, "--tolerance", "H", detection.tolerance, "collision tolerance in metres");
   add(command, "--threads", "N", 1, 256, options.threads, "threads (default: all cores)");
 }
 
@@ -239,10 +292,8 @@ void check_report(const report::ReportOptions& r) {
     throw UsageError("report " + r.name + " " + r.files.front() + ": only report detection takes files");
   if (r.scene) throw UsageError("--scene " + *r.scene + ": goes without files; leave one of them out");
   if (!r.tolerance) throw UsageError("--tolerance: is missing; files need one, in metres");
-  DetectionOptions detection;
-  detection.tolerance = r.tolerance;
   collide::Settings settings;
-  apply(detection, settings);
+  apply({.tolerance = r.tolerance}, settings);
 }
 
 /// Throws UsageError for what does not go with recorded frames.
@@ -267,6 +318,33 @@ void require_length(const std::string& option, double metres, const softbody::Ke
 }
 
 }  // namespace
+
+const collide::Method& chosen_method(const DetectionOptions& options, std::string_view otherwise) {
+  const collide::Method* method = collide::find_method(options.method ? *options.method : otherwise);
+  if (!method) throw UsageError("--method " + *options.method + ": unknown; use one of: " + collide::method_keys());
+  return *method;
+}
+
+void apply(const DetectionOptions& options, collide::Settings& settings) {
+  const auto check = [&](const std::string& option) {
+    if (const std::string wrong = collide::problem(settings); !wrong.empty()) throw UsageError(option + ": " + wrong);
+  };
+  if (options.levels) settings.levels = *options.levels;
+  if (options.buckets) settings.buckets = *options.buckets;
+  if (options.tolerance) {
+    settings.tolerance = static_cast<float>(*options.tolerance);
+    check(fmt::format("--tolerance {:.9g}", *options.tolerance));
+  }
+  if (options.cell_size) settings.cell_size = read_cell_size(*options.cell_size);
+  check("--cell-size");
+  if (options.primes) settings.primes = read_primes(*options.primes);
+}
+
+std::vector<std::string> warnings(const collide::Method& method, const collide::Settings& settings) {
+  std::string hash = method.uses_hash ? collide::hash_warning(settings) : "";
+  if (hash.empty()) return {};
+  return {std::move(hash)};
+}
 
 int frames_per_picture(double frame_time) {
   const double frames = 1 / (30 * frame_time);

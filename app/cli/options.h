@@ -1,6 +1,7 @@
 #pragma once
 // Parses the command line into plain values. Everything is checked here, once, before anything runs.
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,16 +10,26 @@
 #include <glm/vec2.hpp>
 
 #include "app/base/usage_error.h"
-#include "app/cli/detection_options.h"
 #include "app/files/body_file.h"
 #include "app/files/recording.h"
 #include "app/report/report.h"
+#include "collide/methods.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/scene/scene.h"
 
 namespace app::cli {
 
 enum class Command { demo, simulate, detect, report, list };
+
+/// The options of detection. For an option that is not given, the scene or the default decides.
+struct DetectionOptions {
+  std::optional<std::string> method{};
+  std::optional<int> levels{};
+  std::optional<std::uint32_t> buckets{};
+  std::optional<std::string> cell_size{};  // "S", "X,Y,Z" in metres or "auto", as typed
+  std::optional<double> tolerance{};       // m
+  std::optional<std::string> primes{};     // "A,B,C", as typed
+};
 
 /// The options of `detect` alone.
 struct DetectOptions {
@@ -62,6 +73,16 @@ struct Options {
 
   glm::ivec2 picture_size() const { return size.value_or(glm::ivec2(1280, 720)); }
 };
+
+/// Returns the chosen method, or the one with the key `otherwise`. Throws UsageError if there is no such method.
+const collide::Method& chosen_method(const DetectionOptions& options, std::string_view otherwise);
+
+/// Applies the other options to `settings`. Throws UsageError with the option at fault. Precondition: problem(settings)
+/// is empty.
+void apply(const DetectionOptions& options, collide::Settings& settings);
+
+/// Returns a line for each setting that is allowed but spoils this method: today those of the hash, if it has one.
+std::vector<std::string> warnings(const collide::Method& method, const collide::Settings& settings);
 
 /// Returns how many frames of this length (s) each picture of an animation stands for: the fewest that last 1/30 s, so
 /// that the animation runs in real time.

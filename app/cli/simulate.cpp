@@ -19,7 +19,6 @@
 #include "app/files/inputs.h"
 #include "app/files/obj_writer.h"
 #include "app/files/output_file.h"
-#include "app/files/scene_folder.h"
 #include "softbody/world/measures.h"
 #if SBCOLLIDE_GRAPHICS
 #include "app/render/animation.h"
@@ -104,8 +103,10 @@ std::vector<std::string> world_warnings(const softbody::World& world) {
   return list;
 }
 
-/// Returns the document of a world after its last frame, with these warnings; without `frames`, its other fields.
-Json document_json(const softbody::World& world, const std::vector<std::string>& warnings, std::optional<Json> frames) {
+/// Returns the document of a world after its last frame, with these warnings and frames; without frames, its other
+/// fields.
+Json document_json(const softbody::World& world, const std::vector<std::string>& warnings,
+                   const std::vector<FrameRow>& frames) {
   Json document{
       {"scene", world.scene().key},
       {"method", world.method().key},
@@ -115,7 +116,7 @@ Json document_json(const softbody::World& world, const std::vector<std::string>&
         {"why", world.last_step().why}}},
       {"plan", plan_json(world)},
       {"warnings", warnings}};
-  if (frames) document["frames"] = std::move(*frames);
+  for (const FrameRow& r : frames) document["frames"].push_back(to_json(r));
   document["state_hash"] = hex(world.state_hash());
   return document;
 }
@@ -344,12 +345,7 @@ void simulate(const Options& options) {
   if (progress) clear_progress();
   std::ranges::copy(world_warnings(world), std::back_inserter(warnings));
   if (!options.json_lines && !options.json) return print_table(world, warnings, rows);
-  std::optional<Json> frames;
-  if (options.json) {
-    frames = Json::array();
-    for (const FrameRow& r : rows) frames->push_back(to_json(r));
-  }
-  print_line(document_json(world, warnings, std::move(frames)));
+  print_line(document_json(world, warnings, rows));
 }
 
 }  // namespace app::cli

@@ -68,9 +68,9 @@ void Comparison::begin(const FrameSnapshot& snapshot) {
   if (world_ != snapshot.world) entries_.clear();  // the detectors of another world may hold much memory
   world_ = snapshot.world;
   for (const collide::Method& method : collide::method_table().subspan(entries_.size()))
-    entries_.push_back({.detector = method.make(), .result = {}, .error = {}});
+    entries_.push_back({method.make()});
   report_ = empty_report(snapshot);
-  for (Entry& entry : entries_) entry.done = false;
+  for (Entry& entry : entries_) entry.ms.reset();
   cost_model_.begin(snapshot.view(), snapshot.settings, snapshot.world);
   cost_model_.learn(snapshot.driver, snapshot.found.counters);
   for (std::size_t i = 0; i < snapshot.chosen.size(); ++i) {
@@ -90,7 +90,6 @@ void Comparison::detect(std::size_t method, const FrameSnapshot& snapshot) {
   try {
     entry.detector->forget();  // all methods search from scratch
     entry.ms = time_ms([&] { entry.detector->detect(snapshot.view(), snapshot.settings, alone_, entry.result); });
-    entry.done = true;
     cost_model_.learn(method, entry.result.counters);
   } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report
     entry.error = std::string("not run: ") + error.what();
@@ -101,18 +100,18 @@ std::optional<std::size_t> Comparison::find_reference(const FrameSnapshot& snaps
   if (const WorkEstimate work = cost_model_.of(method_index(collide::reference_method)); work.cost() > budget_)
     report_->reference_note = "brute force would take " + work.in_words();
   const auto reference = choose_reference(collide::method_table()[snapshot.driver], [&](std::size_t i) {
-    return i < entries_.size() && (entries_[i].done || cost_model_.of(i).cost() <= budget_);
+    return i < entries_.size() && (entries_[i].ms || cost_model_.of(i).cost() <= budget_);
   });
-  if (!reference || entries_[*reference].done) return reference;
+  if (!reference || entries_[*reference].ms) return reference;
   detect(*reference, snapshot);
-  if (entries_[*reference].done) return reference;
+  if (entries_[*reference].ms) return reference;
   report_->reference_note = entries_[*reference].error;
   return std::nullopt;
 }
 
 void Comparison::score(const FrameSnapshot& snapshot) {
   for (const std::size_t method : report_->order) {
-    if (entries_[method].done) report_->rows[method].ms = entries_[method].ms;
+    report_->rows[method].ms = entries_[method].ms;
     report_->rows[method].not_run = entries_[method].error;
   }
   report_->reference = find_reference(snapshot);
@@ -120,13 +119,13 @@ void Comparison::score(const FrameSnapshot& snapshot) {
   const Entry& reference = entries_[*report_->reference];
   const std::vector<collide::Contact>& truth = reference.result.contacts;
   report_->true_contacts = truth.size();
-  report_->reference_ms = reference.ms;
+  report_->reference_ms = *reference.ms;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     CompareRow& row = report_->rows[i];
     if (i == snapshot.driver) {
       row = scored(snapshot.found, truth, std::move(row));
-      if (entries_[i].done) row.counters = entries_[i].result.counters;  // of the search from scratch that was timed
-    } else if (entries_[i].done) {
+      if (entries_[i].ms) row.counters = entries_[i].result.counters;  // of the search from scratch that was timed
+    } else if (entries_[i].ms) {
       row = scored(entries_[i].result, truth, std::move(row));
     }
   }

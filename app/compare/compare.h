@@ -78,10 +78,9 @@ class Comparison {
  private:
   struct Entry {
     std::unique_ptr<collide::Detector> detector;
-    collide::Result result;
-    double ms = 0;
-    bool done = false;  // has run on this frame
-    std::string error;
+    collide::Result result{};
+    std::optional<double> ms{};  // nothing: has not run on this frame
+    std::string error{};
   };
 
   void begin(const FrameSnapshot& snapshot);

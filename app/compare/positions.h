@@ -16,7 +16,7 @@ struct Positions : softbody::Points {
   }
 };
 
-/// A copy of a frame.
+/// A copy of a frame, or of some of its bodies.
 struct FrameCopy {
   Positions at;
   collide::Bodies bodies;
@@ -24,6 +24,14 @@ struct FrameCopy {
   void copy(const collide::Frame& frame) {
     at.copy(frame);
     bodies = *frame.bodies;
+  }
+  /// Adds one body of a frame behind those that are there.
+  void add(const collide::Frame& frame, collide::Index body) {
+    const collide::Index begin = frame.bodies->first[body], end = frame.bodies->first[body + 1];
+    at.x.insert(at.x.end(), frame.x.begin() + begin, frame.x.begin() + end);
+    at.y.insert(at.y.end(), frame.y.begin() + begin, frame.y.begin() + end);
+    at.z.insert(at.z.end(), frame.z.begin() + begin, frame.z.begin() + end);
+    bodies.add(frame.bodies->shape[body]);
   }
   collide::Frame view() const { return {at.x, at.y, at.z, &bodies}; }
 };

@@ -48,7 +48,7 @@ std::vector<Configuration> sweep_configurations(const softbody::BodiesInMotion& 
 
 Sweep::Sweep(const collide::Frame& frame, const std::vector<Configuration>& configurations, const SweepLimits& limits,
              collide::Workers& workers)
-    : frame_(frame), limits_(limits), workers_(workers), random_(limits.seed) {
+    : frame_(frame), limits_(limits), workers_(workers), random_(1) {
   assert(collide::is_complete(frame));
   for (const collide::Method& method : collide::method_table()) detectors_.push_back(method.make());
   CostModel cost_model;
@@ -92,14 +92,13 @@ double Sweep::progress() const {
 }
 
 void Sweep::find_reference() {
-  const auto run = [&](const Configuration& c) {
-    collide::method_table()[c.method].make()->detect(frame_, c.settings, workers_, result_);
+  try {
+    const std::optional<Configuration> c = choose_reference();
+    if (!c) return;
+    collide::method_table()[c->method].make()->detect(frame_, c->settings, workers_, result_);
     truth_ = result_.contacts;
     report_.true_contacts = truth_.size();
     report_.reference = c;
-  };
-  try {
-    if (const auto c = choose_reference()) run(*c);
   } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report
     report_.reference_note = error.what();
   }

@@ -61,7 +61,6 @@ struct SweepLimits {
   std::uint64_t budget = 1'000'000'000;  // predicted WorkEstimate::cost() of a configuration: about a second
   int repetitions = 5;                   // max timed runs of each configuration
   double repeat_ms = 500;                // no further run once the runs of a configuration have taken so long
-  std::uint32_t seed = 1;                // of the random order
 };
 
 /// Runs configurations on one frame. First each runs once with a new detector: this checks what it finds and how

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <numeric>
+#include <utility>
 
 #include "app/files/forest.h"
 
@@ -177,10 +178,7 @@ std::vector<BodyMeshes::Edge> BodyMeshes::edges(std::size_t body) const {
   std::vector<Edge> list;
   for (std::size_t p = first_polygon[body]; p < first_polygon[body + 1]; ++p) {
     Index previous = polygons[p].back();
-    for (const Index vertex : polygons[p]) {
-      list.push_back({previous, vertex});
-      previous = vertex;
-    }
+    for (const Index vertex : polygons[p]) list.push_back({std::exchange(previous, vertex), vertex});
   }
   return list;
 }

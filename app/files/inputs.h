@@ -1,11 +1,15 @@
 #pragma once
-// Protects the files that the run reads: no output may replace one of them.
+// The files that the run reads: where the scenes are, and what no output may replace.
 
 #include <filesystem>
 
+#include "engine/resources.h"
 #include "softbody/scene/scene.h"
 
 namespace app::files {
+
+/// Returns the folder of the scenes that have a key. Throws engine::ResourceError if it is not found.
+inline std::filesystem::path scene_folder() { return engine::find_folder("assets") / "scenes"; }
 
 /// Protects a file: from now on require_no_input() refuses it. Throws UsageError if standard output goes into the
 /// file. Thread-safe.

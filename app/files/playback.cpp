@@ -69,10 +69,8 @@ void Playback::include(const RecordedFrame& frame) {
 std::shared_ptr<const RecordedFrame> Playback::frame(int number) {
   assert(number >= 0 && number < frame_count());
   const auto known = kept_.find(number);
-  std::shared_ptr<const RecordedFrame> frame;
-  if (known != kept_.end()) {
-    frame = known->second;
-  } else {
+  std::shared_ptr<const RecordedFrame> frame = known == kept_.end() ? nullptr : known->second;
+  if (!frame) {
     try {
       frame = record(number, read(number));
     } catch (const std::runtime_error& error) {  // of the file

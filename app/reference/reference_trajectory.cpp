@@ -22,12 +22,6 @@ double fastest(const BodyState& s) {
   return max;
 }
 
-/// Returns the stable step (s), shortened so that no particle moves more than a tenth of the radius: the stable step
-/// holds only for the current shape.
-double longest_step(const ReferenceBody& body, const BodyState& s) {
-  return std::min(body.stable_step(s), 0.1 * body.model().radius / fastest(s));
-}
-
 }  // namespace
 
 double unsettled_speed(const ReferenceBody& body, const BodyState& s) {
@@ -59,7 +53,8 @@ Trajectory integrate(const ReferenceBody& body, BodyState s, double fraction, co
   int calm_checks = 0;
   const double settled_seconds = body.scene().gravity == glm::dvec3(0.0) ? 0 : top_of_arc;
   for (double left_when_unsettled = left; left > 0; ++trajectory.steps) {
-    if (trajectory.steps % bound_every == 0) h = fraction * longest_step(body, s);
+    if (trajectory.steps % bound_every == 0)  // the stable step holds only for the current shape
+      h = fraction * std::min(body.stable_step(s), 0.1 * body.model().radius / fastest(s));
     if (trajectory.steps == limits.steps) {
       trajectory.complete = false;
       break;

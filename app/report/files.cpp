@@ -8,7 +8,6 @@
 #include "app/base/streams.h"
 #include "app/files/inputs.h"
 #include "app/files/output_file.h"
-#include "app/files/scene_folder.h"
 
 namespace app::report {
 namespace {
@@ -19,8 +18,8 @@ std::vector<std::pair<std::string, std::string>> draw_all(const std::vector<Plot
   try {
     for (const Plot& plot : plots) {
       say("plot " + plot.name, static_cast<double>(pictures.size() / 2) / static_cast<double>(plots.size()));
-      pictures.emplace_back(plot.name + ".svg", draw(script(plot), Picture::svg));
-      pictures.emplace_back(plot.name + ".png", draw(script(plot), Picture::png));
+      pictures.emplace_back(plot.name + ".svg", draw(plot, Picture::svg));
+      pictures.emplace_back(plot.name + ".png", draw(plot, Picture::png));
     }
   } catch (const std::runtime_error& error) {
     clear_progress();

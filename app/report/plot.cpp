@@ -21,11 +21,6 @@ std::string literal(std::string_view text) {
   return result + "'";
 }
 
-const char* terminal(Picture kind) {
-  return kind == Picture::svg ? "set terminal svg size 960,720 font 'sans-serif,14' background 'white' noenhanced\n"
-                              : "set terminal pngcairo size 960,720 font 'sans,11' background 'white' noenhanced\n";
-}
-
 }  // namespace
 
 std::string script(const Plot& plot) {
@@ -53,11 +48,14 @@ std::string script(const Plot& plot) {
   return text + drawn + "\n";
 }
 
-std::string draw(const std::string& script, Picture kind) {
+std::string draw(const Plot& plot, Picture kind) {
   // The picture goes into a file without a name, which holds any amount, so that neither side waits.
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::tmpfile(), &std::fclose);
   if (!out) throw std::runtime_error("gnuplot: no temporary file can be made; is the disk full?");
-  const std::string text = terminal(kind) + script;
+  const std::string text =
+      (kind == Picture::svg ? "set terminal svg size 960,720 font 'sans-serif,14' background 'white' noenhanced\n"
+                            : "set terminal pngcairo size 960,720 font 'sans,11' background 'white' noenhanced\n") +
+      script(plot);
   std::FILE* const in = ::popen(fmt::format("gnuplot - 2>/dev/null >/dev/fd/{}", ::fileno(out.get())).c_str(), "w");
   if (in) std::fwrite(text.data(), 1, text.size(), in);
   const int status = in ? ::pclose(in) : -1;

@@ -34,14 +34,14 @@ struct Plot {
   }
 };
 
-/// Returns the script for draw(). The plot has a series.
-std::string script(const Plot& plot);
-
 enum class Picture { svg, png };
 
-/// Draws a gnuplot script, which sets neither terminal nor output, and returns the bytes of the picture. Throws
-/// std::runtime_error, which says what to do, if gnuplot is not installed or cannot draw the script.
-std::string draw(const std::string& script, Picture kind);
+/// Returns the gnuplot script of a plot, which has a series; it sets no terminal.
+std::string script(const Plot& plot);
+
+/// Draws a plot, which has a series, and returns the bytes of the picture. Throws std::runtime_error, which says what
+/// to do, if gnuplot is not installed or cannot draw the plot.
+std::string draw(const Plot& plot, Picture kind);
 
 /// Returns "#rrggbb".
 std::string colour(const collide::Method& method);

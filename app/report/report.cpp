@@ -4,7 +4,7 @@
 #include <array>
 
 #include "app/base/usage_error.h"
-#include "app/files/scene_folder.h"
+#include "app/files/inputs.h"
 #include "app/report/contact/results.h"
 #include "app/report/detection/results.h"
 #include "app/report/solver/results.h"
@@ -23,12 +23,6 @@ struct Report {
 constexpr std::array reports{Report{"detection", report_detection}, Report{"contact", report_contact},
                              Report{"solver", report_solver}, Report{"stability", report_stability}};
 
-const Report& find_report(const std::string& name) {
-  const auto found = std::ranges::find(reports, name, &Report::name);
-  if (found != reports.end()) return *found;
-  throw UsageError("report " + name + ": unknown; use one of: " + report_names());
-}
-
 }  // namespace
 
 std::string report_names(std::string_view before_last) {
@@ -39,11 +33,12 @@ std::string report_names(std::string_view before_last) {
 }
 
 void report(const ReportOptions& options) {
-  const Report& report = find_report(options.name);
+  const auto report = std::ranges::find(reports, options.name, &Report::name);
+  if (report == reports.end()) throw UsageError("report " + options.name + ": unknown; use one of: " + report_names());
   // They throw where there is none: some reports need them only after minutes.
   files::scene_folder();
   engine::find_folder("assets/reports");
-  report.make(options);
+  report->make(options);
 }
 
 }  // namespace app::report

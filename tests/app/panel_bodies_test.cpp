@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/files/scene_folder.h"
+#include "app/files/inputs.h"
 #include "app/ui/panel/panel.h"
 #include "app/ui/parts.h"
 #include "softbody/forces/gas.h"

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "app/cli/options.h"
-#include "app/files/scene_folder.h"
+#include "app/files/inputs.h"
 #include "app/session/session.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"

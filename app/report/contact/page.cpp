@@ -17,50 +17,54 @@ std::string choice_name(const ContactChoice& choice) {
                      choice.tolerance);
 }
 
-namespace {
-
 // ---- the table of figures ----
 
-TableRow row_of(const ContactCase& c, const ContactTrial& t) {
-  const bool run = t.was_run();
-  const auto* surface =
-      std::ranges::find(softbody::contact_surfaces, t.choice.surface, &softbody::ContactSurfaceInfo::value);
-  const bool vertices = t.choice.surface == softbody::ContactSurface::vertices;  // else it has no method and tolerance
-  return {
-      {"part", c.speed ? "impact" : "scene"},
-      {"scene", c.scene.key},
-      {"speed", c.speed},
-      {"contact_surface", surface->key},
-      {"method", when(vertices, t.choice.method)},
-      {"tolerance_ratio", when(vertices, t.choice.tolerance)},
-      {"tolerance", when(vertices && run, t.tolerance)},
-      {"not_run", t.not_run},
-      {"radius", when(run && t.radius > 0, t.radius)},
-      {"bodies", when(run, t.bodies)},
-      {"vertices", when(run, t.vertices)},
-      {"frames", when(run, t.frames)},
-      {"looks", when(run, t.looks)},
-      {"cpu_ms", when(run, t.cpu_ms)},
-      {"detect_ms", when(run, t.detect_ms)},
-      {"solve_ms", when(run, t.solve_ms)},
-      {"penetrations", when(run, t.penetrations)},
-      {"missed", when(run && vertices, t.missed)},
-      {"deepest", when(run, t.deepest)},
-      {"mean_depth", when(run, t.mean_depth)},
-      {"solid_depth", when(run, t.solid_depth)},
-      {"crossed_vertices", when(run, t.crossed_vertices)},
-      {"edge_crossings", when(run, t.edge_crossings)},
-      {"passed", when(run, t.passed)},
-      {"through_solids", when(run, t.through_solids)},
-      {"finite", when(run, t.finite)},
-      {"asleep", when(run, t.asleep)},
-      {"end_depth", when(run, t.end_depth)},
-      {"end_overlapping_pairs", when(run, t.overlapping_pairs)},
-      {"end_self_intersecting", when(run, t.self_intersecting)},
-      {"jitter", when(run, t.jitter)},
-      {"failures", when(run, joined(t.failures(), "; "))},
-  };
+Table contact_table(const ContactResults& results) {
+  Table table;
+  for (const ContactCase& c : results.cases)
+    for (const ContactTrial& t : c.trials) {
+      const bool run = t.was_run();
+      const bool vertices =
+          t.choice.surface == softbody::ContactSurface::vertices;  // else it has no method and tolerance
+      table.add({
+          {"part", c.speed ? "impact" : "scene"},
+          {"scene", c.scene.key},
+          {"speed", c.speed},
+          {"contact_surface", softbody::contact_surfaces[static_cast<std::size_t>(t.choice.surface)].key},
+          {"method", when(vertices, t.choice.method)},
+          {"tolerance_ratio", when(vertices, t.choice.tolerance)},
+          {"tolerance", when(vertices && run, t.tolerance)},
+          {"not_run", t.not_run},
+          {"radius", when(run && t.radius > 0, t.radius)},
+          {"bodies", when(run, t.bodies)},
+          {"vertices", when(run, t.vertices)},
+          {"frames", when(run, t.frames)},
+          {"looks", when(run, t.looks)},
+          {"cpu_ms", when(run, t.cpu_ms)},
+          {"detect_ms", when(run, t.detect_ms)},
+          {"solve_ms", when(run, t.solve_ms)},
+          {"penetrations", when(run, t.penetrations)},
+          {"missed", when(run && vertices, t.missed)},
+          {"deepest", when(run, t.deepest)},
+          {"mean_depth", when(run, t.mean_depth)},
+          {"solid_depth", when(run, t.solid_depth)},
+          {"crossed_vertices", when(run, t.crossed_vertices)},
+          {"edge_crossings", when(run, t.edge_crossings)},
+          {"passed", when(run, t.passed)},
+          {"through_solids", when(run, t.through_solids)},
+          {"finite", when(run, t.finite)},
+          {"asleep", when(run, t.asleep)},
+          {"end_depth", when(run, t.end_depth)},
+          {"end_overlapping_pairs", when(run, t.overlapping_pairs)},
+          {"end_self_intersecting", when(run, t.self_intersecting)},
+          {"jitter", when(run, t.jitter)},
+          {"failures", when(run, joined(t.failures(), "; "))},
+      });
+    }
+  return table;
 }
+
+namespace {
 
 // ---- plots ----
 
@@ -71,13 +75,6 @@ Series series(const ContactChoice& choice, std::string_view lines, std::vector<P
   const int shape = surface ? 7 : x < 0.5 ? 9 : x < 1 ? 11 : x > 1 ? 13 : 5;
   return {choice_name(choice), surface ? "#000000" : colour(*collide::find_method(choice.method)),
           fmt::format("{} pointtype {} pointsize 1.5 linewidth 2", lines, shape), std::move(points)};
-}
-
-Plot depth_against_time(const Page& page, const ContactCase& c) {
-  Plot plot = page.plot_of("depth against time", "contact-time-" + c.scene.key, fmt::arg("scene", c.scene.name));
-  for (const ContactTrial& t : c.trials)
-    if (t.was_run() && t.radius > 0) plot.add(series(t.choice, "points", {{t.cpu_ms, t.deepest / t.radius}}));
-  return plot;
 }
 
 Plot passed_against_speed(const Page& page, std::span<const ContactCase> cases) {
@@ -166,8 +163,10 @@ void add_scene(Page& page, const ContactCase& c) {
   if (std::ranges::none_of(c.trials, &ContactTrial::was_run))
     return page.text("Not run: {}.", c.trials.front().not_run);
   Table table;
+  Plot plot = page.plot_of("depth against time", "contact-time-" + c.scene.key, fmt::arg("scene", c.scene.name));
   for (const ContactTrial& t : c.trials) {
     const bool run = t.was_run();
+    if (run && t.radius > 0) plot.add(series(t.choice, "points", {{t.cpu_ms, t.deepest / t.radius}}));
     const auto in_radii = [&](double depth) { return when(run && t.radius > 0, brief(t.in_radii(depth))); };
     table.add({{"contact", choice_name(t.choice)},
                {"penetrating", when(run, brief(static_cast<double>(t.penetrations) / std::max(t.looks, 1)))},
@@ -182,7 +181,7 @@ void add_scene(Page& page, const ContactCase& c) {
                {"verdict", verdict(t)}});
   }
   page.table(table);
-  page.plot(depth_against_time(page, c));
+  page.plot(std::move(plot));
 }
 
 /// A row per choice, a column per speed.
@@ -199,13 +198,6 @@ void add_impact(Page& page, std::span<const ContactCase> cases) {
 }
 
 }  // namespace
-
-Table contact_table(const ContactResults& results) {
-  Table table;
-  for (const ContactCase& c : results.cases)
-    for (const ContactTrial& t : c.trials) table.add(row_of(c, t));
-  return table;
-}
 
 Page contact_page(const ContactResults& results) {
   Page page(results.options);

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/compare/world_oracle.h"
-#include "app/files/scene_folder.h"
+#include "app/files/inputs.h"
 #include "app/report/solid_passages.h"
 #include "app/report/worlds.h"
 #include "softbody/model/body_model.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <fmt/core.h>
 
@@ -71,7 +70,7 @@ Table growth_table(const SceneResult& growth) {
   Table table;
   for (std::size_t i = 0; i < growth.configurations.size(); ++i) {
     const compare::Configuration& c = growth.configurations[i];
-    TableRow row{{"method", method_of(c).name}, {"buckets", buckets_of(c)}};
+    TableRow row{{"method", method_of(c).name}, {"buckets", when(method_of(c).uses_hash, grouped(c.settings.buckets))}};
     for (const MeasuredState& s : growth.states)
       row.push_back(
           {fmt::format("{} bodies", grouped(s.bodies.count())), cost(s.sweep.rows[i], s.bodies.vertex_count())});
@@ -92,7 +91,8 @@ Plot cost_against_bodies(const Page& page, const SceneResult& growth) {
     const compare::Configuration& c = growth.configurations[i];
     const collide::Method& method = method_of(c);
     const bool dashed = method.uses_hash && c.settings.buckets == compare::sweep_buckets.back();
-    Series series{method.name + (method.uses_hash ? fmt::format(", {} buckets", buckets_of(c)) : ""), colour(method),
+    Series series{method.name + (method.uses_hash ? fmt::format(", {} buckets", grouped(c.settings.buckets)) : ""),
+                  colour(method),
                   fmt::format("linespoints pointtype {} pointsize 1.1 linewidth 1.5 dashtype {}", point_type(method),
                               dashed ? 2 : 1)};
     for (const MeasuredState& state : growth.states)

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -10,49 +9,56 @@
 
 namespace app::report {
 
-namespace {
-
 // ---- the table of figures ----
 
-constexpr std::array coverage_names{"exact", "covered", "exceeded"};  // by value
-
-TableRow row_of(std::string_view part, const SceneResult& scene, const MeasuredState& state,
-                const compare::SweepRow& r) {
-  const compare::Configuration& c = r.configuration;
-  const collide::Method& method = method_of(c);
-  const glm::vec3 cell = *c.settings.cell_size;
-  const bool run = r.not_run.empty(), known = state.sweep.reference.has_value(), scored = run && known;
-  TableRow row{{"part", part},
-               {"scene", scene.scene},
-               {"frame", state.frame},
-               {"bodies", state.bodies.count()},
-               {"vertices", state.bodies.vertex_count()},
-               {"method", method.key},
-               {"levels", when(method.uses_levels, c.settings.levels)},
-               {"buckets", when(method.uses_hash, c.settings.buckets)},
-               {"cell", when(method.uses_hash, c.cell)},
-               {"cell_x", when(method.uses_hash, cell.x)},
-               {"cell_y", when(method.uses_hash, cell.y)},
-               {"cell_z", when(method.uses_hash, cell.z)},
-               {"not_run", r.not_run},
-               {"repetitions", r.times.ms.size()},
-               {"ms_median", run ? r.times.median() : TableCell()},
-               {"ms_min", run ? r.times.min() : TableCell()},
-               {"contacts", when(run, r.contacts)},
-               {"true_contacts", when(known, state.sweep.true_contacts)},
-               {"missed", when(scored, r.missed)},
-               {"recall", when(scored, r.recall)},
-               {"precision", when(scored, r.precision)},
-               {"pair_tests", when(run, r.counters.pair_tests)},
-               {"hashes", when(run, r.counters.hashes)},
-               {"boxes", when(run, r.counters.boxes)},
-               {"coverage", when(run, coverage_names.at(static_cast<std::size_t>(r.coverage)))},
-               {"memory_bytes", when(run, r.memory)}};
-  for (std::size_t kind = 0; kind < r.skipped.size(); ++kind)
-    row.push_back({fmt::format("skipped_{}", collide::skip_kinds[kind].key), when(run, r.skipped[kind])});
-  row.push_back({"reference", known ? method_of(*state.sweep.reference).key : TableCell()});
-  return row;
+Table detection_table(const DetectionResults& results) {
+  constexpr std::array coverage_names{"exact", "covered", "exceeded"};  // by value
+  Table table;
+  const auto add = [&](std::string_view part, const SceneResult& scene) {
+    for (const MeasuredState& state : scene.states)
+      for (const compare::SweepRow& r : state.sweep.rows) {
+        const compare::Configuration& c = r.configuration;
+        const collide::Method& method = method_of(c);
+        const glm::vec3 cell = *c.settings.cell_size;
+        const bool run = r.not_run.empty(), known = state.sweep.reference.has_value(), scored = run && known;
+        TableRow row{{"part", part},
+                     {"scene", scene.scene},
+                     {"frame", state.frame},
+                     {"bodies", state.bodies.count()},
+                     {"vertices", state.bodies.vertex_count()},
+                     {"method", method.key},
+                     {"levels", when(method.uses_levels, c.settings.levels)},
+                     {"buckets", when(method.uses_hash, c.settings.buckets)},
+                     {"cell", when(method.uses_hash, c.cell)},
+                     {"cell_x", when(method.uses_hash, cell.x)},
+                     {"cell_y", when(method.uses_hash, cell.y)},
+                     {"cell_z", when(method.uses_hash, cell.z)},
+                     {"not_run", r.not_run},
+                     {"repetitions", r.times.ms.size()},
+                     {"ms_median", run ? r.times.median() : TableCell()},
+                     {"ms_min", run ? r.times.min() : TableCell()},
+                     {"contacts", when(run, r.contacts)},
+                     {"true_contacts", when(known, state.sweep.true_contacts)},
+                     {"missed", when(scored, r.missed)},
+                     {"recall", when(scored, r.recall)},
+                     {"precision", when(scored, r.precision)},
+                     {"pair_tests", when(run, r.counters.pair_tests)},
+                     {"hashes", when(run, r.counters.hashes)},
+                     {"boxes", when(run, r.counters.boxes)},
+                     {"coverage", when(run, coverage_names.at(static_cast<std::size_t>(r.coverage)))},
+                     {"memory_bytes", when(run, r.memory)}};
+        for (std::size_t kind = 0; kind < r.skipped.size(); ++kind)
+          row.push_back({fmt::format("skipped_{}", collide::skip_kinds[kind].key), when(run, r.skipped[kind])});
+        row.push_back({"reference", known ? method_of(*state.sweep.reference).key : TableCell()});
+        table.add(row);
+      }
+  };
+  for (const SceneResult& scene : results.scenes) add("sweep", scene);
+  add("growth", results.growth);
+  return table;
 }
+
+namespace {
 
 // ---- plots ----
 
@@ -63,10 +69,10 @@ class ZeroBand {
   explicit ZeroBand(const std::vector<Mean>& means) {
     double min = 0.1;
     for (const Mean& m : means)
-      if (m.ran() && m.error() > 0) min = std::min(min, m.error());
+      if (m.ran && m.error > 0) min = std::min(min, m.error);
     top_ = std::pow(10, std::floor(std::log10(min)));
   }
-  Point point(const Mean& m) const { return {m.ms(), m.error() > 0 ? m.error() : lane(m.configuration.method)}; }
+  Point point(const Mean& m) const { return {m.ms, m.error > 0 ? m.error : lane(m.configuration.method)}; }
   double bottom() const { return lane(collide::method_table().size()); }
   double top() const { return top_; }
   /// Returns the ticks above the band as gnuplot reads them.
@@ -91,8 +97,7 @@ void add_method(Plot& plot, const std::vector<Mean>& means, const ZeroBand& band
     Series series{title, colour(row),
                   fmt::format("points pointtype {} pointsize {:g} linewidth 1.5", point_type(row), size)};
     for (const Mean& m : means)
-      if (m.ran() && m.configuration.method == method &&
-          (!row.uses_levels || m.configuration.settings.levels == *level))
+      if (m.ran && m.configuration.method == method && (!row.uses_levels || m.configuration.settings.levels == *level))
         series.points.push_back(band.point(m));
     if (!series.points.empty()) title.clear();
     plot.add(std::move(series));
@@ -118,27 +123,16 @@ Plot error_against_time(const Page& page, const SceneResult& scene) {
 
 std::string in_words(const compare::Configuration& c) {
   std::string text = method_of(c).name;
-  if (method_of(c).uses_levels) text += fmt::format(", level {}", levels_of(c));
-  if (method_of(c).uses_hash) text += fmt::format(", {} buckets, cell {}", buckets_of(c), cell_of(c));
+  if (method_of(c).uses_levels) text += fmt::format(", level {}", c.settings.levels);
+  if (method_of(c).uses_hash) text += fmt::format(", {} buckets, cell x {:g}", grouped(c.settings.buckets), c.cell);
   return text;
-}
-
-void add_introduction(Page& page, const DetectionResults& r) {
-  const compare::SweepLimits& l = r.limits;
-  const std::size_t files = r.options.files.size();
-  const int threads = r.options.threads.value_or(1);
-  page.introduce(fmt::arg("sequence", files > 0 ? page.text_of("sequence", fmt::arg("files", grouped(files))) : ""),
-                 fmt::arg("shape", files > 0 ? "at rest (without --rest, in the first frame)" : "at rest"),
-                 fmt::arg("threads", threads), fmt::arg("plural", threads == 1 ? "" : "s"),
-                 fmt::arg("repetitions", l.repetitions), fmt::arg("repeat_ms", l.repeat_ms),
-                 fmt::arg("budget", grouped(l.budget)));
 }
 
 // ---- Table 1 ----
 
 std::string detections_per_second(const Mean* m) {
   if (!m) return "not run";
-  return whole(1000 / m->ms()) + (m->error() > 0 ? fmt::format(" (recall {:.4f})", 1 - m->error()) : "");
+  return whole(1000 / m->ms) + (m->error > 0 ? fmt::format(" (recall {:.4f})", 1 - m->error) : "");
 }
 
 void add_table_1(Page& page, const DetectionResults& r) {
@@ -148,7 +142,8 @@ void add_table_1(Page& page, const DetectionResults& r) {
     const std::string_view whose = method.key == collide::paper_method     ? " (the paper's)"
                                    : method.key == collide::default_method ? " (ours)"
                                                                            : "";
-    TableRow row{{"group", group_name(method)}, {"method", fmt::format("{}{}", method.name, whose)}};
+    const auto group = std::ranges::find(collide::method_groups, method.group, &collide::MethodGroupName::group);
+    TableRow row{{"group", group->name}, {"method", fmt::format("{}{}", method.name, whose)}};
     for (const SceneResult& s : r.scenes)
       if (std::ranges::count(paper_scenes, s.scene) > 0)
         row.push_back({fmt::format("{}: {} bodies, {} buckets", s.scene, s.states.back().bodies.count(), s.buckets),
@@ -169,10 +164,10 @@ std::vector<std::size_t> best_rows(const std::vector<Mean>& means) {
   for (std::size_t method = 0; method < collide::method_table().size(); ++method) {
     std::vector<std::size_t> ran;
     for (std::size_t i = 0; i < means.size(); ++i)
-      if (means[i].configuration.method == method && means[i].ran()) ran.push_back(i);
+      if (means[i].configuration.method == method && means[i].ran) ran.push_back(i);
     if (ran.empty()) continue;
-    const auto ms = [&](std::size_t i) { return means[i].ms(); };
-    const auto error = [&](std::size_t i) { return std::pair(means[i].error(), means[i].ms()); };
+    const auto ms = [&](std::size_t i) { return means[i].ms; };
+    const auto error = [&](std::size_t i) { return std::pair(means[i].error, means[i].ms); };
     const std::size_t fastest = *std::ranges::min_element(ran, {}, ms),
                       most_accurate = *std::ranges::min_element(ran, {}, error);
     best.push_back(fastest);
@@ -189,13 +184,13 @@ Table best_table(const std::vector<Mean>& all) {
     const compare::Configuration& c = m.configuration;
     using Row = const compare::SweepRow*;
     table.add({{"method", method_of(c).name},
-               {"level", levels_of(c)},
-               {"buckets", buckets_of(c)},
-               {"cell", cell_of(c)},
-               {"ms median", brief(m.ms())},
+               {"level", when(method_of(c).uses_levels, c.settings.levels)},
+               {"buckets", when(method_of(c).uses_hash, grouped(c.settings.buckets))},
+               {"cell", when(method_of(c).uses_hash, fmt::format("x {:g}", c.cell))},
+               {"ms median", brief(m.ms)},
                {"ms min", brief(m.mean([](Row r) { return r->times.min(); }))},
-               {"recall", m.error() > 0 ? fmt::format("{:.5f}", 1 - m.error()) : "1"},
-               {"precision", fmt::format("{:g}", m.precision())},
+               {"recall", m.error > 0 ? fmt::format("{:.5f}", 1 - m.error) : "1"},
+               {"precision", fmt::format("{:g}", m.precision)},
                {"pair tests", whole(m.mean([](Row r) { return r->counters.pair_tests; }))},
                {"hashes", whole(m.mean([](Row r) { return r->counters.hashes; }))},
                {"boxes", whole(m.mean([](Row r) { return r->counters.boxes; }))},
@@ -222,7 +217,7 @@ std::string over_budget(const std::vector<Mean>& means) {
   std::vector<std::string> methods;
   for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
     const auto count = [&](bool ran) {
-      return std::ranges::count_if(means, [&](const Mean& m) { return m.configuration.method == i && m.ran() == ran; });
+      return std::ranges::count_if(means, [&](const Mean& m) { return m.configuration.method == i && m.ran == ran; });
     };
     if (count(false) > 0)
       methods.push_back(
@@ -234,23 +229,19 @@ std::string over_budget(const std::vector<Mean>& means) {
 
 }  // namespace
 
-Table detection_table(const DetectionResults& results) {
-  Table table;
-  const auto add = [&](std::string_view part, const SceneResult& scene) {
-    for (const MeasuredState& state : scene.states)
-      for (const compare::SweepRow& row : state.sweep.rows) table.add(row_of(part, scene, state, row));
-  };
-  for (const SceneResult& scene : results.scenes) add("sweep", scene);
-  add("growth", results.growth);
-  return table;
-}
-
 Page detection_page(const DetectionResults& results) {
   Page page(results.options);
-  add_introduction(page, results);
+  const compare::SweepLimits& limits = results.limits;
+  const std::size_t files = results.options.files.size();
+  const int threads = results.options.threads.value_or(1);
+  page.introduce(fmt::arg("sequence", files > 0 ? page.text_of("sequence", fmt::arg("files", grouped(files))) : ""),
+                 fmt::arg("shape", files > 0 ? "at rest (without --rest, in the first frame)" : "at rest"),
+                 fmt::arg("threads", threads), fmt::arg("plural", threads == 1 ? "" : "s"),
+                 fmt::arg("repetitions", limits.repetitions), fmt::arg("repeat_ms", limits.repeat_ms),
+                 fmt::arg("budget", grouped(limits.budget)));
   page.warn(warn_of_busy_machine(results.timed));
   add_table_1(page, results);
-  page.add("best", fmt::arg("scenes", results.options.files.size() > 0 ? "The sequence" : "Scenes"));
+  page.add("best", fmt::arg("scenes", files > 0 ? "The sequence" : "Scenes"));
   for (const SceneResult& scene : results.scenes) {
     const std::vector<Mean> all = means(scene);
     page.text("### {}", scene.name);

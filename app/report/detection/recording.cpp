@@ -111,11 +111,7 @@ MeasuredState middle_bodies(const MeasuredState& state, collide::Index count) {
   std::ranges::sort(nearest, {}, &std::pair<double, collide::Index>::second);
 
   MeasuredState part{{}, state.frame};
-  for (const auto& [distance, b] : nearest) {
-    part.bodies.add(all.shape[b]);
-    for (collide::Index v = all.first[b]; v < all.first[b + 1]; ++v)
-      part.at.add(std::array{glm::dvec3(softbody::ConstPoints(state.at)[v])});
-  }
+  for (const auto& [distance, b] : nearest) part.add(state.view(), b);
   return part;
 }
 

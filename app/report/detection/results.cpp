@@ -4,28 +4,7 @@
 #include <cassert>
 #include <limits>
 
-#include <fmt/core.h>
-
-#include "app/base/text.h"
-
 namespace app::report {
-bool Mean::ran() const {
-  return std::ranges::all_of(rows, [](const compare::SweepRow* row) { return row->not_run.empty(); });
-}
-
-double Mean::ms() const {
-  return mean([](const compare::SweepRow* row) { return row->times.median(); });
-}
-
-double Mean::error() const {
-  return true_contacts == 0 ? 0 : sum_of(rows, &compare::SweepRow::missed) / static_cast<double>(true_contacts);
-}
-
-double Mean::precision() const {
-  const double contacts = sum_of(rows, &compare::SweepRow::contacts),
-               found = static_cast<double>(true_contacts) - sum_of(rows, &compare::SweepRow::missed);
-  return contacts == 0 ? 1 : 1 - (contacts - found) / contacts;
-}
 
 std::vector<Mean> means(const SceneResult& scene) {
   assert(!scene.states.empty());
@@ -33,9 +12,18 @@ std::vector<Mean> means(const SceneResult& scene) {
   for (std::size_t i = 0; i < scene.configurations.size(); ++i) {
     Mean& mean = all.emplace_back(Mean{scene.configurations[i]});
     for (const MeasuredState& state : scene.states) {
-      mean.rows.push_back(&state.sweep.rows[i]);
+      const compare::SweepRow& row = state.sweep.rows[i];
+      mean.rows.push_back(&row);
       mean.true_contacts += state.sweep.true_contacts;
+      mean.ran = mean.ran && row.not_run.empty();
     }
+    if (!mean.ran) continue;
+    mean.ms = mean.mean([](const compare::SweepRow* row) { return row->times.median(); });
+    const auto true_contacts = static_cast<double>(mean.true_contacts);
+    const double contacts = sum_of(mean.rows, &compare::SweepRow::contacts),
+                 missed = sum_of(mean.rows, &compare::SweepRow::missed), found = true_contacts - missed;
+    if (true_contacts > 0) mean.error = missed / true_contacts;
+    if (contacts > 0) mean.precision = 1 - (contacts - found) / contacts;
   }
   return all;
 }
@@ -46,7 +34,7 @@ const Mean* find(const std::vector<Mean>& means, std::string_view key, int level
     const compare::Configuration& c = m.configuration;
     const collide::Method& method = method_of(c);
     return method.key == key && c.cell == 1 && (!method.uses_levels || c.settings.levels == level) &&
-           (!method.uses_hash || !buckets || c.settings.buckets == *buckets) && m.ran();
+           (!method.uses_hash || !buckets || c.settings.buckets == *buckets) && m.ran;
   });
   return found == means.end() ? nullptr : &*found;
 }
@@ -55,18 +43,8 @@ std::vector<std::size_t> pareto_front(const std::vector<Mean>& means) {
   constexpr double never = std::numeric_limits<double>::infinity();
   std::vector<compare::Tradeoff> points;
   for (const Mean& m : means)
-    points.push_back(m.ran() ? compare::Tradeoff{m.ms(), m.error()} : compare::Tradeoff{never, never});
+    points.push_back(m.ran ? compare::Tradeoff{m.ms, m.error} : compare::Tradeoff{never, never});
   return pareto_front(points);
-}
-
-std::string levels_of(const compare::Configuration& c) {
-  return method_of(c).uses_levels ? std::to_string(c.settings.levels) : "";
-}
-std::string buckets_of(const compare::Configuration& c) {
-  return method_of(c).uses_hash ? grouped(c.settings.buckets) : "";
-}
-std::string cell_of(const compare::Configuration& c) {
-  return method_of(c).uses_hash ? fmt::format("x {:g}", c.cell) : "";
 }
 
 }  // namespace app::report

@@ -1,7 +1,6 @@
 #pragma once
 // What `report detection` measures, and its table, page and plots.
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -56,16 +55,15 @@ struct Mean {
   compare::Configuration configuration;
   std::vector<const compare::SweepRow*> rows{};  // of the states
   std::size_t true_contacts = 0;                 // of all states
+  bool ran = true;                               // on all states; if not, nothing else has a meaning
+  double ms = 0;                                 // mean of the states' medians
+  double error = 0;                              // 1 - recall over all states
+  double precision = 1;                          // over all states
 
-  /// Returns whether it was run on all states. If not, nothing else has a meaning.
-  bool ran() const;
   template <class Figure>
   double mean(const Figure& figure) const {
     return sum_of(rows, figure) / static_cast<double>(rows.size());
   }
-  double ms() const;     // mean of the states' medians
-  double error() const;  // 1 - recall over all states
-  double precision() const;
 };
 
 /// Returns them in the order of the configurations. They point into the scene.
@@ -84,15 +82,6 @@ inline constexpr std::array<std::string_view, 4> paper_scenes{"A", "B", "C", "D"
 inline constexpr int paper_level = 3;
 
 inline const collide::Method& method_of(const compare::Configuration& c) { return collide::method_table()[c.method]; }
-
-inline std::string_view group_name(const collide::Method& method) {
-  return std::ranges::find(collide::method_groups, method.group, &collide::MethodGroupName::group)->name;
-}
-
-// A setting as text; empty if the method does not use it.
-std::string levels_of(const compare::Configuration& c);
-std::string buckets_of(const compare::Configuration& c);
-std::string cell_of(const compare::Configuration& c);
 
 /// Returns detection.csv: every row of every state. What a method does not use, and what was not measured, is empty.
 Table detection_table(const DetectionResults& results);

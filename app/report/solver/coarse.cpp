@@ -1,8 +1,6 @@
-#include <algorithm>
-
 #include <glm/geometric.hpp>
 
-#include "app/files/scene_folder.h"
+#include "app/files/inputs.h"
 #include "app/reference/body_shape.h"
 #include "app/report/files.h"
 #include "app/report/solver/results.h"
@@ -21,6 +19,7 @@ softbody::Scene creature() {
   scene.bodies = {*std::ranges::find_if(scene.bodies, is_creature)};
   scene.bodies[0].position = {0.05, 2.7, 0.1};
   scene.captions.clear();
+  scene.method = "sorted-grid";
   return scene;
 }
 
@@ -39,22 +38,23 @@ Look look_at(const softbody::World& world) {
   return look;
 }
 
+/// The fall of the creature in one resolution.
 struct Fall {
-  std::vector<Look> looks;
-  double solve_ms = 0;
-};
+  softbody::Scene scene;
+  std::vector<Look> looks{};
+  Timings solving{};  // by repetition
 
-Fall fall(softbody::Scene scene) {
-  scene.method = "sorted-grid";
-  softbody::World world(std::move(scene), {});
-  Fall done;
-  for (int frame = 1; frame <= fall_frames; ++frame) {
-    world.step();
-    done.solve_ms += world.last_step().solve_ms;
-    if (frame % frames_between_looks == 0) done.looks.push_back(look_at(world));
+  void repeat() {
+    softbody::World world(scene, {});
+    looks.clear();
+    double& ms = solving.ms.emplace_back(0);
+    for (int frame = 1; frame <= fall_frames; ++frame) {
+      world.step();
+      ms += world.last_step().solve_ms;
+      if (frame % frames_between_looks == 0) looks.push_back(look_at(world));
+    }
   }
-  return done;
-}
+};
 
 }  // namespace
 
@@ -64,28 +64,24 @@ CoarseResults measure_coarse(bool quick) {
   const std::size_t vertices = scene.bodies[0].mesh.vertex_count();
   std::vector<std::size_t> resolutions{200, 400, 800, 1600, 3200, vertices};
   if (quick) resolutions = {400, 800, 3200};
-  std::vector<softbody::Scene> scenes;
+  std::vector<Fall> falls;
   for (const std::size_t resolution : resolutions) {
     file.resolution = resolution;
     scene.bodies[0].mesh = softbody::MeshSource::from_file(file);
-    scenes.push_back(scene);
+    falls.push_back({scene});
   }
-  std::vector<Fall> falls(scenes.size());
-  std::vector<Timings> solving(scenes.size());
-  const int repetitions = quick ? 1 : 3;
-  for (int r = 0; r < repetitions; ++r)
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-      say("Coarse meshes", double(r * int(scenes.size()) + int(i)) / double(repetitions * int(scenes.size())));
-      falls[i] = fall(scenes[i]);
-      solving[i].ms.push_back(falls[i].solve_ms);
-    }
+  const std::size_t repetitions = quick ? 1 : 3, all = repetitions * falls.size();
+  for (std::size_t i = 0; i < all; ++i) {
+    say("Coarse meshes", double(i) / double(all));
+    falls[i % falls.size()].repeat();
+  }
   CoarseResults results{.vertices = vertices};
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const softbody::ImportedMesh& mesh = *scenes[i].bodies[0].mesh.imported;
+  for (const Fall& fall : falls) {
+    const softbody::ImportedMesh& mesh = *fall.scene.bodies[0].mesh.imported;
     const double radius = softbody::bounding_radius(mesh.mesh);
     double middle = 0, shape = 0;  // R
-    for (std::size_t k = 0; k < falls[i].looks.size(); ++k) {
-      const Look &here = falls[i].looks[k], &finest = falls.back().looks[k];
+    for (std::size_t k = 0; k < fall.looks.size(); ++k) {
+      const Look &here = fall.looks[k], &finest = falls.back().looks[k];
       middle = std::max(middle, glm::distance(here.middle, finest.middle) / radius);
       shape = std::max(shape, reference::rms_distance(here.about, finest.about) / radius);
     }
@@ -94,7 +90,7 @@ CoarseResults measure_coarse(bool quick) {
                       {"surfaces apart, R", when(mesh.coarse.has_value(), fmt::format("{:.2g}", apart / radius))},
                       {"middle, R", fmt::format("{:.2g}", middle)},
                       {"shape, R", fmt::format("{:.2g}", shape)},
-                      {"run time", fmt::format("{:.2g}", solving[i].median() / solving.back().median())}});
+                      {"run time", fmt::format("{:.2g}", fall.solving.median() / falls.back().solving.median())}});
   }
   return results;
 }

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <array>
-
 #include "app/base/usage_error.h"
 #include "app/files/output_file.h"
 #include "app/report/files.h"
@@ -9,9 +6,6 @@
 
 namespace app::report {
 namespace {
-
-constexpr std::array quick_scenes{"free-1e3", "contact-1e3", "rest-1e3", "cloth",
-                                  "inflated", "stretched",   "swollen",  "four-balls"};
 
 /// Adds points with more and more steps to a curve, which have no cost yet but that of the run itself.
 void find_errors(const SolverCase& c, WorkCurve& curve, const SolverEffort& effort) {
@@ -85,7 +79,7 @@ std::vector<SolverScene> scenes_for(const ReportOptions& options) {
   }
   std::vector<SolverScene> scenes = solver_scenes();
   if (options.quick)
-    std::erase_if(scenes, [](const SolverScene& s) { return std::ranges::count(quick_scenes, s.key) == 0; });
+    std::erase_if(scenes, [](const SolverScene& s) { return s.key.ends_with("1e6"); });  // the stiff ones
   return scenes;
 }
 

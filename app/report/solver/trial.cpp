@@ -1,6 +1,5 @@
 #include "app/report/solver/results.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 

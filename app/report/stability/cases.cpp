@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/files/scene_folder.h"
+#include "app/files/inputs.h"
 #include "softbody/forces/gas.h"
 #include "softbody/forces/shape_matching.h"
 #include "softbody/forces/springs.h"

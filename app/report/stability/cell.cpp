@@ -5,9 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include <glm/common.hpp>
-
 #include "app/report/solid_passages.h"
+#include "collide/surface/box_tree.h"
 #include "softbody/forces/gas.h"
 #include "softbody/world/energy_watch.h"
 
@@ -21,9 +20,9 @@ using softbody::World;
 /// Returns the longest side (m) of the box around some points.
 double extent_of(const std::vector<dvec3>& points) {
   assert(!points.empty());
-  dvec3 lo = points[0], hi = lo;
-  for (const dvec3& p : points) lo = glm::min(lo, p), hi = glm::max(hi, p);
-  return std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
+  collide::surface::Box box;
+  for (const dvec3& p : points) box.add(p);
+  return std::max({box.extent(0), box.extent(1), box.extent(2)});
 }
 
 /// A run, frame by frame.
@@ -46,7 +45,8 @@ class Run {
   }
 
   void step(World& world) {
-    join(world);
+    const std::vector<softbody::BodySource>& sources = start_.scene.bodies;  // in the order in which they join
+    while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame()) above_balance_ += add_body().kinetic();
     world.step();
     ++frame_;
     time_ += world.frame_time();
@@ -108,12 +108,6 @@ class Run {
     weight_ += member.weight();
     lightest_ = std::min(lightest_, member.model->particle_mass);
     return member;
-  }
-
-  /// Counts bodies that join in the coming step.
-  void join(const World& world) {
-    const std::vector<softbody::BodySource>& sources = start_.scene.bodies;  // in this order
-    while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame()) above_balance_ += add_body().kinetic();
   }
 
   const StabilityStart& start_;

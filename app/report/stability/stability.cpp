@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <functional>
 
 #include "app/base/usage_error.h"
 #include "app/files/output_file.h"
@@ -42,15 +41,6 @@ StabilityResults planned(const ReportOptions& options) {
   return r;
 }
 
-void find_start(StabilityRow& row, const StabilityResults& r) {
-  try {
-    row.start = prepare(row.make(row.stiffness), r.seconds);
-    find_reference(row.start, r.options.quick ? 15'000 : 100'000);
-  } catch (const softbody::SceneError& error) {
-    for (StabilityCell& cell : row.cells) cell.figures.refused = error.what();
-  }
-}
-
 }  // namespace
 
 void report_stability(const ReportOptions& options) {
@@ -61,7 +51,15 @@ void report_stability(const ReportOptions& options) {
     run_in_parallel(
         workers, count, [&](std::size_t i) { return what + " " + std::to_string(i + 1); }, task);
   };
-  for_each("reference", r.rows.size(), [&](std::size_t i) { find_start(r.rows[i], r); });
+  for_each("reference", r.rows.size(), [&](std::size_t i) {
+    StabilityRow& row = r.rows[i];
+    try {
+      row.start = prepare(row.make(row.stiffness), r.seconds);
+      find_reference(row.start, options.quick ? 15'000 : 100'000);
+    } catch (const softbody::SceneError& error) {
+      for (StabilityCell& cell : row.cells) cell.figures.refused = error.what();
+    }
+  });
   // In this order the expensive cells, those of stiff springs and short frames, are not all at the end.
   const std::size_t cells = r.integrators.size() * r.dts.size();
   for_each("cell", r.rows.size() * cells, [&](std::size_t i) {

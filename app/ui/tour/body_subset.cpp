@@ -7,23 +7,16 @@ namespace app::ui {
 BodySubset::BodySubset(const softbody::BodiesInMotion& world, softbody::BodyId a, softbody::BodyId b) {
   assert(a <= b);
   const collide::Frame all = world.positions();
-  const auto copy = [&](std::span<const float> from, std::vector<float>& to, softbody::BodyId body) {
-    const auto part = from.subspan(all.bodies->first[body], all.bodies->size(body));
-    to.insert(to.end(), part.begin(), part.end());
-  };
   for (const softbody::BodyId body : {a, b}) {
-    if (bodies_.count() == 1 && a == b) break;
-    first_[bodies_.count()] = all.bodies->first[body];
-    copy(all.x, at_.x, body);
-    copy(all.y, at_.y, body);
-    copy(all.z, at_.z, body);
-    bodies_.add(all.bodies->shape[body]);
+    if (copy_.bodies.count() == 1 && a == b) break;
+    first_[copy_.bodies.count()] = all.bodies->first[body];
+    copy_.add(all, body);
   }
 }
 
 collide::Index BodySubset::to_world(collide::Index vertex) const {
-  const bool second = vertex >= bodies_.first[1];
-  return first_[second] + vertex - bodies_.first[second];
+  const bool second = vertex >= copy_.bodies.first[1];
+  return first_[second] + vertex - copy_.bodies.first[second];
 }
 
 collide::Contact BodySubset::to_world(const collide::Contact& contact) const {

@@ -11,15 +11,14 @@ class BodySubset {
   /// Copies the bodies `a` and `b`, a <= b; if they are equal, the one body.
   BodySubset(const softbody::BodiesInMotion& world, softbody::BodyId a, softbody::BodyId b);
 
-  collide::Frame frame() const { return {at_.x, at_.y, at_.z, &bodies_}; }
+  collide::Frame frame() const { return copy_.view(); }
   /// Returns the contact with the world's indices of its vertices.
   collide::Contact to_world(const collide::Contact& contact) const;
 
  private:
   collide::Index to_world(collide::Index vertex) const;
 
-  compare::Positions at_;
-  collide::Bodies bodies_;
+  compare::FrameCopy copy_;
   std::array<collide::Index, 2> first_{};  // the first vertex of each body in the world
 };
 
