@@ -13,8 +13,8 @@
 namespace app::files {
 
 /// Moves frames far from the origin to it, all by the same way, so that floats hold them as exactly as the files do.
-/// Reads frames when they are shown, and the next one ahead of time, as a task for Background. The first frames, as many
-/// as fit into the memory that a Playback may take, are read only once. Bodies without vertices are left out.
+/// Reads frames when they are shown, and the next one ahead of time, as a task for Background. The first frames, as
+/// many as fit into the memory that a Playback may take, are read only once. Bodies without vertices are left out.
 class Playback : public Recording {
  public:
   static constexpr std::size_t max_kept_bytes = std::size_t{512} << 20;  // of positions

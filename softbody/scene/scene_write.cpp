@@ -29,7 +29,7 @@ void write(TomlLines& out, const Key& key, ContactSurface value) {
 void write_values(TomlLines& out, const Scene& scene) {
   std::string_view table;
   for_each_value(scene, [&](const Key& key, const auto& value) {
-    if (std::exchange(table, key.table()) != key.table()) out.heading("[" + std::string(table) + "]");
+    if (std::exchange(table, key.table()) != key.table()) out.heading(std::string("[").append(table).append("]"));
     write(out, key, value);
   });
 }

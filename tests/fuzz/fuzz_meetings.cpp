@@ -70,18 +70,18 @@ Query mirrored(Query query) {
 bool overlap(const Meeting& a, const Meeting& b) { return a.low <= b.high && b.low <= a.high; }
 
 void check(const Query& query, bool know_truth) {
-  const auto meeting = collide::test::meeting_of(query);
-  const auto passage = collide::test::passage_of(query);
+  const auto meeting = collide::oracle::meeting_of(query);
+  const auto passage = collide::oracle::passage_of(query);
   if (meeting) {
     require(0 <= meeting->low && meeting->low <= meeting->high && meeting->high <= 1, "times out of order");
     require(meeting->high - meeting->low <= 1e-12, "a wide enclosure");
   }
   require(!passage || (meeting && passage->time >= meeting->low), "a passage before any meeting");
-  const auto other = collide::test::meeting_of(mirrored(query));
+  const auto other = collide::oracle::meeting_of(mirrored(query));
   require(meeting.has_value() == other.has_value(), "a mirrored query has another answer");
   require(!meeting || overlap(*meeting, *other), "a mirrored query has another time");
-  require(meeting.has_value() == collide::test::meeting_of(backwards(query)).has_value(), "backwards, another answer");
-  require(passage.has_value() == collide::test::passage_of(backwards(query)).has_value(), "backwards, another passage");
+  require(meeting.has_value() == collide::oracle::meeting_of(backwards(query)).has_value(), "backwards, another answer");
+  require(passage.has_value() == collide::oracle::passage_of(backwards(query)).has_value(), "backwards, another passage");
   if (!know_truth) return;
   const collide::test::Truth truth = collide::test::truth_of(query);
   require(meeting.has_value() == truth.first_meeting.has_value(), "a wrong answer about meeting");
