@@ -49,7 +49,7 @@ glm::dvec3 Hand::point(State& state) const {
   return point;
 }
 
-/// On the point, which everything else would let go at `velocity` after the step.
+/// Returns the force (N) on the point, which everything else would let go at `velocity` after the step.
 glm::dvec3 Hand::force(const ForceBatch& b, const glm::dvec3& velocity) const {
   assert(b.h > 0);
   const BodyModel& model = *b.batch.model;

@@ -39,7 +39,10 @@ std::string Ghost::choose(const softbody::World& of, const std::optional<softbod
 
 std::string Ghost::restart(const softbody::World* of) try {
   if (!of) world_.reset();
-  if (world_) bring_to(*world_, *of, softbody::IntegratorChoice(world_->integrator_choice()));
+  if (world_) {
+    bring_to(*world_, *of, softbody::IntegratorChoice(world_->integrator_choice()));
+    before_.copy(world_->positions());
+  }
   restarted();
   return {};
 } catch (const std::exception& error) {
@@ -64,12 +67,11 @@ std::string Ghost::step(const softbody::World& of) try {
   return end(error);
 }
 
-/// What was found out about the ghost before is of no use.
+/// Forgets what was found out about the ghost before.
 void Ghost::restarted() {
   ++revision_;
   distances_.clear();
   blown_up_ = false;
-  if (world_) before_.copy(world_->positions());
 }
 
 std::string Ghost::end(const std::exception& error) {
