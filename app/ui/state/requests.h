@@ -1,6 +1,6 @@
 #pragma once
 // What the user asks for by the interface and by keys, as values. The interface is drawn from a session and a state
-// that it cannot change; carry_out() is the one place where it changes them.
+// that it cannot change; carry_out() is the one place where requests change them.
 
 #include <functional>
 #include <variant>

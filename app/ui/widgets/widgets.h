@@ -131,7 +131,7 @@ class Widgets {
   /// A field for typing a number within the limits.
   bool number_field(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max, const char* tooltip);
   /// A field for typing text. True when Enter is pressed in it. It shows a grey `hint` while it is empty.
-  /// What is typed is asked to become what `place` returns.
+  /// Asks to put what is typed where `place` says.
   bool text_field(const char* label, const std::string& value, const char* hint, const char* tooltip,
                   std::string& (*place)(session::Session&, UiState&));
   /// A list to choose from. If true, it is open: combo_item() for each item and ImGui::EndCombo() must follow.
