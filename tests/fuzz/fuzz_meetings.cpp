@@ -80,8 +80,10 @@ void check(const Query& query, bool know_truth) {
   const auto other = collide::oracle::meeting_of(mirrored(query));
   require(meeting.has_value() == other.has_value(), "a mirrored query has another answer");
   require(!meeting || overlap(*meeting, *other), "a mirrored query has another time");
-  require(meeting.has_value() == collide::oracle::meeting_of(backwards(query)).has_value(), "backwards, another answer");
-  require(passage.has_value() == collide::oracle::passage_of(backwards(query)).has_value(), "backwards, another passage");
+  require(meeting.has_value() == collide::oracle::meeting_of(backwards(query)).has_value(),
+          "backwards, another answer");
+  require(passage.has_value() == collide::oracle::passage_of(backwards(query)).has_value(),
+          "backwards, another passage");
   if (!know_truth) return;
   const collide::test::Truth truth = collide::test::truth_of(query);
   require(meeting.has_value() == truth.first_meeting.has_value(), "a wrong answer about meeting");

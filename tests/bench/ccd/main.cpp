@@ -65,8 +65,10 @@ void report(const std::string& name, const std::vector<Query>& queries, const st
     missed += known[k] && !meets;
     wrong += !known[k] && meets;
   }
-  const Timings meets = time_queries(queries, [](const Query& q) { return collide::oracle::meeting_of(q).has_value(); });
-  const Timings passes = time_queries(queries, [](const Query& q) { return collide::oracle::passage_of(q).has_value(); });
+  const Timings meets =
+      time_queries(queries, [](const Query& q) { return collide::oracle::meeting_of(q).has_value(); });
+  const Timings passes =
+      time_queries(queries, [](const Query& q) { return collide::oracle::passage_of(q).has_value(); });
   const auto errors = [&](std::size_t count) { return known.empty() ? "" : std::to_string(count); };
   std::printf("| %s | %zu | %zu | %s | %s | %.3g | %.3g | %.3g | %.3g |\n", name.c_str(), queries.size(), met,
               errors(missed).c_str(), errors(wrong).c_str(), meets.mean, meets.slowest, passes.mean, passes.slowest);
