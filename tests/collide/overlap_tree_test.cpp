@@ -65,7 +65,8 @@ std::vector<Sets> examples() {
 }
 
 TEST(OverlapTree, BetweenTwoSetsFindsAllPairsOnceAtEveryLevel) {
-  for (const Sets& sets : examples()) {
+  const std::vector<Sets> all = examples();
+  for (const Sets& sets : all) {
     const VertexSet a = picked(sets.a, 5), b = picked(sets.b, 9000);
     const float tolerance2 = sets.tolerance * sets.tolerance;
     const std::vector<Contact> expected = between(a, b, tolerance2);
@@ -83,7 +84,7 @@ TEST(OverlapTree, BetweenTwoSetsFindsAllPairsOnceAtEveryLevel) {
         uncut = tree.pair_tests();
         EXPECT_EQ(uncut, std::uint64_t{a.size} * b.size);
       }
-      EXPECT_LE(tree.pair_tests(), uncut);
+      EXPECT_LE(tree.pair_tests(), &sets == &all.front() && levels == 6 ? uncut / 2 : uncut);
       for (const auto& leaf : tree.leaf_boxes()) EXPECT_EQ(leaf.body, 3u);
     }
   }
@@ -108,16 +109,6 @@ TEST(OverlapTree, WithinASetFindsAllPairsOnceAtEveryLevel) {
     }
     EXPECT_EQ(tree.pair_tests(), std::uint64_t{set.size} * (set.size - 1) / 2);
   }
-}
-
-TEST(OverlapTree, SavesTests) {
-  const Sets sets = examples().front();
-  const VertexSet a = picked(sets.a, 0), b = picked(sets.b, 500);
-  OverlapTree tree;
-  std::vector<Contact> contacts;
-  tree.begin(6, contact_cutoff(sets.tolerance), sets.tolerance * sets.tolerance, no_limit);
-  tree.between(a, b, 0, contacts);
-  EXPECT_LT(tree.pair_tests(), std::uint64_t{a.size} * b.size / 2);
 }
 
 /// However few levels are asked for: else a large body would cost the square of its vertices.
@@ -148,7 +139,7 @@ TEST(OverlapTree, CutsLargeSetsUntilTheirCostIsLinear) {
   }
 }
 
-TEST(OverlapTree, StopsAtTheMost) {
+TEST(OverlapTree, ThrowsBeyondItsLimit) {
   const VertexSet a = picked(std::vector<glm::vec3>(200, glm::vec3(1)), 0),
                   b = picked(std::vector<glm::vec3>(200, glm::vec3(1)), 200);
   for (const int levels : {0, 4}) {
@@ -158,6 +149,8 @@ TEST(OverlapTree, StopsAtTheMost) {
     tree.between(a, b, 0, contacts);
     EXPECT_EQ(contacts.size(), 40'000u);
     EXPECT_THROW(tree.within(a, 0, contacts), std::length_error);
+    contacts.resize(1);
+    EXPECT_THROW(tree.between(a, b, 0, contacts), std::length_error);
   }
 }
 

@@ -3,7 +3,6 @@
 #include "collide/exact/pair_kernels.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "collide/core/cutoff.h"
 #include "every_target.h"
@@ -41,7 +40,7 @@ class PairKernels : public OnEveryTarget {
   std::vector<Contact> contacts_;
 };
 
-TEST_P(PairKernels, ContactsAreThoseOfPlainLoops) {
+TEST_P(PairKernels, FindTheContactsOfPlainLoops) {
   for (const Index size_a : sizes) {
     for (const Index size_b : sizes) {
       const Points3 a(random_points(random_, size_a, 0, 1)), b(random_points(random_, size_b, 0, 1));
@@ -69,32 +68,8 @@ TEST_P(PairKernels, ContactsAreThoseOfPlainLoops) {
   }
 }
 
-TEST_P(PairKernels, ContactsOfNothingAreNone) {
-  const Points3 some(random_points(random_, 20, 0, 1));
-  VertexSet nothing;
-  nothing.reserve(0);
-  nothing.end();
-  contacts_between(picked(some, 0), nothing, 9, no_limit, words_, contacts_);
-  contacts_between(nothing, picked(some, 0), 9, no_limit, words_, contacts_);
-  contacts_within(nothing, 9, no_limit, words_, contacts_);
-  EXPECT_TRUE(contacts_.empty());
-}
-
-TEST_P(PairKernels, ContactsStopAtTheMost) {
-  const VertexSet crowd = picked(Points3(std::vector<glm::vec3>(30, glm::vec3(0))), 0);
-  contacts_between(crowd, crowd, 1, 900, words_, contacts_);
-  EXPECT_EQ(contacts_.size(), 900u);
-  contacts_.clear();
-  EXPECT_THROW(contacts_between(crowd, crowd, 1, 899, words_, contacts_), std::length_error);
-  contacts_.clear();
-  contacts_within(crowd, 1, 435, words_, contacts_);
-  EXPECT_EQ(contacts_.size(), 435u);
-  contacts_.clear();
-  EXPECT_THROW(contacts_within(crowd, 1, 434, words_, contacts_), std::length_error);
-}
-
 /// Face to face along many directions: all contacts, in order; and the picked vertices are those that the slab leaves.
-TEST_P(PairKernels, FaceFindsAllContactsOfTheVerticesThatItPicks) {
+TEST_P(PairKernels, FindAllContactsOfTheVerticesThatFaceEachOther) {
   FacingScratch scratch;
   int parted = 0, some = 0;
   for (int trial = 0; trial < 600; ++trial) {
@@ -141,23 +116,6 @@ TEST_P(PairKernels, FaceFindsAllContactsOfTheVerticesThatItPicks) {
   }
   EXPECT_GT(parted, 100);
   EXPECT_GT(some, 100);
-}
-
-/// The whole detector, over a few frames of which the last ones are remembered.
-TEST_P(PairKernels, FindTheSameContactsOnEveryTarget) {
-  for (const NamedState& named : named_states()) {
-    State state = named.make();
-    Settings settings;
-    settings.tolerance = state.tolerance;
-    const std::vector<Contact> expected = oracle(state, settings);
-    const auto detector = find_method("multi-level-sb-exact")->make();
-    Workers workers(2, 0);
-    Result result;
-    for (int frame = 0; frame < 5; ++frame) {
-      detector->detect(state.frame(), settings, workers, result);
-      ASSERT_EQ(result.contacts, expected) << named.name << ' ' << frame;
-    }
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, PairKernels, testing::ValuesIn(targets()), target_name);
