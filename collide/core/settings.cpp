@@ -14,6 +14,8 @@ namespace collide {
 
 namespace {
 
+static_assert(cuts_along(0, max_levels) <= Cuts::max_depth);
+
 bool positive(float value) { return std::isfinite(value) && value > 0; }
 
 template <class Value>

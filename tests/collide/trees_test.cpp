@@ -1,4 +1,4 @@
-// Trees of boxes: what holds of every node, and what a search of them finds.
+// Trees of boxes: what holds of every node.
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "collide/core/body_boxes.h"
-#include "collide/core/cutoff.h"
 #include "collide/trees/body_trees.h"
 #include "collide/trees/point_tree.h"
 #include "states.h"
@@ -83,7 +82,7 @@ TEST(PointTree, HoldsEveryVertexInTheLeafOfItsPlace) {
   }
 }
 
-TEST(BodyTrees, AreRefittedAsBodiesMoveComeAndGo) {
+TEST(BodyTrees, HoldEveryVertexAsBodiesMoveComeAndGo) {
   const Ball ball = icosphere(2, 0.5f);
   const auto shape = std::make_shared<const Shape>(162, ball.edges, ball.vertices);
   Workers workers(2, 0);
@@ -116,31 +115,7 @@ TEST(BodyTrees, AreRefittedAsBodiesMoveComeAndGo) {
   }
 }
 
-/// The first of 162 vertices are of one patch in each body of a mesh, until the cuts are forgotten.
-TEST(BodyTrees, KeepTheCutsOfAMeshUntilTheyForget) {
-  const Ball ball = icosphere(2, 0.5f);
-  const auto shape = std::make_shared<const Shape>(162, ball.edges, ball.vertices);
-  std::vector<glm::vec3> crumpled = ball.vertices;
-  std::ranges::reverse(crumpled);
-  const auto order = [](const BodyTrees& trees) {
-    return std::vector(trees.points().vertex.begin(), trees.points().vertex.begin() + 162);
-  };
-  State before, after;
-  before.add(shape, ball.vertices);
-  after.add(shape, crumpled);
-  Workers workers(1);
-  BodyTrees trees;
-  const std::vector<Index> live{0};
-  trees.update(before.frame(), live, workers);
-  const std::vector<Index> first = order(trees);
-  trees.update(after.frame(), live, workers);
-  EXPECT_EQ(order(trees), first);
-  trees.forget();
-  trees.update(after.frame(), live, workers);
-  EXPECT_NE(order(trees), first);
-}
-
-TEST(BodyTrees, AreCutAnewByTheBodyWhosePatchesHaveSpread) {
+TEST(BodyTrees, AreCutAnewOnceThePatchesOfABodyHaveSpread) {
   const Ball ball = icosphere(3, 0.5f);
   const auto shape = std::make_shared<const Shape>(642, ball.edges, ball.vertices);
   std::mt19937 random(53);
@@ -165,30 +140,6 @@ TEST(BodyTrees, AreCutAnewByTheBodyWhosePatchesHaveSpread) {
   };
   EXPECT_EQ(boxes(trees.nodes_of(1)), boxes(fresh.nodes_of(0)));
   check_points(after, trees.points(), live);
-}
-
-TEST(TreeSearch, FindsTheContactsOfAnyTree) {
-  for (const NamedState& named : named_states()) {
-    const State state = named.make();
-    const Frame frame = state.frame();  // which the search keeps
-    BodyBoxes bodies;
-    Settings settings;
-    settings.tolerance = state.tolerance;
-    for (const int threads : {1, 3}) {
-      settings.self_collision = threads == 1;
-      Workers workers(threads, 0);
-      PointTree tree;
-      TreeSearch tree_search;
-      ContactSearch search;
-      Result result;
-      bodies.build(frame, result);
-      tree.build(frame, bodies.live, halve_by_x, 3, workers);
-      search.begin(frame, settings, tree.points(), threads);
-      tree_search.run(tree.nodes(), settings.self_collision, contact_cutoff(settings.tolerance), search, workers);
-      search.finish(result);
-      EXPECT_EQ(result.contacts, oracle(state, settings)) << named.name << ' ' << threads;
-    }
-  }
 }
 
 /// One point at each power of two: every cut into octants peels off a few of them.
