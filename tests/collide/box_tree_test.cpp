@@ -20,21 +20,26 @@ std::vector<Box> random_boxes(std::mt19937& random, std::size_t count) {
   return boxes;
 }
 
+template <class Bounds>
+void expect_overlapping(const std::vector<Bounds>& boxes, const std::vector<Bounds>& queries) {
+  const BoundsTree<Bounds> tree(boxes);
+  for (const Bounds& query : queries) {
+    std::vector<Index> found, expected;
+    tree.for_each_overlapping(query, [&](Index item) { found.push_back(item); });
+    for (Index i = 0; i < boxes.size(); ++i) {
+      if (overlap(boxes[i], query)) expected.push_back(i);
+    }
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected);
+  }
+}
+
 TEST(BoxTree, FindsExactlyTheOverlappingBoxes) {
   std::mt19937 random(21);
   for (const std::size_t count : {0u, 1u, 2u, 3u, 200u}) {
     std::vector<Box> boxes = random_boxes(random, count);
     if (count > 2) boxes[1] = {};
-    const BoxTree tree(boxes);
-    for (const Box& query : random_boxes(random, 50)) {
-      std::vector<Index> found, expected;
-      tree.for_each_overlapping(query, [&](Index item) { found.push_back(item); });
-      for (Index i = 0; i < count; ++i) {
-        if (overlap(boxes[i], query)) expected.push_back(i);
-      }
-      std::sort(found.begin(), found.end());
-      EXPECT_EQ(found, expected);
-    }
+    expect_overlapping(boxes, random_boxes(random, 50));
   }
 }
 
@@ -109,17 +114,7 @@ TEST(MovingBoxTree, FindsExactlyTheOverlappingBoxes) {
       boxes.push_back({random_boxes(random, 1).front(), random_boxes(random, 1).front()});
     return boxes;
   };
-  const std::vector<MovingBox> boxes = moving_boxes(300);
-  const MovingBoxTree tree(boxes);
-  for (const MovingBox& query : moving_boxes(50)) {
-    std::vector<Index> found, expected;
-    tree.for_each_overlapping(query, [&](Index item) { found.push_back(item); });
-    for (Index i = 0; i < boxes.size(); ++i) {
-      if (overlap(boxes[i], query)) expected.push_back(i);
-    }
-    std::sort(found.begin(), found.end());
-    EXPECT_EQ(found, expected);
-  }
+  expect_overlapping(moving_boxes(300), moving_boxes(50));
 }
 
 }  // namespace

@@ -6,26 +6,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include <glm/geometric.hpp>
 
 #include "collide/core/cutoff.h"
-#include "states.h"
+#include "every_target.h"
 
 namespace collide::test {
 
 using namespace collide::exact;
 namespace {
-
-struct Body {
-  std::vector<float> x, y, z;
-  explicit Body(const std::vector<glm::vec3>& points) {
-    for (const glm::vec3& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
-  }
-  VertexRun run() const { return {x.data(), y.data(), z.data(), static_cast<Index>(x.size())}; }
-};
 
 /// One deformation of a sphere of radius 1.
 std::vector<glm::vec3> deformed(std::vector<glm::vec3> points, int kind, std::mt19937& random) {
@@ -75,7 +66,7 @@ std::vector<glm::vec3> deformed(std::vector<glm::vec3> points, int kind, std::mt
 /// Counts the bodies that are culled; fails where a pair that is left out is a contact.
 int culled(const CullingReference& reference, const Topology& topology, const std::vector<glm::vec3>& points,
            float tolerance) {
-  const Body body(points);
+  const Points3 body(points);
   CullingReference::Scratch scratch;
   const SelfCollisionCandidates risk = reference.candidates_of(body.run(), measure_bounds(body.run()), scratch);
   if (!risk.culled) return 0;
@@ -102,7 +93,7 @@ TEST(SelfCollisionCulling, LeavesOutNoContact) {
     std::mt19937 random(61);
     std::array<int, 10> count{};
     for (const float tolerance : {0.02f, 0.1f, 0.2f, 0.4f}) {
-      const Body rest(ball.vertices);
+      const Points3 rest(ball.vertices);
       const CullingReference reference(rest.run(), topology, contact_cutoff(tolerance));
       ASSERT_TRUE(reference.usable());
       for (int kind = 0; kind < 10; ++kind) {
@@ -128,7 +119,7 @@ TEST(SelfCollisionCulling, LeavesOutNoContact) {
 TEST(SelfCollisionCulling, HoldsAtItsLimit) {
   const Ball ball = icosphere(2, 1);
   const Topology topology(162, ball.edges);
-  const Body rest(ball.vertices);
+  const Points3 rest(ball.vertices);
   std::mt19937 random(62);
   int proofs = 0;
   for (const float tolerance : {0.05f, 0.2f}) {
@@ -156,7 +147,7 @@ TEST(SelfCollisionCulling, HoldsWhereSquaresUnderflowOrOverflow) {
     std::vector<glm::vec3> rest = ball.vertices;
     for (glm::vec3& p : rest) p *= scale;
     const float tolerance = 0.2f * scale;
-    const Body positions(rest);
+    const Points3 positions(rest);
     const CullingReference reference(positions.run(), topology, contact_cutoff(tolerance));
     if (!reference.usable()) continue;
     for (int kind = 0; kind < 10; ++kind) {
@@ -173,7 +164,7 @@ TEST(SelfCollisionCulling, HoldsWhereSquaresUnderflowOrOverflow) {
 TEST(SelfCollisionCulling, HoldsForABodyFarLargerThanItsReference) {
   const Ball ball = icosphere(2, 1);
   const Topology topology(162, ball.edges);
-  const Body rest(ball.vertices);
+  const Points3 rest(ball.vertices);
   const CullingReference reference(rest.run(), topology, contact_cutoff(0.1f));
   std::vector<glm::vec3> points = ball.vertices;
   for (glm::vec3& p : points) p *= 5e18f;
@@ -193,12 +184,12 @@ TEST(SelfCollisionCulling, RefusesReferencesOfNoUse) {
   Ball ball = icosphere(2, 1);
   const Topology topology(162, ball.edges);
   const auto usable = [&](const std::vector<glm::vec3>& points) {
-    const Body body(points);
+    const Points3 body(points);
     return CullingReference(body.run(), topology, 0.1f).usable();
   };
   EXPECT_TRUE(usable(ball.vertices));
   for (Index v = 0; v < 162; ++v) {
-    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    for (const float bad : {nan, infinity}) {
       std::vector<glm::vec3> broken = ball.vertices;
       broken[v].y = bad;
       EXPECT_FALSE(usable(broken)) << v;

@@ -115,7 +115,7 @@ TEST(Workers, DoNotWaitAtABarrierForOneThatHasThrown) {
   }
 }
 
-TEST(Workers, GiveEachThreadItsLeastShare) {
+TEST(Workers, GiveEachThreadItsLeastShareAndAProcessor) {
   Workers workers(2);
   const int both = std::thread::hardware_concurrency() == 1 ? 1 : 2;
   EXPECT_EQ(workers.threads_for(0), 1);
@@ -123,13 +123,10 @@ TEST(Workers, GiveEachThreadItsLeastShare) {
   EXPECT_EQ(workers.threads_for(2 * Workers::least_share), both);
   EXPECT_EQ(workers.threads_for(1e300), both);
   EXPECT_EQ(Workers(4, 0).threads_for(0), 4);
-}
-
-TEST(Workers, AreNoMoreThanProcessors) {
   EXPECT_LE(Workers(256).threads_for(1e300), static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
 }
 
-TEST(Workers, LeaveTheOtherThreadsAlone) {
+TEST(Workers, UseNoMoreThreadsThanAskedFor) {
   Workers workers(4);
   for (int repeat = 0; repeat < 300; ++repeat) {
     const int threads = 1 + repeat * 7 % 4;
@@ -148,15 +145,6 @@ TEST(Workers, LeaveTheOtherThreadsAlone) {
     });
     ASSERT_EQ(together, 5 - threads);
     ASSERT_FALSE(beyond);
-  }
-}
-
-TEST(Workers, RunEachPartOnce) {
-  Workers workers(3);
-  for (int parts = 1; parts <= 3; ++parts) {
-    std::vector<std::atomic<int>> done(static_cast<std::size_t>(parts));
-    workers.run(parts, [&](int part) { ++done[static_cast<std::size_t>(part)]; });
-    for (const std::atomic<int>& times : done) EXPECT_EQ(times, 1);
   }
 }
 
