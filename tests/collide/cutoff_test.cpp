@@ -8,16 +8,6 @@
 namespace collide::test {
 namespace {
 
-/// The true distance in long double: no rounding of the differences, none that matters in the rest.
-long double distance(const glm::vec3& a, const glm::vec3& b) {
-  long double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const long double d = static_cast<long double>(a[axis]) - static_cast<long double>(b[axis]);
-    sum += d * d;
-  }
-  return std::sqrt(sum);
-}
-
 TEST(ContactCutoff, BoundsEveryPairThatThePredicateAccepts) {
   std::mt19937 random(11);
   int accepted = 0;

@@ -2,19 +2,14 @@
 
 #include "collide/core/vertex_kernels.h"
 
+#include <glm/matrix.hpp>
+
 #include "every_target.h"
 
 namespace collide::test {
 namespace {
 
 using VertexKernels = OnEveryTarget;
-
-long double distance(const VertexRun& a, Index i, const VertexRun& b, Index j) {
-  const long double dx = static_cast<long double>(a.x[i]) - static_cast<long double>(b.x[j]),
-                    dy = static_cast<long double>(a.y[i]) - static_cast<long double>(b.y[j]),
-                    dz = static_cast<long double>(a.z[i]) - static_cast<long double>(b.z[j]);
-  return std::sqrt(dx * dx + dy * dy + dz * dz);
-}
 
 TEST_P(VertexKernels, BoundHoldsEveryVertexAndIsTight) {
   int turn = 0;  // of the six sides, to be the one that lies farthest out
@@ -28,12 +23,11 @@ TEST_P(VertexKernels, BoundHoldsEveryVertexAndIsTight) {
       ASSERT_TRUE(bound.finite);
       glm::vec3 lo(infinity), hi(-infinity);
       long double farthest = 0;
-      const Points3 centre({bound.centre});
       for (Index v = 0; v < size; ++v) {
         const glm::vec3 p(points.x[v], points.y[v], points.z[v]);
         for (int axis = 0; axis < 3; ++axis)
           lo[axis] = std::min(lo[axis], p[axis]), hi[axis] = std::max(hi[axis], p[axis]);
-        farthest = std::max(farthest, distance(points.run(), v, centre.run(), 0));
+        farthest = std::max(farthest, distance(p, bound.centre));
       }
       EXPECT_EQ(bound.box.lo, lo);
       EXPECT_EQ(bound.box.hi, hi);
@@ -66,19 +60,11 @@ TEST_P(VertexKernels, ResidualsAreThoseOfTheMap) {
     double samples = 0;
     for_samples(size, [&](Index v) { mean += glm::dvec3(points[v]), samples += 1; });
     for (glm::vec3& p : points) p -= glm::vec3(mean / samples);
-    // The inverse of the moment by Cramer's rule.
-    std::array<double, 6> m{};
-    for_samples(size, [&](Index v) {
-      const glm::dvec3 p(points[v]);
-      m[0] += p.x * p.x, m[1] += p.x * p.y, m[2] += p.x * p.z, m[3] += p.y * p.y, m[4] += p.y * p.z, m[5] += p.z * p.z;
-    });
-    const double a = m[3] * m[5] - m[4] * m[4], b = m[2] * m[4] - m[1] * m[5], c = m[1] * m[4] - m[2] * m[3];
-    const double d = m[0] * m[5] - m[2] * m[2], e = m[1] * m[2] - m[0] * m[4], f = m[0] * m[3] - m[1] * m[1];
-    const double det = m[0] * a + m[1] * b + m[2] * c;
-    const std::array adjoint{a, b, c, b, d, e, c, e, f};
+    glm::dmat3 moment(0);
+    for_samples(size, [&](Index v) { moment += glm::outerProduct(glm::dvec3(points[v]), glm::dvec3(points[v])); });
+    const glm::mat3 symmetric(glm::inverse(moment));
     std::array<float, 9> inverse;
-    std::transform(adjoint.begin(), adjoint.end(), inverse.begin(),
-                   [&](double value) { return static_cast<float>(value / det); });
+    std::copy_n(&symmetric[0][0], 9, inverse.begin());
     const Points3 reference(points);
     const glm::vec3 centre(3, -2, 1);
     for (const float noise : {0.0f, 0.2f}) {
