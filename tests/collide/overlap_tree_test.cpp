@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "collide/core/cutoff.h"
-#include "states.h"
+#include "every_target.h"
 
 namespace collide::test {
 
@@ -64,7 +64,9 @@ std::vector<Sets> examples() {
   return sets;
 }
 
-TEST(OverlapTree, BetweenTwoSetsFindsAllPairsOnceAtEveryLevel) {
+class OverlapTreeOnTargets : public OnEveryTarget {};
+
+TEST_P(OverlapTreeOnTargets, BetweenTwoSetsFindsAllPairsOnceAtEveryLevel) {
   const std::vector<Sets> all = examples();
   for (const Sets& sets : all) {
     const VertexSet a = picked(sets.a, 5), b = picked(sets.b, 9000);
@@ -90,7 +92,7 @@ TEST(OverlapTree, BetweenTwoSetsFindsAllPairsOnceAtEveryLevel) {
   }
 }
 
-TEST(OverlapTree, WithinASetFindsAllPairsOnceAtEveryLevel) {
+TEST_P(OverlapTreeOnTargets, WithinASetFindsAllPairsOnceAtEveryLevel) {
   for (const Sets& sets : examples()) {
     std::vector<glm::vec3> both = sets.a;
     both.insert(both.end(), sets.b.begin(), sets.b.end());
@@ -110,6 +112,8 @@ TEST(OverlapTree, WithinASetFindsAllPairsOnceAtEveryLevel) {
     EXPECT_EQ(tree.pair_tests(), std::uint64_t{set.size} * (set.size - 1) / 2);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Targets, OverlapTreeOnTargets, testing::ValuesIn(targets()), target_name);
 
 /// However few levels are asked for: else a large body would cost the square of its vertices.
 TEST(OverlapTree, CutsLargeSetsUntilTheirCostIsLinear) {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "collide/exact/body_pair_search.h"
 #include "states.h"
@@ -66,16 +65,6 @@ class KeptContacts : public testing::TestWithParam<int> {
   std::array<Workers, 3> workers_{Workers(1), Workers(2, 0), Workers(3, 0)};
 };
 
-TEST_P(KeptContacts, AreRightWhileABodyFliesPastAPile) {
-  State state = pile(3);
-  state.add(state.bodies.shape[0], moved(icosphere(1, 0.5f).vertices, glm::vec3(-3, 2.6f, 1)));
-  for (int frame = 0; frame < 30; ++frame) {
-    see(state);
-    if (frame < 24) shift(state, state.bodies.count() - 1, glm::vec3(0.25f, -0.01f, 0));
-  }
-  EXPECT_GT(kept_, 0u);
-}
-
 /// Two vertices exactly a tolerance apart are no contact; one unit in the last place nearer they are.
 TEST_P(KeptContacts, SeeOneVertexMoveByItsLastBit) {
   State state = pile(2);
@@ -96,41 +85,19 @@ TEST_P(KeptContacts, SeeOneVertexMoveByItsLastBit) {
   EXPECT_EQ(result_.contacts.size(), before);
 }
 
-TEST_P(KeptContacts, AreRightAfterABodyHasLeftAndReturned) {
-  const State state = pile(3);
-  for (const float far : {0.01f, 3.0f}) {  // m
-    for (int frame = 0; frame < 4; ++frame) see(state, "there");
-    State away = state;
-    shift(away, 13, glm::vec3(0, far, 0));
-    for (int frame = 0; frame < 4; ++frame) see(away, "away");
-  }
-  EXPECT_GT(kept_, 100u);
-}
-
-TEST_P(KeptContacts, AreRightAfterJumps) {
-  State state = pile(3);
+/// Now and then a body jumps, flies past the others, loses a coordinate, or all are again where they were.
+TEST_P(KeptContacts, AreRightWhileBodiesJumpAndReturn) {
+  const State start = pile(3);
+  State state = start;
   std::mt19937 random(23);
-  for (int frame = 0; frame < 40; ++frame) {
+  for (int frame = 0; frame < 120; ++frame) {
     see(state);
-    if (frame % 4 != 3) continue;
-    for (std::uint32_t jumps = random() % 12; jumps > 0; --jumps) {
-      const std::size_t body = random() % state.bodies.count();
-      shift(state, body, random_points(random, 1, -1, 1)[0]);
-    }
-  }
-  EXPECT_GT(kept_, 0u);
-}
-
-TEST_P(KeptContacts, LeaveOutABodyWhileItIsNotFinite) {
-  const State state = pile(3);
-  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
-    for (int frame = 0; frame < 6; ++frame) see(state, "whole");
-    EXPECT_TRUE(result_.non_finite_bodies.empty());
-    State broken = state;
-    broken.y[broken.bodies.first[13] + 7] = bad;
-    for (int frame = 0; frame < 4; ++frame) see(broken, "broken");
-    EXPECT_EQ(result_.non_finite_bodies, (std::vector<Index>{13}));
-    EXPECT_GT(result_.skip(Skip::kept_pairs), 0u) << "those of the others";
+    const Index body = random() % state.bodies.count();
+    if (frame % 4 == 3) shift(state, body, random_points(random, 1, -1, 1)[0]);
+    if (frame % 16 == 7) state.y[state.bodies.first[body] + 7] = random() % 2 == 0 ? NAN : INFINITY;
+    if (frame % 16 == 15) state = start;
+    if (frame > 100) shift(state, 0, glm::vec3(0.25f, 0.01f, 0));
+    EXPECT_TRUE(frame < 8 || frame % 4 != 2 || result_.skip(Skip::kept_pairs) > 0) << frame;
   }
 }
 
