@@ -23,8 +23,6 @@ float greatest_squared_distance(const Aabb& a, const Aabb& b) {
   return squared_length(glm::max(a.hi - b.lo, b.hi - a.lo));
 }
 
-Aabb joint(const Aabb& a, const Aabb& b) { return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)}; }
-
 void put(std::array<std::vector<float>, 3>& to, std::size_t at, const glm::vec3& p) {
   to[0][at] = p.x, to[1][at] = p.y, to[2][at] = p.z;
 }
