@@ -28,14 +28,6 @@ struct sbcollide_finder {
 
 namespace {
 
-/// Returns the groups of N numbers that begin at `first`.
-template <std::size_t N>
-std::vector<std::array<sbcollide::Index, N>> groups(const std::uint32_t* first, std::size_t count) {
-  std::vector<std::array<sbcollide::Index, N>> all(count);
-  for (std::size_t i = 0; i < N * count; ++i) all[i / N][i % N] = first[i];
-  return all;
-}
-
 /// Returns a number as an integer. Throws Error.
 template <class Integer>
 Integer whole(double value, const char* name) {
@@ -96,12 +88,14 @@ sbcollide_status sbcollide_finder_add_body(sbcollide_finder* finder, uint32_t ve
                                            size_t triangle_count, const uint32_t* edges, size_t edge_count,
                                            const float* rest) {
   return guarded(finder, [&] {
-    require_pointer(triangles, triangle_count, "triangles");
-    require_pointer(edges, edge_count, "edges");
-    const auto sides = groups<2>(edges, edge_count);
-    const auto faces = groups<3>(triangles, triangle_count);
+    const sbcollide::BodyMesh mesh{
+        .vertices = vertices,
+        .triangles = sbcollide::groups_at<3>(triangles, triangle_count, "triangles"),
+        .edges = sbcollide::groups_at<2>(edges, edge_count, "edges"),
+        .rest = {rest, rest ? 3 * std::size_t{vertices} : std::size_t{0}},
+    };
     finder->found = {};
-    finder->finder.add_body({vertices, faces, sides, {rest, rest ? 3 * std::size_t{vertices} : std::size_t{0}}});
+    finder->finder.add_body(mesh);
   });
 }
 

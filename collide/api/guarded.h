@@ -2,12 +2,15 @@
 // What the C++ and C interfaces share: errors as users get them, handles, and the number of threads.
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <new>
+#include <span>
 #include <string>
 #include <thread>
 
 #include "collide/api/sbcollide/collide_c.h"
+#include "collide/api/sbcollide/contact.h"
 #include "collide/api/sbcollide/error.h"
 
 namespace sbcollide {
@@ -47,6 +50,14 @@ sbcollide_status guarded(Handle* handle, Work&& work) noexcept {
 /// Throws Error if `given` is no pointer, though `count` elements are to be read there.
 inline void require_pointer(const void* given, std::size_t count, const char* name) {
   if (!given && count > 0) throw Error(std::string(name) + ": is NULL");
+}
+
+/// Returns the `count` groups of N numbers that begin at `first`. Throws Error if `first` is no pointer.
+template <std::size_t N>
+std::span<const std::array<Index, N>> groups_at(const std::uint32_t* first, std::size_t count, const char* name) {
+  require_pointer(first, count, name);
+  static_assert(sizeof(std::array<Index, N>) == N * sizeof(Index));
+  return {reinterpret_cast<const std::array<Index, N>*>(first), count};
 }
 
 /// Makes an object of the C interface. Returns nullptr if there is no memory for it.

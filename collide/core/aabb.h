@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
 #include "collide/core/frame.h"
@@ -12,7 +13,24 @@ namespace collide {
 
 struct Aabb {
   glm::vec3 lo, hi;  // m, closed
+  bool operator==(const Aabb&) const = default;
 };
+
+/// Returns the box around two boxes.
+inline Aabb joint(const Aabb& a, const Aabb& b) { return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)}; }
+
+/// Returns the box of the points at(begin) .. at(end - 1), of which there must be one.
+template <class At>
+Aabb box_around(std::size_t begin, std::size_t end, const At& at) {
+  assert(begin < end);
+  glm::vec3 lo = at(begin), hi = lo;
+  for (std::size_t k = begin + 1; k < end; ++k) {
+    const glm::vec3 p = at(k);
+    lo = glm::min(lo, p);
+    hi = glm::max(hi, p);
+  }
+  return {lo, hi};
+}
 
 /// True unless the gap between the boxes exceeds the cutoff (m) along an axis. Rounding never hides a near pair:
 /// subtraction rounds monotonically, and the cutoff is a float itself.
@@ -43,15 +61,8 @@ inline MidpointCut cut_of(const Aabb& box) {
 template <class BoxOf, class Meet>
 void sweep(std::vector<Index>& order, float cutoff, const BoxOf& box_of, const Meet& meet) {
   if (order.size() < 2) return;
-  glm::vec3 least = box_of(order[0]).lo, most = least;
-  for (const Index item : order) {
-    const glm::vec3& lo = box_of(item).lo;
-    for (int axis = 0; axis < 3; ++axis) {
-      least[axis] = std::min(least[axis], lo[axis]);
-      most[axis] = std::max(most[axis], lo[axis]);
-    }
-  }
-  const int axis = longest_axis(most - least);
+  const Aabb minima = box_around(0, order.size(), [&](std::size_t k) { return box_of(order[k]).lo; });
+  const int axis = longest_axis(minima.hi - minima.lo);
   std::sort(order.begin(), order.end(), [&](Index a, Index b) {
     const float x = box_of(a).lo[axis], y = box_of(b).lo[axis];
     return x != y ? x < y : a < b;

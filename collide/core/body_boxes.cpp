@@ -17,9 +17,8 @@ void BodyBoxes::build(const Frame& frame, Result& result) {
   box.resize(bodies.count());
   live.clear();
   for (Index body = 0; body < bodies.count(); ++body) {
-    const Index first = bodies.first[body], size = bodies.size(body);
-    if (size == 0) continue;
-    const BodyBounds bound = measure_bounds({&frame.x[first], &frame.y[first], &frame.z[first], size});
+    if (bodies.size(body) == 0) continue;
+    const BodyBounds bound = measure_bounds(vertices_of(frame, body));
     box[body] = bound.box;
     (bound.finite ? live : result.non_finite_bodies).push_back(body);
   }

@@ -14,7 +14,7 @@ namespace collide {
 
 namespace {
 
-bool positive(float value) { return std::isfinite(value) && value > 0; }
+static_assert(cuts_along(0, max_levels) <= Cuts::max_depth);
 
 template <class Value>
 std::string complaint(const char* setting, const Value& value, const char* allowed) {
@@ -35,7 +35,8 @@ std::string problem(const Settings& settings) {
   }
   for (int axis = 0; settings.cell_size && axis < 3; ++axis) {
     const float side = (*settings.cell_size)[axis];
-    if (!positive(side)) return complaint("cell size", side, "finite and above 0 m along every axis");
+    if (!(std::isfinite(side) && side > 0))
+      return complaint("cell size", side, "finite and above 0 m along every axis");
   }
   for (const std::uint32_t prime : settings.primes) {
     if (prime == 0) return complaint("prime", prime, "above 0");

@@ -13,9 +13,7 @@ namespace {
 void sort_row(IndexSet& set, std::span<Contact> row) {
   constexpr std::size_t few = 16;
   if (row.size() <= few) return std::sort(row.begin(), row.end());
-  for (const Contact& contact : row) {
-    set.add(contact.b / IndexSet::word_size, IndexSet::Word{1} << contact.b % IndexSet::word_size);
-  }
+  for (const Contact& contact : row) set.add(contact.b);
   auto at = row.begin();
   set.take_runs(row.front().a, [&](Range run) {
     for (Index b = run.begin; b < run.end; ++b) (at++)->b = b;

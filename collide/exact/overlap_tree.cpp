@@ -9,15 +9,10 @@ namespace collide::exact {
 namespace {
 
 Aabb bounds_of(const VertexSet& set) {
-  Aabb box{glm::vec3(set.x[0], set.y[0], set.z[0]), glm::vec3(set.x[0], set.y[0], set.z[0])};
-  for (Index k = 1; k < set.size; ++k) {
-    box.lo = glm::vec3(std::min(box.lo.x, set.x[k]), std::min(box.lo.y, set.y[k]), std::min(box.lo.z, set.z[k]));
-    box.hi = glm::vec3(std::max(box.hi.x, set.x[k]), std::max(box.hi.y, set.y[k]), std::max(box.hi.z, set.z[k]));
-  }
-  return box;
+  return box_around(0, set.size, [&](std::size_t k) { return glm::vec3(set.x[k], set.y[k], set.z[k]); });
 }
 
-/// Those of a set that `keep` says.
+/// Copies the vertices k of a set for which keep(k) is true.
 template <class Keep>
 void filter(const VertexSet& set, VertexSet& kept, const Keep& keep) {
   kept.reserve(set.size);
@@ -28,7 +23,7 @@ void filter(const VertexSet& set, VertexSet& kept, const Keep& keep) {
   kept.end();
 }
 
-/// Those within cutoff of a box. Never loses a contact: subtraction rounds monotonically.
+/// Copies the vertices within the cutoff of a box. Never loses a contact: subtraction rounds monotonically.
 void filter_near(const VertexSet& set, const Aabb& box, float cutoff, VertexSet& kept) {
   filter(set, kept, [&](Index k) {
     const glm::vec3 p(set.x[k], set.y[k], set.z[k]);

@@ -35,7 +35,7 @@ HWY_INLINE M is_excluded(const Box& a, const Box& b, V limit) {
 }
 
 using Coordinates = std::array<std::vector<float>, 3>;
-/// The box of one patch in all lanes; those of a block of patches.
+/// Returns the box of one patch in all lanes, and the boxes of a block of patches.
 HWY_INLINE Box box_of(const Coordinates& lo, const Coordinates& hi, Index patch) {
   return {Interval{all(lo[0][patch]), all(hi[0][patch])}, Interval{all(lo[1][patch]), all(hi[1][patch])},
           Interval{all(lo[2][patch]), all(hi[2][patch])}};
@@ -147,13 +147,10 @@ HWY_INLINE PatchContacts patch_contacts(const Patches& patches, Index patch, Ran
   return found;
 }
 
-PatchContacts PatchContactsWithin(const Patches& patches, Index patch, Range others, float tolerance2,
-                                  Contact* contacts) {
-  return patch_contacts<true>(patches, patch, others, tolerance2, contacts);
-}
-PatchContacts PatchContactsBetween(const Patches& patches, Index patch, Range others, float tolerance2,
-                                   Contact* contacts) {
-  return patch_contacts<false>(patches, patch, others, tolerance2, contacts);
+PatchContacts FindPatchContacts(const Patches& patches, bool within, Index patch, Range others, float tolerance2,
+                                Contact* contacts) {
+  return within ? patch_contacts<true>(patches, patch, others, tolerance2, contacts)
+                : patch_contacts<false>(patches, patch, others, tolerance2, contacts);
 }
 
 }  // namespace
@@ -164,17 +161,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace collide::exact {
 
-HWY_EXPORT(PatchContactsWithin);
-HWY_EXPORT(PatchContactsBetween);
+HWY_EXPORT(FindPatchContacts);
 
-PatchContacts patch_contacts_within(const Patches& patches, Index patch, Range others, float tolerance2,
-                                    Contact* contacts) {
-  return HWY_DYNAMIC_DISPATCH(PatchContactsWithin)(patches, patch, others, tolerance2, contacts);
-}
-
-PatchContacts patch_contacts_between(const Patches& patches, Index patch, Range others, float tolerance2,
-                                     Contact* contacts) {
-  return HWY_DYNAMIC_DISPATCH(PatchContactsBetween)(patches, patch, others, tolerance2, contacts);
+PatchContacts find_patch_contacts(const Patches& patches, bool within, Index patch, Range others, float tolerance2,
+                                  Contact* contacts) {
+  return HWY_DYNAMIC_DISPATCH(FindPatchContacts)(patches, within, patch, others, tolerance2, contacts);
 }
 
 }  // namespace collide::exact

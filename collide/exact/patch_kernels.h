@@ -31,12 +31,10 @@ struct PatchContacts {
   std::uint64_t pair_tests = 0;  // pairs of vertices in patches that are near each other
 };
 
-/// Writes the contacts between a patch and each of some patches of the same body, which may begin with itself, to
-/// `contacts`, which has room for all their pairs. Leaves out what Shape::excludes() says.
-PatchContacts patch_contacts_within(const Patches& patches, Index patch, Range others, float tolerance2,
-                                    Contact* contacts);
-/// Does the same for patches of another body; no pair is left out.
-PatchContacts patch_contacts_between(const Patches& patches, Index patch, Range others, float tolerance2,
-                                     Contact* contacts);
+/// Writes the contacts between a patch and each of some others to `contacts`, which has room for all their pairs.
+/// within: all are of one body, and the others may begin with the patch itself; then it leaves out what
+/// Shape::excludes() says. Else the others are of another body.
+PatchContacts find_patch_contacts(const Patches& patches, bool within, Index patch, Range others, float tolerance2,
+                                  Contact* contacts);
 
 }  // namespace collide::exact

@@ -23,8 +23,6 @@ float greatest_squared_distance(const Aabb& a, const Aabb& b) {
   return squared_length(glm::max(a.hi - b.lo, b.hi - a.lo));
 }
 
-Aabb joint(const Aabb& a, const Aabb& b) { return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)}; }
-
 void put(std::array<std::vector<float>, 3>& to, std::size_t at, const glm::vec3& p) {
   to[0][at] = p.x, to[1][at] = p.y, to[2][at] = p.z;
 }
@@ -146,7 +144,6 @@ bool PatchSearch::apart(trees::NodePair pair) const {
 PatchSearch::Found PatchSearch::find(std::size_t task, std::size_t max_contacts, std::vector<Contact>& contacts) const {
   constexpr std::size_t room = std::size_t{most_patches} * max_lanes * max_lanes;  // of a patch
   const bool self = about_[pairs_[task].a].body == about_[pairs_[task].b].body;
-  const auto patch_contacts = self ? patch_contacts_within : patch_contacts_between;
   Found found;
   std::size_t size = contacts.size();
   const auto test = [&](trees::NodePair pair) {
@@ -155,7 +152,8 @@ PatchSearch::Found PatchSearch::find(std::size_t task, std::size_t max_contacts,
     for (Index patch = a.begin; patch < a.end; ++patch) {
       if (pair.a == pair.b) others.begin = patch;
       if (contacts.size() < size + room) contacts.resize(size + 2 * room);
-      const PatchContacts more = patch_contacts(patches_, patch, others, tolerance2_, contacts.data() + size);
+      const PatchContacts more =
+          find_patch_contacts(patches_, self, patch, others, tolerance2_, contacts.data() + size);
       found.pair_tests += more.pair_tests;
       size += more.contacts;
       if (size > max_contacts) throw_too_many_contacts(max_contacts);

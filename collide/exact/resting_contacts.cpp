@@ -7,12 +7,6 @@
 
 namespace collide::exact {
 
-namespace {
-
-bool same_box(const Aabb& a, const Aabb& b) { return a.lo == b.lo && a.hi == b.hi; }
-
-}  // namespace
-
 bool RestingContacts::same_bodies(const Frame& frame, const Settings& settings) const {
   return settings.tolerance == tolerance_ && settings.self_collision == self_collision_ &&
          frame.bodies->first == first_ && frame.bodies->shape == shape_;
@@ -47,7 +41,7 @@ void RestingContacts::observe(const Frame& frame, const Settings& settings, std:
 RestingContacts::Motion RestingContacts::observe(const VertexRun& now, const BodyBounds& bound, Index body) {
   if (now.size == 0) return Motion::moving;
   const BodyBounds before = std::exchange(bounds_[body], bound);
-  if (!bound.finite || !before.finite || !same_box(bound.box, before.box)) return Motion::moving;
+  if (!bound.finite || !before.finite || bound.box != before.box) return Motion::moving;
   const std::size_t first = first_[body], bytes = now.size * sizeof(float);
   if (motion_[body] != Motion::moving && std::memcmp(now.x, &x_[first], bytes) == 0 &&
       std::memcmp(now.y, &y_[first], bytes) == 0 && std::memcmp(now.z, &z_[first], bytes) == 0) {

@@ -83,12 +83,8 @@ void CullingReference::list_pairs(const Topology& topology) {
   std::vector<Contact> close;
   contacts_within(all, covered_ * covered_, std::size_t{max_vertices} * max_vertices, words, close);
   std::vector<std::pair<float, std::array<Index, 2>>> listed;
-  std::span<const Index> joined;  // to the first of the pair, and greater than the second of the last one
-  for (std::size_t k = 0; k < close.size(); ++k) {
-    const Contact pair = close[k];
-    if (k == 0 || close[k - 1].a != pair.a) joined = topology.neighbours(pair.a);
-    while (!joined.empty() && joined.front() < pair.b) joined = joined.subspan(1);
-    if (!joined.empty() && joined.front() == pair.b) continue;
+  for (const Contact& pair : close) {
+    if (topology.joined(pair.a, pair.b)) continue;
     const float d2 = squared_distance(x_[pair.a], y_[pair.a], z_[pair.a], x_[pair.b], y_[pair.b], z_[pair.b]);
     listed.push_back({std::sqrt(d2), {pair.a, pair.b}});
   }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include <glm/common.hpp>
-
 #include "collide/core/body_boxes.h"
 #include "collide/core/cutoff.h"
 #include "collide/methods/detectors.h"
@@ -23,7 +21,7 @@ class AabbTree final : public Detector {
     result.counters.boxes = trees_.nodes().size();
     constexpr double test_ns = 50;  // of work, of a vertex
     search_.begin(frame, settings, trees_.points(), workers.threads_for(test_ns * trees_.points().size()));
-    tree_search_.run(trees_.nodes(), settings.self_collision, contact_cutoff(settings.tolerance), search_, workers);
+    search_tree(trees_.nodes(), settings.self_collision, contact_cutoff(settings.tolerance), search_, workers);
     search_.finish(result);
   }
 
@@ -49,11 +47,7 @@ class AabbTree final : public Detector {
       const Aabb& box = trees_.nodes_of(k).front().box;
       return box.lo * 0.5f + box.hi * 0.5f;
     };
-    glm::vec3 lo = centre(bodies.front()), hi = lo;
-    for (const Index k : bodies) {
-      lo = glm::min(lo, centre(k));
-      hi = glm::max(hi, centre(k));
-    }
+    const auto [lo, hi] = box_around(0, bodies.size(), [&](std::size_t k) { return centre(bodies[k]); });
     const int axis = longest_axis(hi * 0.5f - lo * 0.5f);
     const auto low = bodies.size() / 2;
     std::ranges::nth_element(bodies, bodies.begin() + static_cast<std::ptrdiff_t>(low), {},
@@ -63,17 +57,12 @@ class AabbTree final : public Detector {
     build_upper(upper, child, used, bodies.first(low));
     build_upper(upper, child + 1, used, bodies.subspan(low));
     const trees::Node &one = upper[child], &other = upper[child + std::size_t{1}];
-    upper[node] = {{glm::min(one.box.lo, other.box.lo), glm::max(one.box.hi, other.box.hi)},
-                   child,
-                   2,
-                   one.size + other.size,
-                   false};
+    upper[node] = {joint(one.box, other.box), child, 2, one.size + other.size, false};
   }
 
   BodyBoxes bodies_;
   trees::BodyTrees trees_;
   std::vector<Index> order_;  // of the live bodies
-  trees::TreeSearch tree_search_;
   ContactSearch search_;
 };
 

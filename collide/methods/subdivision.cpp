@@ -57,7 +57,7 @@ void Subdivision::cut_body(Thread& own, const Frame& frame, const Aabb& box, Ind
   find_codes(own, frame, first, size);
 
   for (const std::uint32_t code : own.code) {
-    own.codes_in_use.add(code / IndexSet::word_size, IndexSet::Word{1} << code % IndexSet::word_size);
+    own.codes_in_use.add(code);
     ++own.of_code[code];
   }
   Index slot = first_slot;

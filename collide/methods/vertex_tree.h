@@ -16,7 +16,7 @@ class VertexTree final : public Detector {
     tree_.build(frame, bodies_.live, cut_, leaf_size, workers);
     constexpr double test_ns = 50;  // of work, of a vertex
     search_.begin(frame, settings, tree_.points(), workers.threads_for(test_ns * tree_.points().size()));
-    tree_search_.run(tree_.nodes(), settings.self_collision, contact_cutoff(settings.tolerance), search_, workers);
+    search_tree(tree_.nodes(), settings.self_collision, contact_cutoff(settings.tolerance), search_, workers);
     search_.finish(result);
   }
 
@@ -25,7 +25,6 @@ class VertexTree final : public Detector {
   trees::Cut cut_;
   BodyBoxes bodies_;
   trees::PointTree tree_;
-  trees::TreeSearch tree_search_;
   ContactSearch search_;
 };
 

@@ -117,10 +117,7 @@ void BoxList::end() {
 Aabb BoxList::bounds() const {
   assert(size > 0);
   Aabb all = box(0);
-  for (Index k = 1; k < size; ++k) {
-    all.lo = glm::min(all.lo, box(k).lo);
-    all.hi = glm::max(all.hi, box(k).hi);
-  }
+  for (Index k = 1; k < size; ++k) all = joint(all, box(k));
   return all;
 }
 

@@ -9,6 +9,19 @@
 
 namespace collide::surface {
 
+/// Returns the vertices of a vertex of surface `a` and a face of surface `b` (ones: 1), or of an edge of each (2).
+template <std::size_t ones>
+std::array<Index, 4> corners_of(const Surface& a, Index feature_a, const Surface& b, Index feature_b) {
+  static_assert(ones == 1 || ones == 2);
+  if constexpr (ones == 1) {
+    const Triangle& face = b.triangles()[feature_b];
+    return {feature_a, face[0], face[1], face[2]};
+  } else {
+    const Edge &one = a.edges()[feature_a], &other = b.edges()[feature_b];
+    return {one[0], one[1], other[0], other[1]};
+  }
+}
+
 /// At most `capacity` pairs of features, stored in columns. The corners of a vertex and a face: the vertex, then the
 /// corners of the face. Those of two edges: the ends of the first, then the ends of the second.
 class FeatureBatch {
@@ -29,6 +42,11 @@ class FeatureBatch {
   /// Find the closest points of all pairs, as vertices and faces or as edges.
   void find_closest_vertex_faces();
   void find_closest_edges();
+  /// ones: how many corners belong to the first feature of each pair: 1 of a vertex and a face, 2 of edges.
+  template <std::size_t ones>
+  void find_closest() {
+    ones == 1 ? find_closest_vertex_faces() : find_closest_edges();
+  }
 
   Index tag(Index i) const { return tag_[i]; }
   glm::vec3 corner(std::size_t k, Index i) const { return {corner_[k][0][i], corner_[k][1][i], corner_[k][2][i]}; }

@@ -26,7 +26,7 @@ float largest(const std::array<Index, n>& corners, std::span<const float> values
 }
 
 /// Grows the boxes of the features that a list holds by their rooms.
-void grow(BoxList& boxes, const std::vector<float>& rooms) {
+void grow(BoxList& boxes, const float* rooms) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (Index k = 0; k < boxes.size; ++k) {
       boxes.lo[axis][k] -= rooms[k];
@@ -97,12 +97,13 @@ void SelfNeighbours::fit_rotation(const VertexRun& at) {
   }
 }
 
-/// Calls visit(corners, member of Lengths, place) for each feature.
+/// Calls visit(corners, number) for each feature.
 template <class Visit>
 void SelfNeighbours::for_each_feature(const Visit& visit) const {
-  for (Index v = 0; v < surface_->vertex_count(); ++v) visit(std::array{v}, &Lengths::vertices, v);
-  for (Index f = 0; f < surface_->triangles().size(); ++f) visit(surface_->triangles()[f], &Lengths::faces, f);
-  for (Index e = 0; e < surface_->edges().size(); ++e) visit(surface_->edges()[e], &Lengths::edges, e);
+  Index number = 0;
+  for (Index v = 0; v < surface_->vertex_count(); ++v) visit(std::array{v}, number++);
+  for (const Triangle& face : surface_->triangles()) visit(face, number++);
+  for (const Edge& edge : surface_->edges()) visit(edge, number++);
 }
 
 /// A feature needs room for half of the distance, its deviation and its way.
@@ -112,32 +113,24 @@ void SelfNeighbours::measure_needs(const VertexRun& at, float near, std::span<co
   const float half = 0.5f * (near + rounding_ + rounding_share * glm::length(centre_));
   s.deviations.resize(at.size);
   for (Index v = 0; v < at.size; ++v) s.deviations[v] = glm::length(at[v] - centre_ - turn * reference_[v]);
-  for_each_feature([&](const auto& corners, auto of, Index i) {
+  for_each_feature([&](const auto& corners, Index i) {
     const float way = largest(corners, ways);
-    (need_.*of)[i] = half + largest(corners, s.deviations) + way;
-    (margin_.*of)[i] = margin + way;  // what moves fast needs more soon
+    need_[i] = half + largest(corners, s.deviations) + way;
+    margin_[i] = margin + way;  // what moves fast needs more soon
   });
-}
-
-bool SelfNeighbours::has_room() const {
-  const auto all = [](const std::vector<float>& needs, const std::vector<float>& rooms) {
-    return std::ranges::equal(needs, rooms, std::ranges::less_equal());
-  };
-  return all(need_.vertices, room_.vertices) && all(need_.faces, room_.faces) && all(need_.edges, room_.edges);
 }
 
 void SelfNeighbours::cover(const Surface& surface, const VertexRun& at, float near, std::span<const float> ways,
                            float margin, Scratch& scratch) {
   assert(surface.vertex_count() == at.size && ways.size() == at.size);
   searched_ = 0;
-  if (surface_ == &surface && !vertex_faces_due_ && !edges_due_) {
+  if (surface_ == &surface && !vertex_faces_.due && !edges_.due) {
     fit_rotation(at);
     measure_needs(at, near, ways, margin, scratch);
-    if (has_room()) return;
+    if (std::ranges::equal(need_, room_, std::ranges::less_equal())) return;
     strayed_.assign(at.size, false);
-    for_each_feature([&](const auto& corners, auto of, Index i) {
-      const float need = (need_.*of)[i], more = (margin_.*of)[i], room = (room_.*of)[i];
-      if (room < need + 0.5f * more || room > 2 * (need + more))
+    for_each_feature([&](const auto& corners, Index i) {
+      if (room_[i] < need_[i] + 0.5f * margin_[i] || room_[i] > 2 * (need_[i] + margin_[i]))
         for (const Index v : corners) strayed_[v] = true;
     });
     const glm::mat3 back = glm::transpose(glm::mat3_cast(rotation_));
@@ -146,24 +139,18 @@ void SelfNeighbours::cover(const Surface& surface, const VertexRun& at, float ne
   } else {
     surface_ = &surface;
     take_reference(at);
-    for (Lengths* lengths : {&need_, &margin_, &room_}) {
-      lengths->vertices.resize(at.size);
-      lengths->faces.resize(surface.triangles().size());
-      lengths->edges.resize(surface.edges().size());
-    }
+    for (std::vector<float>* lengths : {&need_, &margin_, &room_}) lengths->resize(surface.feature_count());
   }
   bound_rounding();
   measure_needs(at, near, ways, margin, scratch);
   bool calm = true;  // but for what strays
-  for_each_feature([&](const auto& corners, auto of, Index i) {
-    calm = calm && (strays(corners) || (need_.*of)[i] <= (room_.*of)[i]);
-  });
+  for_each_feature([&](const auto& corners, Index i) { calm = calm && (strays(corners) || need_[i] <= room_[i]); });
   if (!calm) strayed_.assign(at.size, true);  // for the rounding of a reference shape that has become much larger
-  for_each_feature([&](const auto& corners, auto of, Index i) {
-    if (strays(corners)) (room_.*of)[i] = (need_.*of)[i] + (margin_.*of)[i];
+  for_each_feature([&](const auto& corners, Index i) {
+    if (strays(corners)) room_[i] = need_[i] + margin_[i];
   });
   searched_ = static_cast<Index>(std::ranges::count(strayed_, true));
-  vertex_faces_due_ = edges_due_ = true;
+  vertex_faces_.due = edges_.due = true;
 }
 
 template <class Corners>
@@ -172,85 +159,77 @@ bool SelfNeighbours::strays(const Corners& corners) const {
 }
 
 /// Makes the boxes of the vertices and of other features, with their rooms, and those of what strays and of the others.
+/// first: the number of the first of these features.
 template <std::size_t n>
-void SelfNeighbours::divide_features(const std::vector<std::array<Index, n>>& features, const std::vector<float>& rooms,
-                                     Scratch& s) const {
+void SelfNeighbours::divide_features(const std::vector<std::array<Index, n>>& features, Index first, Scratch& s) const {
   s.vertices.clear();
   s.vertices.reserve(static_cast<Index>(reference_.size()));
   for (Index v = 0; v < reference_.size(); ++v) s.vertices.add({reference_[v], reference_[v]}, v);
   s.vertices.end();
   join(s.vertices, features, s.features);
-  grow(s.vertices, room_.vertices);
-  grow(s.features, rooms);
+  grow(s.vertices, room_.data());
+  grow(s.features, room_.data() + first);
   const auto vertex_strays = [&](Index v) { return strayed_[v] != 0; };
   const auto feature_strays = [&](Index i) { return strays(features[i]); };
   divide(s.vertices, vertex_strays, s.strayed_vertices, s.calm_vertices);
   divide(s.features, feature_strays, s.strayed, s.calm);
 }
 
-/// Replaces the pairs of what strays by those found that are near each other in the reference shape.
-template <class Corners, class SharesVertex, class FindClosest>
-void SelfNeighbours::keep_near(const Corners& corners, const SharesVertex& shares_vertex,
-                               const FindClosest& find_closest, const std::vector<float>& room_a,
-                               const std::vector<float>& room_b, std::vector<Near>& near, Scratch& s) const {
-  std::erase_if(near, [&](const Near& n) { return strays(corners(n)); });
+/// Replaces the pairs of what strays by those found that are near each other in the reference shape. ones: see
+/// corners_of().
+template <std::size_t ones>
+void SelfNeighbours::keep_near(List& list, Scratch& s) const {
+  const auto corners = [&](const auto& pair) { return corners_of<ones>(*surface_, pair.a, *surface_, pair.b); };
+  const auto share_vertex = [](const std::array<Index, 4>& c) {
+    return std::find_first_of(c.begin(), c.begin() + ones, c.begin() + ones, c.end()) != c.begin() + ones;
+  };
+  std::erase_if(list.near, [&](const Near& n) { return strays(corners(n)); });
   for (std::size_t i = 0; i < s.found.size();) {
     s.batch.clear();
     for (; i < s.found.size() && !s.batch.full(); ++i) {
       const std::array<Index, 4> c = corners(s.found[i]);
-      if (shares_vertex(c)) continue;
+      if (share_vertex(c)) continue;
       s.batch.add({reference_[c[0]], reference_[c[1]], reference_[c[2]], reference_[c[3]]}, static_cast<Index>(i));
     }
-    find_closest();
+    s.batch.find_closest<ones>();
     for (Index k = 0; k < s.batch.size(); ++k) {
       const ItemPair& f = s.found[s.batch.tag(k)];
       const float distance = std::sqrt(s.batch.distance2(k));
-      if (distance <= room_a[f.a] + room_b[f.b]) near.push_back({f.a, f.b, distance});
+      if (distance <= room_[list.first_a + f.a] + room_[list.first_b + f.b]) list.near.push_back({f.a, f.b, distance});
     }
   }
+  s.found.clear();
+  list.due = false;
 }
 
-void SelfNeighbours::list_vertex_faces(std::size_t max_pairs, Scratch& s) {
-  const auto& faces = surface_->triangles();
-  divide_features(faces, room_.faces, s);
-  s.found.clear();
-  s.search.between(s.strayed_vertices, s.features, s.found, max_pairs);
-  s.search.between(s.calm_vertices, s.strayed, s.found, max_pairs);
-  const auto corners = [&](const auto& f) { return std::array{f.a, faces[f.b][0], faces[f.b][1], faces[f.b][2]}; };
-  const auto is_corner = [](const auto& c) { return c[0] == c[1] || c[0] == c[2] || c[0] == c[3]; };
-  const auto find_closest = [&] { s.batch.find_closest_vertex_faces(); };
-  keep_near(corners, is_corner, find_closest, room_.vertices, room_.faces, vertex_faces_, s);
-  s.found.clear();
-}
-
-void SelfNeighbours::list_edges(std::size_t max_pairs, Scratch& s) {
-  const auto& edges = surface_->edges();
-  divide_features(edges, room_.edges, s);
-  s.found.clear();
-  s.search.within(s.strayed, s.found, max_pairs);
-  s.search.between(s.strayed, s.calm, s.found, max_pairs);
-  for (ItemPair& f : s.found) f = {std::min(f.a, f.b), std::max(f.a, f.b)};
-  const auto corners = [&](const auto& f) {
-    return std::array{edges[f.a][0], edges[f.a][1], edges[f.b][0], edges[f.b][1]};
-  };
-  const auto meet = [](const auto& c) { return c[0] == c[2] || c[0] == c[3] || c[1] == c[2] || c[1] == c[3]; };
-  const auto find_closest = [&] { s.batch.find_closest_edges(); };
-  keep_near(corners, meet, find_closest, room_.edges, room_.edges, edges_, s);
-  s.found.clear();
+void SelfNeighbours::add_needed(const List& list, Scratch& s) const {
+  for (const Near& n : list.near)
+    if (n.distance <= need_[list.first_a + n.a] + need_[list.first_b + n.b]) s.found.push_back({n.a, n.b});
 }
 
 void SelfNeighbours::add_vertex_faces(std::size_t max_pairs, Scratch& s) {
-  if (vertex_faces_due_) list_vertex_faces(max_pairs, s);
-  vertex_faces_due_ = false;
-  for (const Near& n : vertex_faces_)
-    if (n.distance <= need_.vertices[n.a] + need_.faces[n.b]) s.found.push_back({n.a, n.b});
+  if (vertex_faces_.due) {
+    vertex_faces_.first_b = surface_->vertex_count();
+    divide_features(surface_->triangles(), vertex_faces_.first_b, s);
+    s.found.clear();
+    s.search.between(s.strayed_vertices, s.features, s.found, max_pairs);
+    s.search.between(s.calm_vertices, s.strayed, s.found, max_pairs);
+    keep_near<1>(vertex_faces_, s);
+  }
+  add_needed(vertex_faces_, s);
 }
 
 void SelfNeighbours::add_edges(std::size_t max_pairs, Scratch& s) {
-  if (edges_due_) list_edges(max_pairs, s);
-  edges_due_ = false;
-  for (const Near& n : edges_)
-    if (n.distance <= need_.edges[n.a] + need_.edges[n.b]) s.found.push_back({n.a, n.b});
+  if (edges_.due) {
+    edges_.first_a = edges_.first_b = surface_->vertex_count() + static_cast<Index>(surface_->triangles().size());
+    divide_features(surface_->edges(), edges_.first_a, s);
+    s.found.clear();
+    s.search.within(s.strayed, s.found, max_pairs);
+    s.search.between(s.strayed, s.calm, s.found, max_pairs);
+    for (ItemPair& f : s.found) f = {std::min(f.a, f.b), std::max(f.a, f.b)};
+    keep_near<2>(edges_, s);
+  }
+  add_needed(edges_, s);
 }
 
 }  // namespace collide::surface

@@ -50,25 +50,21 @@ class SelfNeighbours {
     Index a, b;
     float distance;  // m, in the reference shape
   };
-  /// A length (m) of each feature.
-  struct Lengths {
-    std::vector<float> vertices, faces, edges;
+  struct List {
+    std::vector<Near> near;
+    Index first_a = 0, first_b = 0;  // the numbers of the first features of both kinds
+    bool due = false;                // the pairs of what strays are to be listed anew
   };
 
   void take_reference(const VertexRun& at);
   void bound_rounding();
   void fit_rotation(const VertexRun& at);
   void measure_needs(const VertexRun& at, float near, std::span<const float> ways, float margin, Scratch& scratch);
-  bool has_room() const;
-  void list_vertex_faces(std::size_t max_pairs, Scratch& scratch);
-  void list_edges(std::size_t max_pairs, Scratch& scratch);
   template <std::size_t n>
-  void divide_features(const std::vector<std::array<Index, n>>& features, const std::vector<float>& rooms,
-                       Scratch& scratch) const;
-  template <class Corners, class SharesVertex, class FindClosest>
-  void keep_near(const Corners& corners, const SharesVertex& shares_vertex, const FindClosest& find_closest,
-                 const std::vector<float>& room_a, const std::vector<float>& room_b, std::vector<Near>& near,
-                 Scratch& scratch) const;
+  void divide_features(const std::vector<std::array<Index, n>>& features, Index first, Scratch& scratch) const;
+  template <std::size_t ones>
+  void keep_near(List& list, Scratch& scratch) const;
+  void add_needed(const List& list, Scratch& scratch) const;
   template <class Corners>
   bool strays(const Corners& corners) const;
   template <class Visit>
@@ -80,11 +76,10 @@ class SelfNeighbours {
   glm::mat3 inverse_inertia_{1.0f};             // 1/m^2, of the reference shape
   glm::vec3 centre_{0.0f};                      // m, of the last shape
   glm::quat rotation_ = glm::quat(1, 0, 0, 0);  // from the reference shape to the last one
-  Lengths need_, margin_, room_;
-  float rounding_ = 0;  // m, of distances in the reference shape
+  std::vector<float> need_, margin_, room_;     // m, of each feature: vertices, faces, edges
+  float rounding_ = 0;                          // m, of distances in the reference shape
   Index searched_ = 0;
-  std::vector<Near> vertex_faces_, edges_;
-  bool vertex_faces_due_ = false, edges_due_ = false;  // those of what strays are to be listed anew
+  List vertex_faces_, edges_;
 };
 
 }  // namespace collide::surface

@@ -180,10 +180,22 @@ void SurfaceSearch::find_candidates(Thread& own, Task& task) {
   }
   task.in = &own.features;
   task.begin = own.features.size();
-  if (task.a == task.b)
-    find_within(own, task);
-  else
+  if (task.a != task.b)
     find_between(own, task);
+  else if (task.kind == Task::Kind::edge_edge)
+    near_itself_[task.a].add_edges(max_box_pairs, own);
+  else
+    near_itself_[task.a].add_vertex_faces(max_box_pairs, own);
+  switch (task.kind) {
+    case Task::Kind::vertex_face:
+      add_reachable<1>(own, task.a, task.b);
+      break;
+    case Task::Kind::face_vertex:
+      add_reachable<1>(own, task.b, task.a);
+      break;
+    case Task::Kind::edge_edge:
+      add_reachable<2>(own, task.a, task.b);
+  }
   task.end = own.features.size();
   own.found.clear();
 }
@@ -254,7 +266,6 @@ void SurfaceSearch::find_between(Thread& own, const Task& task) const {
       own.search.between(own.boxes_a, own.boxes_b, own.found, max_box_pairs);
   }
   own.work += own.found.size();
-  add_reachable(own, task);
 }
 
 /// Asks for the pairs of features of a body that may meet before its prediction ends, which is no longer than they
@@ -270,15 +281,6 @@ void SurfaceSearch::cover_itself(Thread& own, Index b, float min_seconds) {
   own.work += body.surface().feature_count();
 }
 
-void SurfaceSearch::find_within(Thread& own, const Task& task) {
-  SelfNeighbours& near = near_itself_[task.a];
-  if (task.kind == Task::Kind::edge_edge)
-    near.add_edges(max_box_pairs, own);
-  else
-    near.add_vertex_faces(max_box_pairs, own);
-  add_reachable(own, task);
-}
-
 /// Returns the distance (m) from which features that move at `speed` relative to each other can come within 1.1 times
 /// their contact distance before the prediction ends.
 float SurfaceSearch::reach(Index body_a, Index body_b, float speed) const {
@@ -287,38 +289,20 @@ float SurfaceSearch::reach(Index body_a, Index body_b, float speed) const {
   return near + (std::min(swept_[body_a].end(), swept_[body_b].end()) - time_) * speed;
 }
 
-void SurfaceSearch::add_reachable(Thread& own, const Task& task) const {
-  const bool turned = task.kind == Task::Kind::face_vertex;
-  const Index a = turned ? task.b : task.a, b = turned ? task.a : task.b;
-  const Surface &one = swept_[a].surface(), &two = swept_[b].surface();
+/// Adds the pairs found that can come within reach of each other before the prediction ends, in order. Their distance
+/// and relative speed bound the earliest time of that, as in conservative advancement. ones: see corners_of().
+template <std::size_t ones>
+void SurfaceSearch::add_reachable(Thread& own, Index a, Index b) const {
   assert(a != b || swept_[a].begin() == time_);
+  const Surface &one = swept_[a].surface(), &two = swept_[b].surface();
+  const auto end_a = static_cast<Index>(ones == 1 ? one.vertex_count() : one.edges().size());
+  const auto end_b = static_cast<Index>(ones == 1 ? two.triangles().size() : two.edges().size());
   const auto& points = a == b ? &SweptBody::deforming_points : &SweptBody::points;
   const std::vector<MovingPoint>&p = (swept_[a].*points)(), &q = (swept_[b].*points)();
-  if (task.kind == Task::Kind::edge_edge)
-    add_reachable<2>(
-        own, a, b, static_cast<Index>(one.edges().size()), static_cast<Index>(two.edges().size()),
-        [&](const ItemPair& f) {
-          const Edge &e = one.edges()[f.a], &g = two.edges()[f.b];
-          return std::array{&p[e[0]], &p[e[1]], &q[g[0]], &q[g[1]]};
-        },
-        [&] { own.batch.find_closest_edges(); });
-  else
-    add_reachable<1>(
-        own, a, b, one.vertex_count(), static_cast<Index>(two.triangles().size()),
-        [&](const ItemPair& f) {
-          const Triangle& t = two.triangles()[f.b];
-          return std::array{&p[f.a], &q[t[0]], &q[t[1]], &q[t[2]]};
-        },
-        [&] { own.batch.find_closest_vertex_faces(); });
-}
-
-/// Adds the pairs found that can come within reach of each other before the prediction ends, in order. Their distance
-/// and relative speed bound the earliest time of that, as in conservative advancement. The first `ones` corners of a
-/// pair are those of its first feature. end_a and end_b: how many there are of the first feature's kind, and of the
-/// second's.
-template <std::size_t ones, class Corners, class FindClosest>
-void SurfaceSearch::add_reachable(Thread& own, Index a, Index b, Index end_a, Index end_b, const Corners& corners,
-                                  const FindClosest& find_closest) const {
+  const auto corners = [&](const ItemPair& f) {
+    const std::array<Index, 4> c = corners_of<ones>(one, f.a, two, f.b);
+    return std::array{&p[c[0]], &(ones == 1 ? q : p)[c[1]], &q[c[2]], &q[c[3]]};
+  };
   const float near = reach(a, b, 0), max_distance = reach(a, b, max_relative_speed(a, b)),
               max_distance2 = max_distance * max_distance;
   own.sort.sort(own.found, end_a, end_b);
@@ -328,7 +312,7 @@ void SurfaceSearch::add_reachable(Thread& own, Index a, Index b, Index end_a, In
       const std::array<const MovingPoint*, 4> c = corners(own.found[i]);
       own.batch.add({c[0]->at, c[1]->at, c[2]->at, c[3]->at}, static_cast<Index>(i));
     }
-    find_closest();
+    own.batch.find_closest<ones>();
     for (Index k = 0; k < own.batch.size(); ++k) {
       const float distance2 = own.batch.distance2(k);
       if (distance2 > max_distance2) continue;

@@ -137,14 +137,11 @@ class SurfaceSearch {
   void find_tasks();
   void find_candidates(Thread& own, Task& task);
   void find_between(Thread& own, const Task& task) const;
-  void find_within(Thread& own, const Task& task);
   void reuse_previous(Task& task) const;
   void merge_tasks();
   float reach(Index a, Index b, float speed) const;
-  void add_reachable(Thread& own, const Task& task) const;
-  template <std::size_t ones, class Corners, class FindClosest>
-  void add_reachable(Thread& own, Index a, Index b, Index end_a, Index end_b, const Corners& corners,
-                     const FindClosest& find_closest) const;
+  template <std::size_t ones>
+  void add_reachable(Thread& own, Index a, Index b) const;
 
   std::span<const SurfaceBody> bodies_;
   SurfaceQuery query_;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <glm/common.hpp>
-
 namespace collide::trees {
 
 bool BodyTrees::update(const Frame& frame, std::span<const Index> which, Workers& workers) {
@@ -119,8 +117,7 @@ void BodyTrees::refit(const Frame& frame, Workers& workers) {
     for (Index at = first_node_[k + 1]; at-- > first_node_[k];) {
       Node& node = nodes_[at];
       if (node.is_leaf()) continue;
-      const Aabb &one = nodes_[node.first].box, &other = nodes_[node.first + std::size_t{1}].box;
-      node.box = {glm::min(one.lo, other.lo), glm::max(one.hi, other.hi)};
+      node.box = joint(nodes_[node.first].box, nodes_[node.first + std::size_t{1}].box);
     }
     spread_[k] = spread_of(k);
   });
@@ -133,8 +130,8 @@ void BodyTrees::refit_leaf(const Frame& frame, Node& leaf) {
     points_.y[slot] = frame.y[points_.vertex[slot]];
     points_.z[slot] = frame.z[points_.vertex[slot]];
   }
-  leaf.box = bounds_of(slots.begin, slots.end,
-                       [&](std::size_t slot) { return glm::vec3(points_.x[slot], points_.y[slot], points_.z[slot]); });
+  leaf.box = box_around(slots.begin, slots.end,
+                        [&](std::size_t slot) { return glm::vec3(points_.x[slot], points_.y[slot], points_.z[slot]); });
 }
 
 /// Returns how large the patches of a body are, all together, beside the body; never 0.

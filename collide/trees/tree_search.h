@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include <glm/common.hpp>
-
 #include "collide/core/aabb.h"
 #include "collide/core/contact_search.h"
 #include "collide/core/workers.h"
@@ -17,20 +15,9 @@ struct Item {
   Index number;             // of the vertex, among those of the tree
 };
 
-/// Returns the box of the points at(begin) .. at(end - 1), of which there must be one.
-template <class At>
-Aabb bounds_of(std::size_t begin, std::size_t end, const At& at) {
-  glm::vec3 lo = at(begin), hi = lo;
-  for (std::size_t k = begin + 1; k < end; ++k) {
-    const glm::vec3 p = at(k);
-    lo = glm::min(lo, p);
-    hi = glm::max(hi, p);
-  }
-  return {lo, hi};
-}
 inline Aabb bounds_of(std::span<const Item> items) {
-  return bounds_of(0, items.size(),
-                   [&](std::size_t k) { return glm::vec3(items[k].at[0], items[k].at[1], items[k].at[2]); });
+  return box_around(0, items.size(),
+                    [&](std::size_t k) { return glm::vec3(items[k].at[0], items[k].at[1], items[k].at[2]); });
 }
 
 /// Brings the items below the one that belongs to the place `middle` along the axis before it, and the others behind.
@@ -110,14 +97,8 @@ struct NodePairs {
 };
 
 /// Finds all contacts among the vertices of a tree: goes down the tree with pairs of nodes whose boxes are near().
-class TreeSearch {
- public:
-  /// nodes: the root first, or none. self: also inside a whole body. cutoff: m. Call search.begin() before, and
-  /// search.finish() after.
-  void run(std::span<const Node> nodes, bool self, float cutoff, ContactSearch& search, Workers& workers);
-
- private:
-  std::vector<NodePair> pairs_;
-};
+/// nodes: the root first, or none. self: also inside a whole body. cutoff: m. Call search.begin() before, and
+/// search.finish() after.
+void search_tree(std::span<const Node> nodes, bool self, float cutoff, ContactSearch& search, Workers& workers);
 
 }  // namespace collide::trees

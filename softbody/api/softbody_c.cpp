@@ -58,10 +58,8 @@ sbcollide_status sbcollide_world_add_fine_mesh(sbcollide_world* world, const flo
                                                int* mesh) {
   return guarded(world, [&] {
     require_pointer(xyz, vertex_count, "xyz");
-    require_pointer(triangles, triangle_count, "triangles");
+    const auto corners = sbcollide::groups_at<3>(triangles, triangle_count, "triangles");
     require_pointer(mesh, 1, "mesh");
-    std::vector<std::array<sbcollide::Index, 3>> corners(triangle_count);
-    for (std::size_t i = 0; i < 3 * triangle_count; ++i) corners[i / 3][i % 3] = triangles[i];
     *mesh = world->scene.add_mesh({xyz, 3 * vertex_count}, corners, resolution);
   });
 }

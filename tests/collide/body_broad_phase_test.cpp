@@ -1,4 +1,4 @@
-// The broad phase of bodies against all pairs.
+// The broad phase of bodies against all pairs, on every target.
 
 #include "collide/exact/body_broad_phase.h"
 
@@ -6,10 +6,12 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 
-#include "states.h"
+#include "collide/core/cutoff.h"
+#include "every_target.h"
 
 namespace collide::test {
 
@@ -56,31 +58,34 @@ struct Expected {
 
 void check(const std::vector<BodyBounds>& bounds, const std::vector<Index>& live, float reach, const char* what) {
   const Expected expected(bounds, live, reach);
-  for (const int threads : {1, 2, 3}) {
-    Workers workers(threads, 0);
-    BodyBroadPhase near;
-    near.find(bounds, live, reach, workers);
-    EXPECT_EQ(near.pairs(), expected.pairs) << what;
-    EXPECT_EQ(near.near_box_pairs(), expected.near_box_pairs) << what;
-    EXPECT_EQ(near.isolated_bodies(), expected.alone) << what;
-    std::uint64_t before = 0;
-    for (Index body = 0; body < bounds.size(); ++body) {
-      const auto neighbours = near.later_neighbours(body);
-      ASSERT_EQ(std::vector<Index>(neighbours.begin(), neighbours.end()), expected.neighbours[body])
-          << what << ' ' << body;
-      EXPECT_EQ(near.pairs_before(body), before);
-      before += neighbours.size();
+  for (const std::int64_t target : targets()) {
+    const tests::UseTarget use(target);
+    for (const int threads : {1, 2, 3}) {
+      Workers workers(threads, 0);
+      BodyBroadPhase near;
+      near.find(bounds, live, reach, workers);
+      EXPECT_EQ(near.pairs(), expected.pairs) << what;
+      EXPECT_EQ(near.near_box_pairs(), expected.near_box_pairs) << what;
+      EXPECT_EQ(near.isolated_bodies(), expected.alone) << what;
+      std::uint64_t before = 0;
+      for (Index body = 0; body < bounds.size(); ++body) {
+        const auto neighbours = near.later_neighbours(body);
+        ASSERT_EQ(std::vector<Index>(neighbours.begin(), neighbours.end()), expected.neighbours[body])
+            << what << ' ' << body;
+        EXPECT_EQ(near.pairs_before(body), before);
+        before += neighbours.size();
+      }
     }
   }
 }
 
 std::vector<Index> all_of(const std::vector<BodyBounds>& bounds) {
-  std::vector<Index> live;
-  for (Index i = 0; i < bounds.size(); ++i) live.push_back(i);
+  std::vector<Index> live(bounds.size());
+  std::iota(live.begin(), live.end(), Index{0});
   return live;
 }
 
-TEST(BodyBroadPhase, AreThoseOfAllPairs) {
+TEST(BodyBroadPhase, FindsThePairsOfAPlainLoop) {
   std::mt19937 random(51);
   for (const Index count : {0u, 1u, 2u, 3u, 17u, 300u}) {
     for (const glm::vec3& space :
@@ -93,7 +98,7 @@ TEST(BodyBroadPhase, AreThoseOfAllPairs) {
   }
 }
 
-TEST(BodyBroadPhase, IncludeOneThatIsHugeAndAreOnlyTheLiveOnes) {
+TEST(BodyBroadPhase, FindsPairsWithAHugeBodyAndOfLiveBodiesOnly) {
   std::mt19937 random(52);
   std::vector<BodyBounds> bounds = boxes(random, 200, glm::vec3(30), 0.8f);
   bounds[77] = bound_around(glm::vec3(-5), glm::vec3(20), 25);
@@ -105,7 +110,7 @@ TEST(BodyBroadPhase, IncludeOneThatIsHugeAndAreOnlyTheLiveOnes) {
   check(bounds, live, 0.2f, "live");
 }
 
-TEST(BodyBroadPhase, IncludeThoseThatBeginFarBeforeTheOther) {
+TEST(BodyBroadPhase, FindsPairsOfWhichOneBoxBeginsFarBeforeTheOther) {
   std::mt19937 random(54);
   std::vector<BodyBounds> bounds;
   for (Index i = 0; i < 200; ++i) {
@@ -116,7 +121,22 @@ TEST(BodyBroadPhase, IncludeThoseThatBeginFarBeforeTheOther) {
   check(bounds, all_of(bounds), 0.1f, "long");
 }
 
-TEST(BodyBroadPhase, AreFoundAtAnySize) {
+TEST(BodyBroadPhase, LosesNoSpheresThatJustTouchToRounding) {
+  std::mt19937 random(55);
+  constexpr float reach = 0.2f;
+  for (int trial = 0; trial < 100; ++trial) {
+    const std::vector<glm::vec3> at = random_points(random, 2, -3, 3);
+    std::vector<BodyBounds> bounds;
+    for (const glm::vec3& centre : at) bounds.push_back(bound_around(centre - 3.0f, centre + 3.0f, 0));
+    const glm::dvec3 d = glm::dvec3(bounds[1].centre) - glm::dvec3(bounds[0].centre);
+    const double apart = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+    if (apart < 1) continue;
+    for (BodyBounds& bound : bounds) bound.radius = round_up((apart - double{reach}) / 2);
+    check(bounds, all_of(bounds), reach, "touching");
+  }
+}
+
+TEST(BodyBroadPhase, FindsPairsOfAnySize) {
   std::mt19937 random(53);
   for (const float scale : {1e-40f, 1e-20f, 1e10f, 1e17f}) {
     std::vector<BodyBounds> bounds = boxes(random, 120, glm::vec3(8), 1);
@@ -127,7 +147,7 @@ TEST(BodyBroadPhase, AreFoundAtAnySize) {
   }
 }
 
-TEST(BodyBroadPhase, AreLimitedAndThenFoundAgain) {
+TEST(BodyBroadPhase, ThrowsBeyondItsLimitAndCanBeUsedAgain) {
   const std::vector<BodyBounds> crowd(20, bound_around(glm::vec3(0), glm::vec3(1), 1));
   for (const int threads : {1, 3}) {
     Workers workers(threads, 0);

@@ -250,14 +250,14 @@ Truth truth_of(const Query& query) {
   }
   for (Root& root : times) {
     if (!signs.meet_at(root, query.kind)) continue;
-    if (!planar) {
-      const bool starts = root.low == root.high && root.high == 0, ends = root.low == root.high && root.high == 1;
-      const auto [before, after] = around(root, signs.side);
-      truth.passes = truth.passes || (!starts && before < 0) || (!ends && after < 0);
-    }
     while (root.high - root.low > Rational(1e-15)) root.halve();
     const double time = root.high.get_d();
     truth.first_meeting = std::min(time, truth.first_meeting.value_or(time));
+    if (planar || truth.first_passage) continue;
+    const bool starts = root.low == root.high && root.high == 0, ends = root.low == root.high && root.high == 1;
+    const auto [before, after] = around(root, signs.side);
+    if ((!starts && before < 0) || (!ends && after < 0))
+      truth.first_passage = oracle::Passage{time, starts || before > 0};
   }
   return truth;
 }

@@ -9,7 +9,7 @@ namespace collide::test {
 
 struct Truth {
   std::optional<double> first_meeting;  // rounded
-  bool passes = false;
+  std::optional<oracle::Passage> first_passage;
 };
 Truth truth_of(const Query& query);
 

@@ -113,12 +113,6 @@ TEST(ClosestFeatures, InnerIsTrueIfBothPointsLieInside) {
   EXPECT_FALSE(closest_edges({-1, 0, 0}, {1, 0, 0}, {2, -1, 1}, {2, 1, 1}).inner);
 }
 
-TEST(ClosestFeatures, SeparationPointsFromTheSecondFeatureToTheFirst) {
-  const glm::vec3 up = closest_vertex_face({0, 3, 0}, {-1, 1, -1}, {1, 1, -1}, {0, 1, 2}).separation;
-  EXPECT_LT(glm::length(up - glm::vec3(0, 2, 0)), 1e-6f);
-  EXPECT_EQ(closest_edges({-1, 3, 0}, {1, 3, 0}, {0, 1, -1}, {0, 1, 1}).separation, glm::vec3(0, 2, 0));
-}
-
 /// Slivers, and faces that are a line or a point: exactly, on a lattice, and but for rounding.
 TEST(ClosestFeatures, AreClosestForDegenerateFaces) {
   std::mt19937 random(52);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "states.h"
 
 namespace collide::test {
@@ -26,75 +28,75 @@ Settings cells_of(float size, std::uint32_t buckets = 1001) {
   return settings;
 }
 
-/// Returns how many buckets a method uses, and the load of the fullest one; 0 of a method without a hash.
-std::pair<std::size_t, std::uint32_t> bucket_loads(std::string_view method, const State& state,
-                                                   const Settings& settings) {
-  const std::unique_ptr<Detector> detector = find_method(method)->make();
-  Workers workers(1);
-  Result result;
-  detector->detect(state.frame(), settings, workers, result);
-  const std::vector<BucketLoad> loads = detector->debug().loads;
-  std::uint32_t longest = 0;
-  for (const BucketLoad& one : loads) longest = std::max(longest, one.load);
-  return {loads.size(), longest};
-}
-
-TEST(Counters, OfBruteForceAreAllPairs) {
-  const Counters counters = detect("brute-force", cube(0), {}).counters;
-  EXPECT_EQ(counters.pair_tests, 28u);
-  EXPECT_EQ(counters.hashes, 0u);
-  EXPECT_EQ(counters.boxes, 0u);
+struct Case {
+  std::string_view what, method;
+  State state;
   Settings settings;
-  settings.self_collision = false;
-  EXPECT_EQ(detect("brute-force", cube(0), settings).counters.pair_tests, 0u);
+  std::optional<std::uint64_t> hashes = {}, boxes = {}, pair_tests = {};
+  std::optional<std::size_t> buckets = {};    // that are in use
+  std::optional<std::uint32_t> fullest = {};  // load of a bucket
+  Coverage coverage = Coverage::exact;
+};
+
+Settings changed(Settings settings, const std::function<void(Settings&)>& change) {
+  change(settings);
+  return settings;
 }
 
-TEST(Counters, OfTheLiteralMethodAreEightHashesABox) {
-  const Result result = detect("multi-level-sb", cube(1), cells_of(10));
-  EXPECT_EQ(result.counters.boxes, 8u);
-  EXPECT_EQ(result.counters.hashes, 64u);
-  // All corners lie in the cell 0, 0, 0, each box once.
-  EXPECT_EQ(bucket_loads("multi-level-sb", cube(1), cells_of(10)), std::pair(std::size_t{1}, 8u));
-  EXPECT_EQ(result.counters.pair_tests, 28u);  // eight boxes of one vertex
-  EXPECT_EQ(result.coverage, Coverage::covered);
+std::vector<Case> cases() {
+  const auto no_self = [](Settings& s) { s.self_collision = false; };
+  const auto level_0 = [](Settings& s) { s.levels = 0; };
+  const Settings far = cells_of(10), near = cells_of(1, 65537), between = changed(cells_of(1), no_self);
+  State bodies = cube(0);
+  bodies.add({glm::vec3(2.05f), glm::vec3(3)});
+  bodies.add({glm::vec3(50), glm::vec3(51)});
+  using enum Coverage;
+  return {
+      // what, method, bodies, settings: hashes, boxes, pair tests, buckets, fullest bucket, coverage
+      {"all pairs", "brute-force", cube(0), {}, 0, 0, 28, 0, 0},
+      {"no pair of one body", "brute-force", cube(0), changed({}, no_self), 0, 0, 0, 0, 0},
+      {"eight hashes a box, all in one cell", "multi-level-sb", cube(1), far, 64, 8, 28, 1, 8, covered},
+      {"27 corners in 27 cells; the middle is in all boxes", "multi-level-sb", cube(0), near, 64, 8, 28, 27, 8,
+       covered},
+      {"a pair of boxes in two buckets", "multi-level-sb", cube(0), cells_of(1, 2), 64, 8, 28, 2, 8, covered},
+      {"smaller cells", "multi-level-sb", cube(0), cells_of(0.999f), 64, 8, 28, {}, {}, exceeded},
+      {"a box with itself", "multi-level-sb", cube(1), changed(far, level_0), 8, 1, 28, 1, 1, covered},
+      {"padded boxes in one cell", "multi-level-sb-complete", cube(1), far, 8, 8, 28, 1, 8},
+      {"padded boxes in three cells an axis", "multi-level-sb-complete", cube(0), near, 8 * 27, 8, 28},
+      {"boxes in more than 64 cells meet all", "multi-level-sb-complete", cube(0), cells_of(0.25f), 0, 8, 28, 0, 0},
+      {"a body's box, and the area in it, uncut", "multi-level-sb-exact", cube(1), far, 0, 2, 28, 0, 0},
+      {"a body's box", "multi-level-sb-exact", cube(1), changed(far, no_self), 0, 1, 0, 0, 0},
+      // 0.5 and 2.5 m are far from the borders at 0, 1.5 and 3 m.
+      {"a cell a vertex, and visited", "grid-hash", cube(0.5f), cells_of(1.5f, 65537), 16, 0, 0, 8, 1},
+      {"one cell", "grid-hash", cube(0.5f), cells_of(100, 65537), 16, 0, 28, 1, 8},
+      {"three boxes and an overlap", "bounding-box", bodies, cells_of(1), 0, 3, 28 + 1 + 1 + 16, 0, 0},
+      {"the overlap", "bounding-box", bodies, between, 0, 3, 16, 0, 0},
+      {"2 and 2.05 m share a cell", "bounding-box-grid-hash", bodies, between, {}, 3, {}, 9, 2},
+      {"the body far away is hashed, too", "grid-hash", bodies, between, {}, 0, {}, 11, 2},
+  };
 }
 
-TEST(Counters, CountAPairOfBoxesOnceThoughItSharesManyBuckets) {
-  // Cells as large as the boxes: neighbours share up to four corners; 27 corner points fall into 27 cells.
-  const Result result = detect("multi-level-sb", cube(0), cells_of(1, 65537));
-  // The fullest is the middle of the body.
-  EXPECT_EQ(bucket_loads("multi-level-sb", cube(0), cells_of(1, 65537)), std::pair(std::size_t{27}, 8u));
-  EXPECT_EQ(result.counters.pair_tests, 28u);
-  EXPECT_EQ(result.coverage, Coverage::covered);
-  EXPECT_EQ(detect("multi-level-sb", cube(0), cells_of(1, 2)).counters.pair_tests, 28u);
-  EXPECT_EQ(detect("multi-level-sb", cube(0), cells_of(0.999f)).coverage, Coverage::exceeded);
-}
-
-TEST(Counters, OfTheLiteralMethodIncludeABoxWithItself) {
-  Settings settings = cells_of(10);
-  settings.levels = 0;
-  const Counters counters = detect("multi-level-sb", cube(1), settings).counters;
-  EXPECT_EQ(counters.boxes, 1u);
-  EXPECT_EQ(counters.hashes, 8u);
-  EXPECT_EQ(counters.pair_tests, 28u);
-}
-
-TEST(Counters, OfTheCompleteMethodAreTheCellsOfPaddedBoxes) {
-  const Counters inside = detect("multi-level-sb-complete", cube(1), cells_of(10)).counters;
-  EXPECT_EQ(inside.boxes, 8u);
-  EXPECT_EQ(inside.hashes, 8u);  // each box lies in the cell 0, 0, 0, padded or not
-  EXPECT_EQ(inside.pair_tests, 28u);
-  // Boxes of 1 m from 0 on, padded: three cells along each axis.
-  EXPECT_EQ(detect("multi-level-sb-complete", cube(0), cells_of(1, 65537)).counters.hashes, 8u * 27);
-  // More than 64 cells: no box is hashed, and all meet.
-  const Counters everywhere = detect("multi-level-sb-complete", cube(0), cells_of(0.25f)).counters;
-  EXPECT_EQ(everywhere.hashes, 0u);
-  EXPECT_EQ(everywhere.pair_tests, 28u);
-  EXPECT_EQ(detect("multi-level-sb-complete", cube(0), cells_of(0.999f)).coverage, Coverage::exact);
+TEST(Counters, AreThoseCountedByHand) {
+  Workers workers(1);
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(testing::Message() << c.method << ": " << c.what);
+    const std::unique_ptr<Detector> detector = find_method(c.method)->make();
+    Result result;
+    detector->detect(c.state.frame(), c.settings, workers, result);
+    const std::vector<BucketLoad> loads = detector->debug().loads;
+    std::uint32_t fullest = 0;
+    for (const BucketLoad& one : loads) fullest = std::max(fullest, one.load);
+    EXPECT_EQ(result.counters.hashes, c.hashes.value_or(result.counters.hashes));
+    EXPECT_EQ(result.counters.boxes, c.boxes.value_or(result.counters.boxes));
+    EXPECT_EQ(result.counters.pair_tests, c.pair_tests.value_or(result.counters.pair_tests));
+    EXPECT_EQ(loads.size(), c.buckets.value_or(loads.size()));
+    EXPECT_EQ(fullest, c.fullest.value_or(fullest));
+    EXPECT_EQ(result.coverage, c.coverage);
+  }
 }
 
 /// A box in 1000 cells, beside so many boxes in one cell that not all could be in 1000.
-TEST(Counters, OfTheCompleteMethodListALargeBoxAmongMany) {
+TEST(Counters, ShowThatTheCompleteMethodListsALargeBoxAmongMany) {
   State state;
   for (int i = 0; i < 40'000; ++i) state.add({glm::vec3(0.5f + 10 * static_cast<float>(i), 0.5f, 0.5f)});
   Settings settings = cells_of(1, 1'000'003);
@@ -106,45 +108,8 @@ TEST(Counters, OfTheCompleteMethodListALargeBoxAmongMany) {
   EXPECT_LT(with.pair_tests, without.pair_tests + 1000);
 }
 
-TEST(Counters, OfTheExactMethodHaveNoHashes) {
-  const Counters counters = detect("multi-level-sb-exact", cube(1), cells_of(10)).counters;
-  EXPECT_EQ(counters.hashes, 0u);
-  EXPECT_EQ(bucket_loads("multi-level-sb-exact", cube(1), cells_of(10)).first, 0u);
-  EXPECT_EQ(counters.boxes, 2u);  // the body's, and the area that it can touch itself in, uncut
-  EXPECT_EQ(counters.pair_tests, 28u);
-  Settings settings;
-  settings.self_collision = false;
-  EXPECT_EQ(detect("multi-level-sb-exact", cube(1), settings).counters.boxes, 1u);
-  EXPECT_EQ(detect("multi-level-sb-exact", cube(1), settings).counters.pair_tests, 0u);
-}
-
-TEST(Counters, OfGridHashAreVerticesAndVisitedCells) {
-  Settings settings = cells_of(1.5f, 65537);
-  settings.tolerance = 0.1f;
-  const Counters counters = detect("grid-hash", cube(0.5f), settings).counters;  // 0.5 and 2.5, far from 0, 1.5 and 3
-  EXPECT_EQ(counters.hashes, 16u);  // each vertex into its cell, and its cell visited
-  EXPECT_EQ(bucket_loads("grid-hash", cube(0.5f), settings).first, 8u);
-  EXPECT_EQ(counters.pair_tests, 0u);
-  settings.cell_size = glm::vec3(100);
-  EXPECT_EQ(detect("grid-hash", cube(0.5f), settings).counters.pair_tests, 28u);
-}
-
-TEST(Counters, OfTheBoundingBoxMethodsFollowTheOverlap) {
-  State state = cube(0);
-  state.add({glm::vec3(2.05f), glm::vec3(3)});
-  state.add({glm::vec3(50), glm::vec3(51)});
-  Settings settings = cells_of(1);
-  EXPECT_EQ(detect("bounding-box", state, settings).counters.boxes, 3u);
-  EXPECT_EQ(detect("bounding-box", state, settings).counters.pair_tests, 28u + 1 + 1 + 16);
-  settings.self_collision = false;
-  EXPECT_EQ(detect("bounding-box", state, settings).counters.pair_tests, 16u);
-  // 2 and 2.05 share a cell.
-  EXPECT_EQ(bucket_loads("bounding-box-grid-hash", state, settings), std::pair(std::size_t{9}, 2u));
-  EXPECT_EQ(bucket_loads("grid-hash", state, settings).first, 11u);
-}
-
 /// The sorted grid deals its cells to the axes by where most vertices are.
-TEST(Counters, OfTheSortedGridAreThoseOfThePileThoughABodyIsFarAway) {
+TEST(Counters, ShowThatABodyFarAwayTakesNoCellsOfTheSortedGridFromAPile) {
   const std::vector<glm::vec3> ball = icosphere(2, 0.2f).vertices;
   std::mt19937 random(3);
   State pile;

@@ -1,23 +1,12 @@
 #include "collide/core/cutoff.h"
 
 #include <gtest/gtest.h>
-#include <glm/common.hpp>
 
 #include "collide/core/aabb.h"
 #include "states.h"
 
 namespace collide::test {
 namespace {
-
-/// The true distance in long double: no rounding of the differences, none that matters in the rest.
-long double distance(const glm::vec3& a, const glm::vec3& b) {
-  long double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const long double d = static_cast<long double>(a[axis]) - static_cast<long double>(b[axis]);
-    sum += d * d;
-  }
-  return std::sqrt(sum);
-}
 
 TEST(ContactCutoff, BoundsEveryPairThatThePredicateAccepts) {
   std::mt19937 random(11);
@@ -71,32 +60,6 @@ TEST(Aabb, IsNearUpToTheReachItself) {
       EXPECT_FALSE(near(a, b, 0.2499f)) << axis << " " << shift;
     }
   }
-}
-
-TEST(Sweep, MeetsEveryNearPairOnce) {
-  constexpr float step = 0x1p-4f, cutoff = 2 * step;  // many boxes are just as far apart
-  const auto on_grid = [](const glm::vec3& p) { return glm::round(p / step) * step; };
-  std::mt19937 random(12);
-  std::vector<Aabb> boxes;
-  std::vector<Index> order;
-  for (Index i = 0; i < 200; ++i) {
-    const glm::vec3 lo = on_grid(random_points(random, 1, 0, 4)[0]);
-    boxes.push_back({lo, lo + on_grid(random_points(random, 1, 0, 0.7f)[0])});
-    order.push_back(i);
-  }
-  std::vector<std::array<Index, 2>> met, expected;
-  sweep(
-      order, cutoff, [&](Index i) -> const Aabb& { return boxes[i]; },
-      [&](Index a, Index b) {
-        met.push_back({std::min(a, b), std::max(a, b)});
-      });
-  for (Index a = 0; a < 200; ++a) {
-    for (Index b = a + 1; b < 200; ++b) {
-      if (near(boxes[a], boxes[b], cutoff)) expected.push_back({a, b});
-    }
-  }
-  std::sort(met.begin(), met.end());
-  EXPECT_EQ(met, expected);
 }
 
 }  // namespace

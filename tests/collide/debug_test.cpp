@@ -29,14 +29,10 @@ Settings settings_of(const State& state, float cell) {
   return settings;
 }
 
-TEST(Debug, IsEmptyWithoutBoxesAndTable) {
-  const State state = named_states()[0].make();
-  for (const char* method : {"brute-force", "bounding-box"}) {
-    const DebugGeometry geometry = picture(method, state, settings_of(state, 0.5f));
-    EXPECT_TRUE(geometry.boxes.empty() && geometry.cells.empty() && geometry.loads.empty() && geometry.buckets == 0);
-  }
+TEST(Debug, IsEmptyBeforeTheFirstFrame) {
   for (const Method& method : method_table()) {
-    EXPECT_TRUE(method.make()->debug().boxes.empty()) << "before the first frame";
+    const DebugGeometry geometry = method.make()->debug();
+    EXPECT_TRUE(geometry.boxes.empty() && geometry.cells.empty() && geometry.loads.empty()) << method.key;
   }
 }
 
@@ -106,28 +102,6 @@ TEST(Debug, OfTheExactMethodShowsWhereBodiesOverlap) {
   }
   EXPECT_TRUE(geometry.cells.empty() && geometry.loads.empty() && geometry.buckets == 0 && geometry.box_bucket.empty());
   EXPECT_EQ(geometry.box_first, (std::vector<std::uint32_t>{0, 0}));
-}
-
-/// Leaves of the cuts lie in the area that two bodies have in common, give or take the tolerance.
-TEST(Debug, OfTheExactMethodShowsTheLeavesOfItsCuts) {
-  State state;
-  std::mt19937 random(31);
-  for (int body = 0; body < 2; ++body) state.add(random_points(random, 400, 0, 1));
-  state.tolerance = 0.05f;
-  Settings settings = settings_of(state, 1);
-  settings.self_collision = false;
-  settings.levels = 0;
-  EXPECT_EQ(picture("multi-level-sb-exact", state, settings).boxes.size(), 1u);
-  settings.levels = 6;
-  const DebugGeometry geometry = picture("multi-level-sb-exact", state, settings);
-  ASSERT_GT(geometry.boxes.size(), 4u);
-  for (const DebugGeometry::Box& box : geometry.boxes) {
-    for (int axis = 0; axis < 3; ++axis) {
-      EXPECT_LE(box.lo[axis], box.hi[axis]);
-      EXPECT_GE(box.lo[axis], -0.1f);
-      EXPECT_LE(box.hi[axis], 1.1f);
-    }
-  }
 }
 
 TEST(Debug, KeepsTheFirstCellsWhereThereAreTooMany) {

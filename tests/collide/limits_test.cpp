@@ -45,16 +45,6 @@ TEST(Limits, PairsThatAreCloseAtRestDoNotCount) {
   EXPECT_TRUE(detect("multi-level-sb-exact", crowd, {}).contacts.empty());
 }
 
-/// The true distance, which long double holds for all floats.
-bool closer(const glm::vec3& a, const glm::vec3& b, float tolerance) {
-  long double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const long double d = static_cast<long double>(a[axis]) - static_cast<long double>(b[axis]);
-    sum += d * d;
-  }
-  return sum < static_cast<long double>(tolerance) * static_cast<long double>(tolerance);
-}
-
 /// Bodies of one vertex each: some in one place, some a hair more or less than the tolerance apart, some so near or far
 /// that a square of their distance is no float.
 State at_the_ends_of_floats(float tolerance) {
@@ -79,7 +69,7 @@ TEST(Limits, ContactsAreThoseOfTrueDistances) {
     std::vector<Contact> expected;
     for (Index a = 0; a < state.x.size(); ++a)
       for (Index b = a + 1; b < state.x.size(); ++b)
-        if (closer({state.x[a], state.y[a], state.z[a]}, {state.x[b], state.y[b], state.z[b]}, tolerance))
+        if (distance(position(state.frame(), a), position(state.frame(), b)) < static_cast<long double>(tolerance))
           expected.push_back({a, b});
     Settings settings = metre_cells();
     settings.tolerance = tolerance;

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "states.h"
+#include "every_target.h"
 
 namespace collide::test {
 namespace {
@@ -101,7 +101,7 @@ TEST_P(Matrix, FindsWhatTheOracleFinds) {
 }
 
 /// Whole results, counters and all, on 1, 2 and 3 threads, by one detector again and by fresh ones.
-TEST_P(Matrix, IsTheSameOnAnyThreadCountAndTheNextTime) {
+TEST_P(Matrix, FindsTheSameOnAnyNumberOfThreadsAndTheNextTime) {
   const State state = GetParam().make();
   const State other = named_states()[1].make();
   for (const Method& method : method_table()) {
@@ -122,6 +122,26 @@ TEST_P(Matrix, IsTheSameOnAnyThreadCountAndTheNextTime) {
         EXPECT_EQ(result.counters.boxes, first.counters.boxes) << method.key;
         EXPECT_EQ(result.coverage, first.coverage) << method.key;
         EXPECT_EQ(result.non_finite_bodies, first.non_finite_bodies) << method.key;
+      }
+    }
+  }
+}
+
+/// Four frames each: from the third on, the exact method keeps the contacts of bodies at rest.
+TEST_P(Matrix, FindsTheSameContactsOnEveryTarget) {
+  const State state = GetParam().make();
+  Settings settings;
+  settings.tolerance = state.tolerance;
+  settings.cell_size = glm::vec3(0.6f);
+  for (const Method& method : method_table()) {
+    const std::vector<Contact> expected = detect(method.key, state, settings).contacts;
+    for (const std::int64_t target : targets()) {
+      const tests::UseTarget use(target);
+      const std::unique_ptr<Detector> detector = method.make();
+      for (int frame = 0; frame < 4; ++frame) {
+        Result result;
+        detector->detect(state.frame(), settings, bench_->workers[1], result);
+        ASSERT_EQ(result.contacts, expected) << method.key << ' ' << hwy::TargetName(target) << ' ' << frame;
       }
     }
   }

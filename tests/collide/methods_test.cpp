@@ -12,7 +12,7 @@
 namespace collide::test {
 namespace {
 
-TEST(Methods, AreThoseOfTheCommandLine) {
+TEST(MethodKeys, AreThoseOfTheCommandLine) {
   EXPECT_EQ(method_keys(),
             "brute-force, grid-hash, bounding-box, bounding-box-grid-hash, multi-level-sb, multi-level-sb-complete, "
             "multi-level-sb-exact, sorted-grid, sweep-and-prune, aabb-tree, kd-tree, octree");
@@ -20,7 +20,7 @@ TEST(Methods, AreThoseOfTheCommandLine) {
   EXPECT_EQ(find_method("nearly"), nullptr);
 }
 
-TEST(Methods, TellsThemApart) {
+TEST(Methods, HaveTextsOfTheirOwn) {
   std::set<std::string_view> keys, names, summaries, descriptions;
   for (const Method& method : method_table()) {
     keys.insert(method.key);
@@ -60,7 +60,7 @@ void expect_that_the_table_grows() {
 TEST(Methods, CanBeAddedWhileTheProgramRuns) { tests::in_a_process_of_its_own(expect_that_the_table_grows); }
 
 /// Holds the words of the descriptions against the work after frames of other shapes, and of rest.
-TEST(Methods, SayWhetherTheyKeepAnythingBetweenFrames) {
+TEST(Methods, SayRightlyWhetherTheyKeepAnythingBetweenFrames) {
   const Ball ball = icosphere(2, 0.5f);
   const auto shape = std::make_shared<const Shape>(162, ball.edges, ball.vertices);
   State before, now;
@@ -90,7 +90,7 @@ TEST(Methods, SayWhetherTheyKeepAnythingBetweenFrames) {
   }
 }
 
-TEST(Methods, NamesBodiesThatAreNotFinite) {
+TEST(Methods, NameBodiesThatAreNotFinite) {
   State state;
   state.add({glm::vec3(0), glm::vec3(0.05f, 0, 0)});
   state.add({glm::vec3(0), glm::vec3(0, NAN, 0)});
@@ -105,61 +105,8 @@ TEST(Methods, NamesBodiesThatAreNotFinite) {
   }
 }
 
-TEST(Methods, LeavesOutEdgesAndPairsNearAtRest) {
-  const std::vector<glm::vec3> rest{glm::vec3(0), glm::vec3(1, 0, 0), glm::vec3(2, 0, 0), glm::vec3(2.05f, 0, 0)};
-  const std::array<std::array<Index, 2>, 1> edges{{{0, 1}}};
-  State state;
-  state.add(std::make_shared<const Shape>(4, edges, rest), std::vector<glm::vec3>(4, glm::vec3(3)));
-  for (const Method& method : method_table()) {
-    EXPECT_EQ(detect(method.key, state, metre_cells()).contacts, (std::vector<Contact>{{0, 2}, {0, 3}, {1, 2}, {1, 3}}))
-        << method.key;
-  }
-}
-
-/// Frames in a row: bodies of one mesh bend, roll, jump far away and back, lose a coordinate, leave and come.
-TEST(Methods, FollowASequenceWithJumps) {
-  const Ball ball = icosphere(2, 0.5f);
-  const auto shape = std::make_shared<const Shape>(162, ball.edges, ball.vertices);
-  std::vector<std::unique_ptr<Detector>> one, two;
-  for (const Method& method : method_table()) {
-    one.push_back(method.make());
-    two.push_back(method.make());
-  }
-  Workers alone(1), both(2, 0);
-  Settings settings = metre_cells();
-  settings.tolerance = 0.08f;
-  std::mt19937 random(10);
-  std::vector<glm::vec3> at = random_points(random, 7, -0.8f, 0.8f);
-  std::size_t contacts = 0;
-  for (int frame = 0; frame < 16; ++frame) {
-    State state;
-    for (std::size_t body = 0; body < at.size() - (frame % 6 == 5 ? 2 : 0); ++body) {
-      std::vector<glm::vec3> points = ball.vertices;
-      const float squeeze = body == 3 ? std::abs(std::cos(0.4f * static_cast<float>(frame))) : 1;
-      for (glm::vec3& p : points) p.y *= squeeze;
-      if (body == 4) std::rotate(points.begin(), points.begin() + frame, points.end());
-      if (body == 2 && frame % 8 == 6) points[100].z = NAN;
-      const bool away = body == 1 && frame % 4 >= 2;
-      state.add(shape, moved(points, at[body] + (away ? glm::vec3(1e6f, 0, -1e6f) : glm::vec3(0))));
-      if (frame % 5 != 4) at[body] += random_points(random, 1, -0.03f, 0.03f)[0];  // else all rest in the next frame
-    }
-    const std::vector<Contact> expected = oracle(state, settings);
-    contacts += expected.size();
-    for (std::size_t m = 0; m < method_table().size(); ++m) {
-      if (!method_table()[m].exact) continue;
-      Result on_one, on_two;
-      one[m]->detect(state.frame(), settings, alone, on_one);
-      two[m]->detect(state.frame(), settings, both, on_two);
-      EXPECT_EQ(on_one.contacts, expected) << method_table()[m].key << ", frame " << frame;
-      EXPECT_EQ(on_two.contacts, expected) << method_table()[m].key << ", frame " << frame;
-      EXPECT_EQ(on_one.counters.pair_tests, on_two.counters.pair_tests) << method_table()[m].key;
-    }
-  }
-  EXPECT_GT(contacts, 1000u);
-}
-
 /// Numbers of boxes, cells and entries that would need days or all memory if any of them were taken at its word.
-TEST(Methods, AreBoundedForSettingsWithoutSense) {
+TEST(Methods, TakeBoundedTimeForSettingsWithoutSense) {
   State state;
   std::mt19937 random(9);
   for (int body = 0; body < 30; ++body) {

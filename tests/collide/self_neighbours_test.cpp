@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "every_target.h"
 #include "surface_meshes.h"
 
 namespace collide::test {
@@ -21,7 +22,7 @@ constexpr float margin = 0.02f;  // m
 struct Body {
   SurfaceMesh mesh;
   Surface surface;
-  std::vector<float> x, y, z, ways;
+  std::vector<float> ways;
   SelfNeighbours neighbours;
   SelfNeighbours::Scratch scratch;
 
@@ -29,9 +30,8 @@ struct Body {
       : mesh(m), surface(static_cast<Index>(m.vertices.size()), m.triangles), ways(m.vertices.size(), 0.0f) {}
 
   void cover(float near) {
-    x.clear(), y.clear(), z.clear();
-    for (const glm::vec3& v : mesh.vertices) x.push_back(v.x), y.push_back(v.y), z.push_back(v.z);
-    neighbours.cover(surface, {x.data(), y.data(), z.data(), surface.vertex_count()}, near, ways, margin, scratch);
+    const Points3 at(mesh.vertices);
+    neighbours.cover(surface, at.run(), near, ways, margin, scratch);
   }
   std::vector<ItemPair> pairs(bool of_edges) {
     scratch.found.clear();
@@ -103,7 +103,25 @@ TEST(SelfNeighbours, MissesNoPairWhileTheBodyBendsAndTurns) {
   EXPECT_LT(searched, all / 2);
 }
 
-TEST(SelfNeighbours, HoldHoweverFarTheBodyFallsAndTurns) {
+/// Positions are rounded about the centre, and the distances of slivers are bounds: neither may lose a pair.
+TEST(SelfNeighbours, FindsPairsThatAreExactlyAsFarApartAsAskedFor) {
+  std::mt19937 random(81);
+  for (const float squash : {1.0f, 1e-3f})
+    for (int trial = 0; trial < 300; ++trial) {
+      SurfaceMesh mesh = sheet(5, 1);
+      for (glm::vec3& v : mesh.vertices) v.z *= squash;
+      const std::vector<glm::vec3> r = random_points(random, 2, -1, 1);
+      Body body(moved(turned(mesh, r[0], uniform(random, 0, 6)), r[1]));
+      const std::vector<glm::vec3>& at = body.mesh.vertices;
+      const auto& [a, b, c] = mesh.triangles[random() % mesh.triangles.size()];
+      const glm::vec3& vertex = at[random() % at.size()];
+      const float distance = glm::length(closest_vertex_face(vertex, at[a], at[b], at[c]).separation);
+      body.cover(distance);
+      expect_complete(body, distance);
+    }
+}
+
+TEST(SelfNeighbours, KeepTheirPairsHoweverFarTheBodyFallsAndTurns) {
   Body body(valley());
   body.cover(0.05f);
   EXPECT_EQ(body.neighbours.searched(), body.surface.vertex_count());
@@ -115,7 +133,7 @@ TEST(SelfNeighbours, HoldHoweverFarTheBodyFallsAndTurns) {
   }
 }
 
-TEST(SelfNeighbours, SearchOnlyWhatHasStrayed) {
+TEST(SelfNeighbours, AreSearchedOnlyForVerticesThatHaveStrayed) {
   Body body(sheet(20, 2));
   body.cover(0.02f);
   body.pairs(false), body.pairs(true);
@@ -131,7 +149,7 @@ TEST(SelfNeighbours, SearchOnlyWhatHasStrayed) {
   EXPECT_EQ(body.neighbours.searched(), 0u);
 }
 
-TEST(SelfNeighbours, SearchAnewForAnotherSurfaceAndAfterTooManyPairs) {
+TEST(SelfNeighbours, AreSearchedAnewForAnotherSurfaceAndAfterTooManyPairs) {
   Body body(sheet(10, 1)), other(sheet(10, 2));
   body.cover(0.02f);
   expect_complete(body, 0.02f);

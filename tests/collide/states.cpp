@@ -248,6 +248,11 @@ float uniform(std::mt19937& random, float lo, float hi) {  // the same with ever
   return lo * (1 - t) + hi * t;
 }
 
+long double distance(const glm::vec3& a, const glm::vec3& b) {
+  const auto d = glm::vec<3, long double>(a) - glm::vec<3, long double>(b);
+  return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+}
+
 std::vector<glm::vec3> random_points(std::mt19937& random, std::size_t count, float lo, float hi) {
   std::vector<glm::vec3> points(count);
   for (glm::vec3& p : points) {

@@ -31,6 +31,8 @@ Ball icosphere(int subdivisions, float radius);
 std::vector<glm::vec3> moved(std::vector<glm::vec3> vertices, const glm::vec3& by);
 std::vector<glm::vec3> random_points(std::mt19937& random, std::size_t count, float lo, float hi);
 float uniform(std::mt19937& random, float lo, float hi);
+/// Returns the distance in long double: differences of floats are exact, and no square overflows or underflows.
+long double distance(const glm::vec3& a, const glm::vec3& b);
 
 struct NamedState {
   std::string name;

@@ -23,45 +23,6 @@ std::vector<SubdividedBox> boxes_of(const State& state, int levels, Points* poin
   return subdivision.boxes();
 }
 
-TEST(Cuts, FallOnTheAxesInTurn) {
-  for (int levels = 0; levels <= max_levels; ++levels) {
-    EXPECT_EQ(cuts_along(0, levels) + cuts_along(1, levels) + cuts_along(2, levels), levels);
-    EXPECT_GE(cuts_along(0, levels), cuts_along(1, levels));
-    EXPECT_GE(cuts_along(1, levels), cuts_along(2, levels));
-    EXPECT_LE(cuts_along(0, levels), cuts_along(2, levels) + 1);
-  }
-  EXPECT_LE(cuts_along(0, max_levels), Cuts::max_depth);
-}
-
-TEST(Cuts, PutAValueOnTheMiddleAbove) {
-  Cuts cuts;
-  cuts.build(-1, 3, 2);
-  EXPECT_EQ(cuts.border[1], 0.0f);
-  EXPECT_EQ(cuts.border[2], 1.0f);
-  EXPECT_EQ(cuts.interval_of(-1), 0);
-  EXPECT_EQ(cuts.interval_of(0), 1);
-  EXPECT_EQ(cuts.interval_of(std::nextafter(1.0f, 0.0f)), 1);
-  EXPECT_EQ(cuts.interval_of(1), 2);
-  EXPECT_EQ(cuts.interval_of(3), 3);
-  cuts.build(5, 5, 3);  // flat: all go up
-  EXPECT_EQ(cuts.interval_of(5), 7);
-}
-
-TEST(Subdivision, CutsACubeIntoItsOctants) {
-  State state;
-  std::vector<glm::vec3> corners;
-  for (int i = 0; i < 8; ++i) {
-    corners.push_back(glm::vec3(static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1), static_cast<float>(i >> 2)));
-  }
-  state.add(corners);
-  const std::array<std::size_t, 4> expected{1, 2, 4, 8};
-  for (int levels = 0; levels < 4; ++levels)
-    EXPECT_EQ(boxes_of(state, levels).size(), expected[static_cast<std::size_t>(levels)]);
-  const SubdividedBox first = boxes_of(state, 3)[0];
-  EXPECT_EQ(first.region.lo, glm::vec3(0));
-  EXPECT_EQ(first.region.hi, glm::vec3(0.5f));
-}
-
 TEST(Subdivision, PutsEveryVertexIntoOneBoxThatHoldsIt) {
   for (const NamedState& named : named_states()) {
     const State state = named.make();
@@ -94,22 +55,26 @@ TEST(Subdivision, PutsEveryVertexIntoOneBoxThatHoldsIt) {
   }
 }
 
-/// The recursion as method and paper put it, one cut after another.
+/// The recursion as method and paper put it, one cut after another. A value on a cut belongs to the upper side.
 TEST(Subdivision, IsTheRecursionOfMidpoints) {
-  const State state = named_states()[0].make();
-  Points points;
-  const std::vector<SubdividedBox> boxes = boxes_of(state, 7, &points);
-  for (const SubdividedBox& box : boxes) {
-    const Index v = points.vertex[box.slots.begin];
-    const glm::vec3 p(state.x[v], state.y[v], state.z[v]);
-    Aabb region = boxes_of(state, 0)[box.body].region;
-    for (int cut = 0; cut < 7; ++cut) {
-      const int axis = cut % 3;
-      const float mid = (region.lo[axis] + region.hi[axis]) / 2;
-      (p[axis] >= mid ? region.lo : region.hi)[axis] = mid;
+  for (const std::size_t which : {std::size_t{0}, std::size_t{6}}) {  // a cloud, and a lattice with vertices on cuts
+    const State state = named_states()[which].make();
+    const std::vector<SubdividedBox> whole = boxes_of(state, 0);
+    for (const int levels : {0, 1, 2, 3, 7, max_levels}) {
+      Points points;
+      for (const SubdividedBox& box : boxes_of(state, levels, &points)) {
+        const Index v = points.vertex[box.slots.begin];
+        const glm::vec3 p(state.x[v], state.y[v], state.z[v]);
+        Aabb region = whole[box.body].region;
+        for (int cut = 0; cut < levels; ++cut) {
+          const int axis = cut % 3;
+          const float mid = (region.lo[axis] + region.hi[axis]) / 2;
+          (p[axis] >= mid ? region.lo : region.hi)[axis] = mid;
+        }
+        ASSERT_EQ(box.region.lo, region.lo) << levels;
+        ASSERT_EQ(box.region.hi, region.hi) << levels;
+      }
     }
-    EXPECT_EQ(box.region.lo, region.lo);
-    EXPECT_EQ(box.region.hi, region.hi);
   }
 }
 

@@ -25,25 +25,6 @@ void add_points(Scene& scene, const std::vector<glm::vec3>& points) {
   scene.surfaces.push_back(nullptr);
 }
 
-TEST(FindOverlaps, MeasuresTheDepthOfTwoSpheres) {
-  for (const float distance : {1.9f, 1.6f, 1.2f}) {
-    const Scene scene{ball(1, 3), moved(ball(1, 3), glm::vec3(distance, 0, 0))};
-    const Overlaps overlaps = overlaps_of(scene);
-    const SurfaceFigures figures = figures_of(scene.frame(), overlaps);
-    const double max_sagitta = 0.006;  // m: with 642 vertices, the faces lie up to this much below the sphere
-    EXPECT_NEAR(figures.deepest, 2 - double{distance}, 2 * max_sagitta) << distance;
-    EXPECT_EQ(figures.overlapping_pairs, 1u);
-    EXPECT_EQ(figures.self_intersecting_bodies, 0u);
-    EXPECT_GT(figures.piercings, 0u);
-    for (const Penetration& in : overlaps.penetrations) {
-      const glm::dvec3 centre(in.body == 0 ? 0 : double{distance}, 0, 0);
-      const double true_depth = 1 - glm::length(glm::dvec3(scene.at(in.vertex)) - centre);
-      EXPECT_NEAR(in.depth, true_depth, max_sagitta);
-      EXPECT_GT(glm::dot(in.normal, glm::normalize(in.point - centre)), 0.95);
-    }
-  }
-}
-
 TEST(FindOverlaps, FindsACubeInsideACube) {
   for (const glm::vec3& origin : {glm::vec3(0), glm::vec3(1e6f, -1e6f, 1e6f)}) {
     const Scene scene{moved(box(glm::vec3(0), glm::vec3(4)), origin), moved(box(glm::vec3(1), glm::vec3(2)), origin)};
@@ -57,11 +38,6 @@ TEST(FindOverlaps, FindsACubeInsideACube) {
       EXPECT_EQ(glm::dvec3(scene.at(in.vertex)) + in.depth * in.normal, in.point);
     }
   }
-}
-
-TEST(FindOverlaps, FindsNothingBetweenSeparateBodies) {
-  EXPECT_EQ(figures_of(Scene{ball(1), moved(ball(1), glm::vec3(1.5f, 1.5f, 0))}), SurfaceFigures{});
-  EXPECT_EQ(figures_of(Scene{}), SurfaceFigures{});
 }
 
 TEST(FindOverlaps, AVertexOnAFaceSideOrCornerIsNotInside) {
@@ -86,13 +62,6 @@ TEST(FindOverlaps, AVertexOnAFaceSideOrCornerIsNotInside) {
     add_points(within, deeper);
     EXPECT_EQ(overlaps_of(within).penetrations.size(), deeper.size());
   }
-}
-
-TEST(FindOverlaps, AVertexInAConcavityIsOutside) {
-  Scene scene{valley()};
-  add_points(scene, {{2, 2, 0.5f}, {2, 0.5f, 0.5f}, {0.5f, 3, 0.5f}, {3.5f, 3, 0.5f}, {2, 1, 0.5f}, {1, 4, 0.5f}});
-  const Overlaps overlaps = overlaps_of(scene);
-  for (Index k = 0; k < 6; ++k) EXPECT_EQ(vertex_is_inside(overlaps, 10 + k), k >= 1 && k <= 3) << k;
 }
 
 /// Returns the solid angle of the mesh as seen from p, divided by 4 pi. Van Oosterom and Strackee 1983.
@@ -183,19 +152,6 @@ TEST(FindOverlaps, DepthIsTheSmallestOverAllFaces) {
   }
 }
 
-TEST(FindOverlaps, NamesTheFirstOfEquallyNearFaces) {
-  Scene scene{box(glm::vec3(0), glm::vec3(4))};
-  add_points(scene, {glm::vec3(2), {2, 3, 2}});  // in the centre, and below the diagonal of a side
-  const Overlaps overlaps = overlaps_of(scene);
-  ASSERT_EQ(overlaps.penetrations.size(), 2u);
-  EXPECT_EQ(overlaps.penetrations[0].triangle, 0u);
-  const std::vector<Triangle>& faces = scene.surfaces[0]->triangles();
-  const auto first_above = std::find_if(faces.begin(), faces.end(), [&](const Triangle& t) {
-    return std::all_of(t.begin(), t.end(), [&](Index v) { return scene.at(v).y == 4; });
-  });
-  EXPECT_EQ(overlaps.penetrations[1].triangle, static_cast<Index>(first_above - faces.begin()));
-}
-
 TEST(FindOverlaps, FindsASheetThroughASphere) {
   const SurfaceFigures figures = figures_of(Scene{ball(1), moved(sheet(1, 10), glm::vec3(0, 0.3f, 0))});
   EXPECT_EQ(figures.penetrating_vertices, 0u);  // the sheet's corners are far outside, and it has no inside
@@ -207,16 +163,9 @@ TEST(FindOverlaps, FindsASheetFoldedThroughItself) {
   SurfaceMesh cloth = sheet(4, 4);
   EXPECT_EQ(figures_of(Scene{cloth}), SurfaceFigures{});
   for (Index k = 20; k < 25; ++k) cloth.vertices[k] = {cloth.vertices[k].x + 0.1f, -0.5f, -1.3f};
-  const Overlaps overlaps = overlaps_of(Scene{cloth});  // the last row is pulled below the second row
-  const Overlaps above = overlaps_of([&] {
-    SurfaceMesh other = cloth;
-    for (Index k = 20; k < 25; ++k) other.vertices[k].y = 0.5f;
-    return Scene{other};
-  }());
-  EXPECT_TRUE(overlaps.piercings.empty() && above.piercings.empty());
+  EXPECT_TRUE(overlaps_of(Scene{cloth}).piercings.empty()) << "the last row is below the second one";
   for (Index k = 15; k < 20; ++k) cloth.vertices[k] = {cloth.vertices[k].x, 0.5f, -1.2f};
-  const Scene through{cloth};
-  const SurfaceFigures figures = figures_of(through);
+  const SurfaceFigures figures = figures_of(Scene{cloth});
   EXPECT_GT(figures.piercings, 3u);
   EXPECT_EQ(figures.self_intersecting_bodies, 1u);
   EXPECT_EQ(figures.overlapping_pairs, 0u);
@@ -224,8 +173,9 @@ TEST(FindOverlaps, FindsASheetFoldedThroughItself) {
 
 // Touching is not penetrating.
 
-TEST(FindOverlaps, StackedBoxesDoNotOverlap) {
+TEST(FindOverlaps, EqualAndStackedBoxesDoNotOverlap) {
   const SurfaceMesh below = box(glm::vec3(0), glm::vec3(4));
+  EXPECT_EQ(figures_of(Scene{below, below}), SurfaceFigures{});
   const std::vector<SurfaceMesh> above{
       box(glm::vec3(0, 4, 0), glm::vec3(4, 8, 4)), box(glm::vec3(1, 4, 1), glm::vec3(3, 8, 3)),
       box(glm::vec3(2, 4, 2), glm::vec3(6, 8, 6)),  // its lower sides cross the sides of the upper face
@@ -275,13 +225,6 @@ TEST(FindOverlaps, NoEdgePassesThroughTheBorderOfASheet) {
   EXPECT_FALSE(passes(2, 1));    // the border
   EXPECT_FALSE(passes(-2, -2));  // its corner
   EXPECT_TRUE(passes(1.999f, 1));
-}
-
-TEST(FindOverlaps, CoincidentBodiesDoNotOverlap) {
-  EXPECT_EQ(figures_of(Scene{ball(1), ball(1)}), SurfaceFigures{});
-  Scene scene{ball(1)};
-  add_points(scene, std::vector<glm::vec3>(3, glm::vec3(0.1f)));  // coincident vertices
-  EXPECT_EQ(overlaps_of(scene).penetrations.size(), 3u);
 }
 
 TEST(FindOverlaps, FacesWithoutAreaChangeNothing) {

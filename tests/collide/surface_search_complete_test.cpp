@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
 
 #include "moving_surfaces.h"
 
@@ -13,32 +14,31 @@ namespace collide::test {
 using namespace collide::surface;
 namespace {
 
-/// The candidates of two bodies as a table of their earliest times; infinity for a pair that is not a candidate.
+using Kind = MovingFeatures::Kind;
+
+/// The earliest times of the candidates of two bodies: by kind and features, the vertex or the edge of `one` first.
 class Candidates {
  public:
-  Candidates(const SurfaceSearch& search, Index a, Index b, const Surface& sa, const Surface& sb)
-      : faces_(sb.triangles().size()), faces_a_(sa.triangles().size()), edges_(sb.edges().size()) {
-    vertex_face_.assign(sa.vertex_count() * faces_, none);
-    face_vertex_.assign(sb.vertex_count() * faces_a_, none);
-    edge_edge_.assign(sa.edges().size() * edges_, none);
+  Candidates(const SurfaceSearch& search, Index a, Index b) {
+    const auto list = [&](Index one, Kind kind, std::uint32_t begin, std::uint32_t end) {
+      for (const FeaturePair& f : std::span(search.features()).subspan(begin, end - begin))
+        earliest_[{one, kind, f.a, f.b}] = f.earliest;
+    };
     for (const SurfacePair& p : search.pairs()) {
       if (p.a != a || p.b != b) continue;
-      const auto& list = search.features();
-      for (std::uint32_t i = p.vertex_face; i < p.face_vertex; ++i)
-        vertex_face_[list[i].a * faces_ + list[i].b] = list[i].earliest;
-      for (std::uint32_t i = p.face_vertex; i < p.edge_edge; ++i)
-        face_vertex_[list[i].a * faces_a_ + list[i].b] = list[i].earliest;
-      for (std::uint32_t i = p.edge_edge; i < p.end; ++i) edge_edge_[list[i].a * edges_ + list[i].b] = list[i].earliest;
+      list(a, Kind::vertex_face, p.vertex_face, p.face_vertex);
+      list(b, Kind::vertex_face, p.face_vertex, p.edge_edge);
+      list(a, Kind::edge_edge, p.edge_edge, p.end);
     }
   }
-  float vertex_face(Index vertex, Index face) const { return vertex_face_[vertex * faces_ + face]; }
-  float face_vertex(Index vertex, Index face) const { return face_vertex_[vertex * faces_a_ + face]; }
-  float edge_edge(Index one, Index two) const { return edge_edge_[one * edges_ + two]; }
+  /// Returns infinity for features that are no candidates.
+  float earliest(Index one, Kind kind, Index i, Index j) const {
+    const auto found = earliest_.find({one, kind, i, j});
+    return found == earliest_.end() ? std::numeric_limits<float>::infinity() : found->second;
+  }
 
  private:
-  static constexpr float none = std::numeric_limits<float>::infinity();
-  std::size_t faces_, faces_a_, edges_;
-  std::vector<float> vertex_face_, face_vertex_, edge_edge_;
+  std::map<std::tuple<Index, Kind, Index, Index>, float> earliest_;
 };
 
 /// An instant at which all pairs of features are tested, by plain loops.
@@ -61,39 +61,37 @@ struct Instant {
   }
   float contact_offset(Index body) const { return moving.traits[body].skin - moving.traits[body].slack; }
 
-  /// Expects every pair within its contact distance to be a candidate. earliest(i, j): the earliest time of features i
-  /// and j. closest(i, j): their closest points.
-  template <class Ones, class Twos, class Earliest, class ClosestOf>
-  void expect(Index a, const Ones& ones, Index b, const Twos& twos, const Earliest& earliest, const ClosestOf& closest,
-              bool ordered) {
+  /// Expects every pair within its contact distance to be a candidate. closest(one, two): their closest points.
+  template <class Ones, class Twos, class ClosestOf>
+  void expect(const Candidates& candidates, Index a, const Ones& ones, Index b, const Twos& twos, Kind kind,
+              const ClosestOf& closest) {
     const float distance = contact_offset(a) + contact_offset(b);
     std::vector<Aabb> boxes;
     for (const auto& two : twos) boxes.push_back(box(b, two, 0));
     for (Index i = 0; i < ones.size(); ++i) {
       const Aabb near_one = box(a, ones[i], distance);
-      for (Index j = ordered ? i + 1 : 0; j < twos.size(); ++j) {
+      for (Index j = a == b && kind == Kind::edge_edge ? i + 1 : 0; j < twos.size(); ++j) {
         if (!near(near_one, boxes[j], 0) || (a == b && share_vertex(ones[i], twos[j]))) continue;
         if (glm::length(closest(ones[i], twos[j]).separation) > distance) continue;
         ++within;
-        EXPECT_LE(earliest(i, j), time) << "bodies " << a << ' ' << b << ", features " << i << ' ' << j;
+        EXPECT_LE(candidates.earliest(a, kind, i, j), time)
+            << "bodies " << a << ' ' << b << ", features " << i << ' ' << j;
       }
     }
   }
-  void vertices(Index a, Index b, const auto& earliest) {
+  void expect_vertices(const Candidates& candidates, Index a, Index b) {
     std::vector<std::array<Index, 1>> ones;
     for (Index v = 0; v < moving.first(a + 1) - moving.first(a); ++v) ones.push_back({v});
-    expect(
-        a, ones, b, moving.scene.surfaces[b]->triangles(), earliest,
-        [&](const auto& v, const Triangle& f) {
-          return closest_vertex_face(at(a, v[0]), at(b, f[0]), at(b, f[1]), at(b, f[2]));
-        },
-        false);
+    expect(candidates, a, ones, b, moving.scene.surfaces[b]->triangles(), Kind::vertex_face,
+           [&](const auto& v, const Triangle& f) {
+             return closest_vertex_face(at(a, v[0]), at(b, f[0]), at(b, f[1]), at(b, f[2]));
+           });
   }
-  void edges(Index a, Index b, const auto& earliest) {
-    expect(
-        a, moving.scene.surfaces[a]->edges(), b, moving.scene.surfaces[b]->edges(), earliest,
-        [&](const Edge& e, const Edge& f) { return closest_edges(at(a, e[0]), at(a, e[1]), at(b, f[0]), at(b, f[1])); },
-        a == b);
+  void expect_edges(const Candidates& candidates, Index a, Index b) {
+    expect(candidates, a, moving.scene.surfaces[a]->edges(), b, moving.scene.surfaces[b]->edges(), Kind::edge_edge,
+           [&](const Edge& e, const Edge& f) {
+             return closest_edges(at(a, e[0]), at(a, e[1]), at(b, f[0]), at(b, f[1]));
+           });
   }
 };
 
@@ -109,13 +107,12 @@ std::size_t expect_complete(const MovingScene& moving, const SurfaceSearch& sear
     Instant now{moving, later, time};
     for (Index a = 0; a < moving.traits.size(); ++a)
       for (Index b = self ? a : a + 1; b < moving.traits.size(); ++b) {
-        const Surface &sa = *moving.scene.surfaces[a], &sb = *moving.scene.surfaces[b];
         if (!moving.traits[a].moves && !moving.traits[b].moves) continue;
-        if (a == b && sa.closed()) continue;  // see the tests of SweptBody
-        const Candidates candidates(search, a, b, sa, sb);
-        now.vertices(a, b, [&](Index i, Index j) { return candidates.vertex_face(i, j); });
-        if (a != b) now.vertices(b, a, [&](Index i, Index j) { return candidates.face_vertex(i, j); });
-        now.edges(a, b, [&](Index i, Index j) { return candidates.edge_edge(i, j); });
+        if (a == b && moving.scene.surfaces[a]->closed()) continue;  // see the tests of SweptBody
+        const Candidates candidates(search, a, b);
+        now.expect_vertices(candidates, a, b);
+        if (a != b) now.expect_vertices(candidates, b, a);
+        now.expect_edges(candidates, a, b);
       }
     within += now.within;
   }
@@ -222,10 +219,7 @@ TEST(SurfaceSearch, FindsAllCandidatesIfPredictionsEndAtDifferentTimes) {
           ASSERT_FALSE(run.search.check_valid(seen.frame(), now, 1e-3f * all));
           // It keeps its velocity at the position to which it has deviated.
           for (Index v = 0; v < m.velocity.size(); ++v) {
-            const Index body = static_cast<Index>(std::upper_bound(m.scene.state.bodies.first.begin(),
-                                                                   m.scene.state.bodies.first.end(), v) -
-                                                  m.scene.state.bodies.first.begin()) -
-                               1;
+            const Index body = m.scene.state.bodies.body_of(v);
             if (!run.search.body(body).expired() || !m.traits[body].moves) continue;
             const glm::vec3 start = seen.at(v) - now * m.velocity[v];
             m.scene.state.x[v] = start.x, m.scene.state.y[v] = start.y, m.scene.state.z[v] = start.z;

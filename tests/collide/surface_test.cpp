@@ -33,16 +33,6 @@ TEST(Surface, IsNotClosedWithAHoleOrAReversedFace) {
   EXPECT_FALSE(surface_of(mesh).closed());
 }
 
-TEST(Surface, ListsTheTrianglesAtAVertex) {
-  const Surface cloth = surface_of(sheet(1, 1));
-  const auto triangles_at = [&](Index vertex) {
-    return std::vector<Index>(cloth.triangles_at(vertex).begin(), cloth.triangles_at(vertex).end());
-  };
-  EXPECT_EQ(triangles_at(0), (std::vector<Index>{0, 1}));
-  EXPECT_EQ(triangles_at(1), (std::vector<Index>{1}));
-  EXPECT_EQ(triangles_at(2), (std::vector<Index>{0}));
-}
-
 TEST(Surface, ThrowsForInvalidTriangles) {
   EXPECT_THROW(Surface(3, {{0, 1, 3}}), std::invalid_argument);
   EXPECT_THROW(Surface(3, {{0, 1, 1}}), std::invalid_argument);

@@ -87,7 +87,9 @@ void check(const Query& query, bool know_truth) {
   if (!know_truth) return;
   const collide::test::Truth truth = collide::test::truth_of(query);
   require(meeting.has_value() == truth.first_meeting.has_value(), "a wrong answer about meeting");
-  require(passage.has_value() == truth.passes, "a wrong answer about passing");
+  require(passage.has_value() == truth.first_passage.has_value(), "a wrong answer about passing");
+  require(!passage || passage->inward == truth.first_passage->inward, "a passage the other way");
+  require(!passage || std::abs(passage->time - truth.first_passage->time) <= 1e-12, "a wrong time of a passage");
   require(!meeting || overlap(*meeting, {*truth.first_meeting - 1e-15, *truth.first_meeting + 1e-15}), "a wrong time");
 }
 
