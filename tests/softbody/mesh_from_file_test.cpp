@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <tuple>
 
 #include "softbody/forces/shape_matching.h"
@@ -150,6 +151,33 @@ TEST(MeshFromFile, AHollowBallFallsAndStaysHollow) {
     double lowest = INFINITY;
     for (const Particle& p : particles_of(world)) lowest = std::min(lowest, p.position.y);
     EXPECT_LT(lowest, 1.5) << "it has fallen";
+  }
+}
+
+/// Returns the smallest angle of a mesh's triangles, in degrees.
+double smallest_angle(const Mesh& mesh) {
+  double largest_cosine = -1;
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::dvec3& at = mesh.vertices[t[k]];
+      largest_cosine = std::max(largest_cosine, glm::dot(glm::normalize(mesh.vertices[t[(k + 1) % 3]] - at),
+                                                         glm::normalize(mesh.vertices[t[(k + 2) % 3]] - at)));
+    }
+  return glm::degrees(std::acos(largest_cosine));
+}
+
+TEST(MeshFromFile, ShippedMeshesAreEvenClosedAndRideOnCoarseOnes) {
+  for (const char* name : {"creature", "torus-knot", "bowl"}) {
+    SCOPED_TRACE(name);
+    const ImportedMesh imported = import_mesh({.path = SBCOLLIDE_SCENES "/../meshes/" + std::string(name) + ".ply"});
+    const ImportFindings& f = imported.findings;
+    EXPECT_TRUE(f.closed);
+    EXPECT_EQ(f.components, 1u);
+    EXPECT_EQ(f.welded_vertices + f.unused_vertices + f.degenerate_faces + f.duplicate_faces + f.turned_faces, 0u);
+    EXPECT_GT(smallest_angle(imported.mesh), 28);
+    ASSERT_TRUE(imported.coarse);
+    EXPECT_LT(imported.coarse->distance, 0.02 * f.extent);
+    EXPECT_EQ(imported.coarse->crossings, 0u);
   }
 }
 
