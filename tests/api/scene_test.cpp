@@ -140,26 +140,6 @@ TEST(Scene, LetsAsManyParticlesSimulateAMeshAsItsFileDoes) {
   }
 }
 
-TEST(ApiWorld, FindsTheContactsOfAllVerticesOfAFineMesh) {
-  Scene scene;
-  scene.add_text("[collision]\ntolerance = 0.03\n");
-  const int ring = Ring().add_to(scene);
-  scene.add_body({.mesh = ring});
-  scene.add_body({.mesh = ring, .position = {0.1, 0.41, 0}, .velocity = {0, -1, 0}});
-  const World world = run(scene, 3);
-  const auto [x, y, z] = world.positions();
-  ASSERT_EQ(x.size(), 3600u);
-  EXPECT_EQ(world.first_vertex(1), 1800u);
-  sbcollide::ContactFinder finder({.tolerance = 0.03f, .self_collision = false});
-  for (Index body = 0; body < 2; ++body) finder.add_body({.vertices = 1800, .triangles = world.triangles(body)});
-  std::vector<sbcollide::Contact> between;
-  for (const sbcollide::Contact& c : world.contacts())
-    if (c.a < 1800 && c.b >= 1800) between.push_back(c);
-  const auto found = finder.find(x, y, z).contacts;
-  EXPECT_FALSE(found.empty());
-  EXPECT_EQ(between, std::vector(found.begin(), found.end()));
-}
-
 TEST(ApiWorld, GivesTheVelocityOfEachVertexOfAFineMesh) {
   Scene scene;
   scene.add_ground(-0.25);
