@@ -82,14 +82,5 @@ TEST_F(HandOnThreeParticles, AddsItsImpulseByTheWeights) {
   EXPECT_TRUE(state.x == x && state.f == f);
 }
 
-TEST_F(HandOnThreeParticles, FollowsItsBodyWhenOthersGo) {
-  hand.remove(5);
-  EXPECT_TRUE(hand.holds(4));
-  hand.remove(1);
-  EXPECT_TRUE(hand.holds(3));
-  hand.remove(3);
-  EXPECT_FALSE(hand.grab());
-}
-
 }  // namespace
 }  // namespace softbody::test

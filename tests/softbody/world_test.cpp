@@ -131,16 +131,6 @@ TEST(Dropper, PutsBodiesClearOfAllOthers) {
   EXPECT_LT(measure(world).deepest_penetration, 1e-5);
 }
 
-TEST(Dropper, IsDeterministic) {
-  World a(drop_scene(), {}), b(drop_scene(), {.threads = 2, .least_share = 0});
-  for (World* w : {&a, &b})
-    for (int i = 0; i < 12; ++i) {
-      w->drop();
-      run(*w, 10);
-    }
-  EXPECT_EQ(a.state_hash(), b.state_hash());
-}
-
 TEST(World, ParticlesGoWhereTheyAreTold) {
   Scene scene = lone_body(spring_ball());
   add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
@@ -159,28 +149,6 @@ TEST(World, ParticlesGoWhereTheyAreTold) {
   }
   EXPECT_EQ(world.particle(0, 7).position, other.position);
   EXPECT_NEAR(world.positions().x[world.bodies().first[1]], told[0].position.x, 1e-4) << "detectors see them there";
-}
-
-TEST(World, ASleeperWakesWhenParticlesAreMoved) {
-  Scene scene = lone_body(spring_ball());
-  scene.sleep = {.speed = 0.03, .frames = 5};
-  World world(scene, {});
-  run(world, 10);
-  ASSERT_TRUE(world.body(0).asleep);
-  std::vector<Particle> same;
-  for (Index i = 0; i < 162; ++i) same.push_back(world.particle(0, i));
-  world.set_particles(0, same);
-  EXPECT_FALSE(world.body(0).asleep);
-}
-
-TEST(Integrators, AreFoundByKeyAndTheDefaultIsOne) {
-  ASSERT_FALSE(integrators().empty());
-  for (const Integrator& i : integrators()) {
-    EXPECT_EQ(find_integrator(i.key), &i);
-    EXPECT_NE(integrator_keys().find(i.key), std::string::npos);
-  }
-  EXPECT_TRUE(find_integrator(default_integrator));
-  EXPECT_FALSE(find_integrator("verlet-ish"));
 }
 
 }  // namespace
