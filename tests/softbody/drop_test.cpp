@@ -7,13 +7,11 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
 namespace {
 
-constexpr int frames = 800;
 constexpr double radius = 0.5;     // of a body
 constexpr double touching = 0.01;  // the bodies keep 5 mm from solids
 
@@ -72,22 +70,6 @@ TEST(Drop, ShowsWhatTheCaptionsSay) {
     EXPECT_GE(floor, 1u) << "body " << b << " is not on the floor";
   }
   EXPECT_LT(stacked(world), 0.2 * radius) << "none on another";
-}
-
-TEST(Drop, IsTheSameTwiceOnAnyThreadsAndOnAnyInstructionSet) {
-  const auto hash_of = [](const World::Options& options) {
-    World world(drop_scene(), options);
-    run(world, frames);
-    return world.state_hash();
-  };
-  const std::uint64_t hash = hash_of({});
-  EXPECT_EQ(hash_of({}), hash);
-  EXPECT_EQ(hash_of({.threads = 2, .least_share = 0}), hash);
-  EXPECT_EQ(hash_of({.threads = 5, .least_share = 0}), hash);
-  for (const std::int64_t target : tests::targets()) {
-    const tests::UseTarget use(target);
-    EXPECT_EQ(hash_of({}), hash);
-  }
 }
 
 }  // namespace

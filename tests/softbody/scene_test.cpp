@@ -272,16 +272,6 @@ TEST(SceneFolder, ListsItsScenesInOrderAndFindsThemByKeyOrPath) {
   EXPECT_TRUE(scene_keys(folder.path() / "none").empty());
 }
 
-TEST(SceneFolder, OfTheProgramLoadsWhole) {
-  const auto keys = scene_keys(SBCOLLIDE_SCENES);
-  EXPECT_NE(std::find(keys.begin(), keys.end(), "drop"), keys.end());
-  for (const std::string& key : keys) {
-    const Scene s = find_scene(key, SBCOLLIDE_SCENES);
-    EXPECT_FALSE(s.name.empty()) << key;
-    EXPECT_FALSE(s.look_at.empty()) << key;
-  }
-}
-
 constexpr const char* two_presets = R"(
 [[material]]
 name = "soft"

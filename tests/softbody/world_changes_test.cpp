@@ -334,23 +334,6 @@ TEST(Changes, OneOfTwoEqualMaterialsActsOnItsOwnBodiesOnly) {
   }
 }
 
-/// The world goes on in slow motion, and as before once the material is soft again.
-TEST(Changes, NoMaterialIsTooStiff) {
-  World world(test::lone_body(test::spring_ball()), {.integrator = {"semi-implicit-euler"}});
-  const Material soft = world.scene().materials[0];
-  Material stiff = soft;
-  stiff[StructuralSprings::stiffness] = 1e9;
-  stiff[Material::mass] = 1e-6;
-  change(world, [&](Scene& s) { s.materials[0] = stiff; });
-  world.step();
-  EXPECT_GT(world.last_step().seconds, 0);
-  EXPECT_LT(world.last_step().seconds, world.frame_time());
-  change(world, [&](Scene& s) { s.materials[0] = soft; });
-  test::run(world, 2);
-  EXPECT_EQ(world.last_step().seconds, world.frame_time());
-  EXPECT_TRUE(measure(world).finite);
-}
-
 TEST(Changes, SolidsMoveComeAndGo) {
   World world(pile(1), {});
   for (int i = 0; i < 1500 && !world.all_at_rest(); ++i) world.step();
@@ -368,23 +351,6 @@ TEST(Changes, SolidsMoveComeAndGo) {
   EXPECT_EQ(world.plan().shapes, std::vector{&SolidSphere::traits});
   test::run(world, 60);
   EXPECT_LT(test::motion(world, 0).centre.y, low - 4);
-}
-
-/// Alone the body takes implicit steps, which contact of the surfaces denies to it: there is slow motion instead.
-TEST(Changes, TakeASecondBodyHoweverStiffForSurfaceContact) {
-  Material stiff = test::gas_ball();
-  stiff.set(StructuralSprings::keys, {1e10, 0.1});
-  Scene scene = test::lone_body(stiff);
-  scene.contact_surface = ContactSurface::surfaces;
-  World world(scene, {.budget = {.least = 1e6}});
-  test::run(world, 2);
-  EXPECT_EQ(world.last_step().seconds, world.frame_time());
-  world.drop();
-  EXPECT_TRUE(world.plan().has(Stage::surface_contact));
-  test::run(world, 2);
-  EXPECT_GT(world.last_step().seconds, 0);
-  EXPECT_LT(world.last_step().seconds, world.frame_time());
-  EXPECT_TRUE(measure(world).finite);
 }
 
 TEST(Changes, RefuseImplicitStepsOfALargeBody) {

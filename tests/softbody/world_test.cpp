@@ -44,20 +44,6 @@ TEST(World, VerticesAreListedBodyByBody) {
   }
 }
 
-TEST(World, MoreBodiesThanLanesMoveLikeOne) {
-  Scene scene = lone_body(gas_ball(), {1, 2, 3});
-  scene.gravity = {0, -9.81, 0};
-  for (int i = 1; i < 19; ++i) add_body(scene, {0, 0, 4.0 * i}, {1, 2, 3});
-  World many(scene, {.threads = 3, .least_share = 0});
-  scene.bodies.resize(1);
-  World one(scene, {});
-  run(many, 30);
-  run(one, 30);
-  for (BodyId b = 0; b < 19; ++b)
-    for (Index i = 0; i < 162; ++i)
-      EXPECT_EQ(many.particle(b, i).velocity, one.particle(0, i).velocity) << "body " << b;
-}
-
 TEST(World, TheContactsAreThoseOfThePositionsThatItShows) {
   World world(drop_scene(), {});
   do world.step();
