@@ -11,6 +11,7 @@
 
 #include "collide/methods.h"
 #include "collide/oracle/surface_oracle.h"
+#include "collide/surface/closest_features.h"
 #include "softbody/mesh/coarse_mesh.h"
 #include "softbody/mesh/surface.h"
 #include "softbody/world/snapshot.h"
@@ -69,29 +70,13 @@ Mesh sheet(int n) {
   return mesh;
 }
 
-/// Distance of a point from a triangle, by the plane and the sides.
-double distance(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const auto from_side = [&](const glm::dvec3& from, const glm::dvec3& to) {
-    const glm::dvec3 way = to - from;
-    const double length2 = glm::dot(way, way);
-    const double t = length2 > 0 ? std::clamp(glm::dot(p - from, way) / length2, 0.0, 1.0) : 0;
-    return glm::distance(p, from + t * way);
-  };
-  double least = std::min({from_side(a, b), from_side(b, c), from_side(c, a)});
-  const glm::dvec3 normal = glm::cross(b - a, c - a);
-  const double area = glm::length(normal);
-  const auto inside = [&](const glm::dvec3& from, const glm::dvec3& to) {
-    return glm::dot(glm::cross(to - from, p - from), normal) >= 0;
-  };
-  if (area > 0 && inside(a, b) && inside(b, c) && inside(c, a))
-    least = std::min(least, std::abs(glm::dot(p - a, normal)) / area);
-  return least;
-}
-
-double distance(const glm::dvec3& p, const Mesh& mesh) {
+double distance(const glm::vec3& p, const Mesh& mesh) {
   double least = INFINITY;
-  for (const auto& [a, b, c] : mesh.triangles)
-    least = std::min(least, distance(p, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]));
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::array at{glm::vec3(mesh.vertices[a]), glm::vec3(mesh.vertices[b]), glm::vec3(mesh.vertices[c])};
+    const glm::vec3 apart = collide::surface::closest_vertex_face(p, at[0], at[1], at[2]).separation;
+    least = std::min(least, double{glm::length(apart)});
+  }
   return least;
 }
 
@@ -150,9 +135,10 @@ TEST(CoarseMesh, IsWithinTheStatedDistanceAndHasNoSlivers) {
     SCOPED_TRACE(shape.name);
     const CoarseMesh coarse = coarsen(shape.mesh, 400).value();
     const std::vector<glm::dvec3>& at = coarse.mesh.vertices;
-    for (const glm::dvec3& v : shape.mesh.vertices) EXPECT_LE(distance(v, coarse.mesh), coarse.distance + 1e-6);
+    for (const glm::dvec3& v : shape.mesh.vertices)
+      EXPECT_LE(distance(glm::vec3(v), coarse.mesh), coarse.distance + 1e-6);
     for (const auto& [a, b] : coarse.mesh.edges)
-      EXPECT_LE(distance(0.5 * (at[a] + at[b]), shape.mesh), coarse.distance + 1e-6);
+      EXPECT_LE(distance(glm::vec3(0.5 * (at[a] + at[b])), shape.mesh), coarse.distance + 1e-6);
     EXPECT_LT(coarse.distance, 0.05 * extent(shape.mesh));
     const auto slim = std::ranges::count_if(coarse.mesh.triangles, [&](const Triangle& t) {  // less than ten degrees
       const auto cosine = [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
