@@ -30,32 +30,6 @@ TEST(Arrival, ABodyAppearsIsHeldAndIsReleasedAtItsFrames) {
   EXPECT_EQ(world.frame(), 9);
 }
 
-TEST(World, VerticesAreListedBodyByBody) {
-  Scene scene = lone_body(spring_ball());
-  add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
-  scene.bodies[1].mesh.subdivisions = 1;
-  const World world(scene, {});
-  ASSERT_EQ(world.bodies().vertex_count(), 162u + 42u);
-  EXPECT_EQ(world.bodies().size(0), 162u);
-  const collide::Frame frame = world.positions();
-  for (Index i = 0; i < 42; ++i) {
-    const glm::dvec3 p = world.particle(1, i).position;
-    EXPECT_EQ(glm::vec3(frame.x[162 + i], frame.y[162 + i], frame.z[162 + i]), glm::vec3(p));
-  }
-}
-
-TEST(World, TheContactsAreThoseOfThePositionsThatItShows) {
-  World world(drop_scene(), {});
-  do world.step();
-  while (world.detection().contacts.size() < 20 && world.frame() < 800);
-  const auto seen = world.detection().contacts;
-  ASSERT_FALSE(seen.empty());
-  const std::uint64_t hash = world.state_hash();
-  change(world, [&](Scene& s) { s.method = "brute-force"; });
-  EXPECT_EQ(world.detection().contacts, seen);
-  EXPECT_EQ(world.state_hash(), hash) << "looking moves nothing";
-}
-
 TEST(World, WhoLooksAfterASubstepSeesThePositionsOfThen) {
   World world(lone_body(spring_ball(), {3, -6, 12}), {.threads = 2, .integrator = {.substeps = 4}, .least_share = 0});
   const glm::dvec3 start = motion(world, 0).centre;
