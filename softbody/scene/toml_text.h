@@ -23,7 +23,6 @@ std::string toml_value(const glm::dvec3& value);
 std::string toml_value(const glm::vec3& value);
 std::string toml_value(const glm::dmat3& value);  // by columns
 inline std::string toml_value(const char* value) { return toml_value(std::string_view(value)); }
-inline std::string toml_value(const std::string& value) { return toml_value(std::string_view(value)); }
 
 /// Builds the inside of an inline table: {a = 1, b = 2}. add() returns the object, so that calls can be chained.
 class TomlInline {

@@ -31,7 +31,7 @@ struct Adder {
   }
 };
 
-TEST(CFinder, FindsWhatTheProgramFinds) {
+TEST(CFinder, FindsWhatTheDetectorsFind) {
   const RecordedBodies recorded("C", 90);
   const Finder finder = make_finder();
   Adder adder{finder.get()};
@@ -41,7 +41,7 @@ TEST(CFinder, FindsWhatTheProgramFinds) {
     ASSERT_EQ(sbcollide_finder_set_method(finder.get(), method), SBCOLLIDE_OK);
     ASSERT_EQ(sbcollide_finder_find(finder.get(), recorded.x.data(), recorded.y.data(), recorded.z.data()),
               SBCOLLIDE_OK);
-    const std::vector<sbcollide::Contact> expected = recorded.program_contacts(method, 0.0625f);
+    const std::vector<sbcollide::Contact> expected = recorded.contacts(method, 0.0625f);
     EXPECT_FALSE(expected.empty());
     ASSERT_EQ(sbcollide_finder_contact_count(finder.get()), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -111,21 +111,17 @@ TEST(CWorld, TakesMeshesAsTheOneOfCpp) {
   for (const int resolution : {0, 200}) {
     sbcollide::Scene scene;
     scene.add_body({.mesh = ring.add_to(scene, resolution)});
-    sbcollide::World expected(scene);
-    expected.step();
-
     const World handle = make_world();
     sbcollide_world* world = handle.get();
     int mesh = -1;
-    const uint32_t* corners = ring.triangles.front().data();
-    ASSERT_EQ(resolution == 0
-                  ? sbcollide_world_add_mesh(world, ring.xyz.data(), 1800, corners, 3600, &mesh)
-                  : sbcollide_world_add_fine_mesh(world, ring.xyz.data(), 1800, corners, 3600, resolution, &mesh),
+    const auto add = [&](const auto& function, auto... more) {
+      return function(world, ring.xyz.data(), 1800, ring.triangles.front().data(), 3600, more..., &mesh);
+    };
+    ASSERT_EQ(resolution == 0 ? add(sbcollide_world_add_mesh) : add(sbcollide_world_add_fine_mesh, resolution),
               SBCOLLIDE_OK);
     ASSERT_EQ(sbcollide_world_add_body(world, mesh, nullptr, nullptr, nullptr), SBCOLLIDE_OK);
     ASSERT_EQ(sbcollide_world_start(world, 1, nullptr), SBCOLLIDE_OK);
-    ASSERT_EQ(sbcollide_world_step(world, 1), SBCOLLIDE_OK);
-    EXPECT_EQ(sbcollide_world_state_hash(world), expected.state_hash());
+    EXPECT_EQ(sbcollide_world_state_hash(world), sbcollide::World(scene).state_hash());
     EXPECT_EQ(sbcollide_world_vertices(world), 1800u);
   }
 }

@@ -33,41 +33,29 @@ TEST(BodyModel, IsSharedByAllThatAreMadeOfTheSameWhileOneLives) {
   EXPECT_EQ(springs<StructuralSprings>(*shared_body_model({}, m)).size(), 480u);
 }
 
-TEST(BodyModel, HasOneSpringAPairWithTheMeshsOwnLengths) {
+TEST(BodyModel, HasOneSpringAPairWithTheMeshsOwnLengthsAndTheMaterialsValues) {
   Material m = spring_ball();
   m[Material::mass] = 3;
   m.set(StructuralSprings::keys, {300, 0.2});
   m.set(BendSprings::keys, {75, 0.4});
   m.set(ShearSprings::keys, {10, 0.1});
   const auto ball = make_body_model({}, m);
-  EXPECT_EQ(springs<StructuralSprings>(*ball).size(), 480u);
-  EXPECT_EQ(springs<BendSprings>(*ball).size(), 480u);
+  const double reduced = 3.0 / 162 / 2;  // kg, of two particles
+  EXPECT_DOUBLE_EQ(ball->particle_mass, 3.0 / 162);
+  const auto expect_springs = [&](const std::vector<Spring>& all, double stiffness, double damping_ratio) {
+    EXPECT_EQ(all.size(), 480u);
+    for (const Spring& s : all) {
+      EXPECT_DOUBLE_EQ(s.rest, glm::distance(ball->mesh.vertices[s.i], ball->mesh.vertices[s.j]));
+      EXPECT_EQ(s.stiffness, stiffness);
+      EXPECT_NEAR(s.damping, damping_ratio * 2 * std::sqrt(stiffness * reduced), 1e-12);
+    }
+  };
+  expect_springs(springs<StructuralSprings>(*ball), 300, 0.2);
+  expect_springs(springs<BendSprings>(*ball), 75, 0.4);
   EXPECT_TRUE(springs<ShearSprings>(*ball).empty()) << "shear springs are for quads";
-  MeshSource grid;
-  grid.kind = "grid";
-  grid.columns = grid.rows = 3;
-  EXPECT_EQ(springs<ShearSprings>(*make_body_model(grid, m)).size(), 18u);
-  for_each_spring(*ball, [&](const Spring& s) {
-    EXPECT_DOUBLE_EQ(s.rest, glm::distance(ball->mesh.vertices[s.i], ball->mesh.vertices[s.j]));
-  });
-}
-
-TEST(BodyModel, DampingRatioIsThatOfTheSpringBetweenTwoParticlesOfThePapersSphere) {
-  Material m = spring_ball();
-  m[Material::mass] = 3;
-  m.set(StructuralSprings::keys, {300, 0.2});
-  m.set(BendSprings::keys, {75, 0.4});
-  const auto p = make_body_model({}, m);
-  const double reduced = 3.0 / 162 / 2;  // two equal masses
-  EXPECT_DOUBLE_EQ(p->particle_mass, 3.0 / 162);
-  for (const Spring& s : springs<StructuralSprings>(*p)) {
-    EXPECT_EQ(s.stiffness, 300);
-    EXPECT_NEAR(s.damping, 0.2 * 2 * std::sqrt(300 * reduced), 1e-12);
-  }
-  for (const Spring& s : springs<BendSprings>(*p)) {
-    EXPECT_EQ(s.stiffness, 75);
-    EXPECT_NEAR(s.damping, 0.4 * 2 * std::sqrt(75 * reduced), 1e-12);
-  }
+  EXPECT_EQ(springs<ShearSprings>(*make_body_model({.kind = "grid", .columns = 3, .rows = 3}, m)).size(), 18u);
+  m[BendSprings::stiffness] = 0;
+  EXPECT_TRUE(springs<BendSprings>(*make_body_model({}, m)).empty());
 }
 
 /// The spokes of a fan share what six springs have in a regular net.
@@ -92,12 +80,7 @@ TEST(BodyModel, SpringsHaveTheirSharesOfStiffnessAndDamping) {
     if (found[s].i == 0) at_hub += found[s].stiffness;
   }
   EXPECT_LT(at_hub, 6 * 300);
-}
-
-TEST(BodyModel, AStiffnessOfZeroMeansNoSprings) {
-  Material m = spring_ball();
-  m[BendSprings::stiffness] = 0;
-  EXPECT_TRUE(springs<BendSprings>(*make_body_model({}, m)).empty());
+  EXPECT_EQ(p->largest_degree, spokes);
 }
 
 TEST(PairBound, HasTheEigenvaluesOfKnownGraphs) {
@@ -147,21 +130,6 @@ TEST(PairBound, HoldsTheNetsOfBodiesClosely) {
       EXPECT_LE(bound, length * 1.05) << source.kind;
       EXPECT_EQ(bound / 2, property == &Spring::stiffness ? p->forces->pair_stiffness : p->forces->pair_damping);
     }
-}
-
-TEST(BodyModel, ListsTheFacesAtEachVertex) {
-  const auto p = make_body_model({}, spring_ball());
-  std::size_t total = 0;
-  for (Index v = 0; v < 162; ++v) {
-    const auto faces = p->faces_of(v);
-    EXPECT_TRUE(faces.size() == 5 || faces.size() == 6);
-    total += faces.size();
-    for (const Index f : faces) {
-      const Triangle& t = p->mesh.triangles[f];
-      EXPECT_TRUE(t[0] == v || t[1] == v || t[2] == v);
-    }
-  }
-  EXPECT_EQ(total, 3 * 320u);
 }
 
 TEST(BodyModel, GasIsForClosedMeshesWithSomePressure) {

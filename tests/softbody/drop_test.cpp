@@ -7,13 +7,11 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
 namespace {
 
-constexpr int frames = 800;
 constexpr double radius = 0.5;     // of a body
 constexpr double touching = 0.01;  // the bodies keep 5 mm from solids
 
@@ -73,45 +71,6 @@ TEST(Drop, ShowsWhatTheCaptionsSay) {
   }
   EXPECT_LT(stacked(world), 0.2 * radius) << "none on another";
 }
-
-std::uint64_t hash_of(const std::string& method, const World::Options& options) {
-  Scene scene = drop_scene();
-  scene.method = method;
-  World world(scene, options);
-  run(world, frames);
-  return world.state_hash();
-}
-
-TEST(Drop, IsTheSameTwiceOnAnyThreadsAndOnAnyInstructionSet) {
-  const std::string method(collide::default_method);
-  const std::uint64_t hash = hash_of(method, {});
-  EXPECT_EQ(hash_of(method, {}), hash);
-  EXPECT_EQ(hash_of(method, {.threads = 2, .least_share = 0}), hash);
-  EXPECT_EQ(hash_of(method, {.threads = 5, .least_share = 0}), hash);
-  for (const std::int64_t target : tests::targets()) {
-    const tests::UseTarget use(target);
-    EXPECT_EQ(hash_of(method, {}), hash);
-  }
-}
-
-class DropWith : public testing::TestWithParam<std::string> {};
-
-TEST_P(DropWith, EqualContactsMakeAnEqualTrajectory) {
-  EXPECT_EQ(hash_of(GetParam(), {.threads = 2}), hash_of(std::string(collide::default_method), {}));
-}
-
-std::vector<std::string> exact_methods() {
-  std::vector<std::string> keys;
-  for (const collide::Method& m : collide::method_table())
-    if (m.exact && m.key != collide::default_method) keys.emplace_back(m.key);
-  return keys;
-}
-
-INSTANTIATE_TEST_SUITE_P(Methods, DropWith, testing::ValuesIn(exact_methods()), [](const auto& i) {
-  std::string name = i.param;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
 
 }  // namespace
 }  // namespace softbody::test

@@ -82,18 +82,6 @@ TEST(StepBounds, HoldForTheForcesThatXpbdDoesNotProject) {
   EXPECT_LT(measure(world).energy, 1.1 * start);
 }
 
-TEST(WorkBudget, GivesSubstepsInProportion) {
-  const auto most = [](double budget) {
-    World world(lone_body(gas_ball()),
-                {.integrator = {"semi-implicit-euler"}, .budget = {.least = budget, .per_particle = 0}});
-    place(world, glm::dvec3(1.0), 1e6);
-    world.step();
-    return world.last_step().substeps;
-  };
-  EXPECT_NEAR(most(2e6), 2 * most(1e6), 32);
-  EXPECT_EQ(most(0), 1);
-}
-
 TEST(WorkBudget, CountsImplicitSteps) {
   Scene scene = lone_body(spring_ball());
   set_solid(scene, {Ground{}});
@@ -110,18 +98,6 @@ TEST(WorkBudget, CountsImplicitSteps) {
   EXPECT_LT(part.seconds, whole.seconds);
   EXPECT_EQ(step(1, {}).substeps, 1);
   EXPECT_EQ(step(1e5, whole.substeps).seconds, whole.seconds) << "who fixes them gets them";
-}
-
-TEST(WorkBudget, CutsAFrameOfImplicitStepsShort) {
-  Scene scene = lone_body(spring_ball());
-  scene.bodies[0].mesh.subdivisions = 0;
-  set_solid(scene, {Ground{}});
-  World world(scene, {.integrator = {"implicit"}, .budget = {.least = 1e4, .per_particle = 0}});
-  place(world, glm::dvec3(1.0), 1e8);
-  world.step();
-  EXPECT_GT(world.last_step().seconds, 0);
-  EXPECT_LT(world.last_step().seconds, world.frame_time());
-  EXPECT_EQ(world.last_step().time, world.last_step().seconds);
 }
 
 /// One body in another of its kind.
@@ -147,45 +123,6 @@ Scene touching_surfaces() {
   add_body(scene, {0.99, 0, 0}, {});
   scene.contact_surface = ContactSurface::surfaces;
   return scene;
-}
-
-TEST(WorkBudget, CountsSurfaceContact) {
-  const std::string integrator = "semi-implicit-euler";
-  World whole(touching_surfaces(), {.integrator = {integrator}});
-  whole.step();
-  EXPECT_EQ(whole.last_step().seconds, whole.frame_time());
-  ASSERT_GT(whole.last_step().substeps, 8);
-  const auto of_work = [&](double bound) {
-    World world(touching_surfaces(), {.integrator = {integrator}, .budget = {.least = bound, .per_particle = 0}});
-    world.step();
-    EXPECT_NEAR(world.last_step().seconds / world.frame_time(),
-                double(world.last_step().substeps) / whole.last_step().substeps, 0.05);
-    return world;
-  };
-  const auto of_substep = [](const World& world) {
-    const Solver& solver = WorldTestAccess::solver(world);
-    return solver.steps().work_of_substep() + work::surface * solver.surface_contact().work_of_substep();
-  };
-  // Candidates are found once, and looked at in one substep after the other; first one is taken, then four at a time.
-  const World one = of_work(0);
-  EXPECT_EQ(one.last_step().substeps, 1);
-  const collide::surface::SurfaceSearch& search = WorldTestAccess::solver(one).surface_contact().candidates().search();
-  const double half = 0.5 * work::surface * double(search.features().size()), least = of_substep(one);
-  ASSERT_GT(half, 0);
-  const double found = work::surface * double(search.work());
-  EXPECT_GT(found, 2 * half);
-  EXPECT_GT(least, 2 * half) << "contacts are solved";
-  double spent = found + least;
-  EXPECT_EQ(of_work(spent).last_step().substeps, 1);
-  const World five = of_work(spent + half);
-  EXPECT_EQ(five.last_step().substeps, 5);
-  spent = WorldTestAccess::solver(five).steps().spent();
-  EXPECT_EQ(of_work(spent).last_step().substeps, 5);
-  EXPECT_EQ(of_work(spent + half).last_step().substeps, 9);
-
-  World fixed(touching_surfaces(), {.integrator = {integrator, 20}, .budget = {.least = 0, .per_particle = 0}});
-  fixed.step();
-  EXPECT_EQ(fixed.last_step().seconds, fixed.frame_time());
 }
 
 /// Surfaces that pass each other fast have their candidates found anew many times in a frame, which shows in what it

@@ -33,16 +33,6 @@ TEST(Material, EqualsOneWithTheSameValuesHoweverTheyWereSet) {
   }
 }
 
-TEST(Material, SetsTheFirstKeysOfAList) {
-  Material m;
-  m.set(BendSprings::keys, {7});
-  EXPECT_EQ(m[BendSprings::stiffness], 7);
-  EXPECT_EQ(m[BendSprings::damping_ratio], BendSprings::damping_ratio.fallback);
-  m.set(BendSprings::keys, {8, 9});
-  EXPECT_EQ(m[BendSprings::stiffness], 8);
-  EXPECT_EQ(m[BendSprings::damping_ratio], 9);
-}
-
 TEST(MaterialKeys, AreSoundAndHaveDifferentNames) {
   std::set<std::string_view> names;
   for (const Key* key : material_keys()) {

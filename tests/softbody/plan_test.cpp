@@ -43,33 +43,42 @@ TEST(Plan, EachStageIsRunOrLeftOutWithAReason) {
   }
 }
 
-TEST(Plan, OfAnOpenSheetHasNoGasAndNoRollingButShearSprings) {
-  const World world = world_of(
-      "[collision]\nself_collision = false\n[ground]\n[[material]]\nshear = {stiffness = 10}\n"
-      "gas_pressure = 2\nrolling_resistance = 1\n[[body]]\nmesh = {kind = \"grid\", columns = 3, rows = 3}\n");
-  const Plan& plan = world.plan();
-  EXPECT_EQ(why(plan, stage_of<GasPressure>), "no closed body with gas");
-  EXPECT_EQ(why(plan, Stage::rolling_resistance), "no closed body with rolling resistance");
-  EXPECT_TRUE(plan.has(stage_of<ShearSprings>) && plan.has(Stage::solids) && plan.has(Stage::gravity));
-  EXPECT_EQ(why(plan, Stage::detect), "one body, and self-collision is off");
-  EXPECT_EQ(why(plan, stage_of<PenaltyContact>), "one body, and self-collision is off");
-  EXPECT_EQ(plan.shapes, std::vector{&Ground::traits});
-}
-
-TEST(Plan, OfABallAloneInEmptySpace) {
-  const World world = world_of("gravity = [0, 0, 0]\n[sleep]\nspeed = 0\n[[material]]\nrebound_speed = 2\n[[body]]\n");
-  const Plan& plan = world.plan();
-  EXPECT_EQ(why(plan, Stage::gravity), "the scene has none");
-  EXPECT_EQ(why(plan, Stage::solids), "the scene has no solid");
-  EXPECT_EQ(why(plan, Stage::restitution), "no solid and no material has restitution");
-  EXPECT_EQ(why(plan, Stage::rolling_resistance), "no solid to roll on");
-  EXPECT_EQ(why(plan, Stage::rebound_damping), "no solid to rebound from");
-  EXPECT_EQ(why(plan, Stage::internal_damping), "no material has internal damping");
-  EXPECT_EQ(why(plan, stage_of<ShearSprings>), "no body has such springs");
-  EXPECT_EQ(why(plan, Stage::sleep), "the scene's sleep speed is 0");
-  EXPECT_EQ(why(plan, Stage::arrive), "all bodies are there and free from the start");
-  EXPECT_TRUE(plan.has(Stage::detect)) << "it may meet itself";
-  EXPECT_TRUE(plan.has(stage_of<StructuralSprings>) && plan.has(stage_of<BendSprings>) && plan.has(Stage::integrate));
+TEST(Plan, SaysWhyAStageIsLeftOut) {
+  const struct {
+    const char* toml;
+    std::vector<std::pair<Stage, const char*>> out;
+    std::vector<Stage> in;
+  } rows[]{
+      {"[collision]\nself_collision = false\n[ground]\n[[material]]\nshear = {stiffness = 10}\ngas_pressure = 2\n"
+       "rolling_resistance = 1\n[[body]]\nmesh = {kind = \"grid\", columns = 3, rows = 3}\n",
+       {{stage_of<GasPressure>, "no closed body with gas"},
+        {Stage::rolling_resistance, "no closed body with rolling resistance"},
+        {Stage::detect, "one body, and self-collision is off"},
+        {stage_of<PenaltyContact>, "one body, and self-collision is off"}},
+       {stage_of<ShearSprings>, Stage::solids, Stage::gravity}},
+      {"gravity = [0, 0, 0]\n[sleep]\nspeed = 0\n[[material]]\nrebound_speed = 2\n[[body]]\n",
+       {{Stage::gravity, "the scene has none"},
+        {Stage::solids, "the scene has no solid"},
+        {Stage::restitution, "no solid and no material has restitution"},
+        {Stage::rolling_resistance, "no solid to roll on"},
+        {Stage::rebound_damping, "no solid to rebound from"},
+        {Stage::internal_damping, "no material has internal damping"},
+        {stage_of<ShearSprings>, "no body has such springs"},
+        {Stage::sleep, "the scene's sleep speed is 0"},
+        {Stage::arrive, "all bodies are there and free from the start"}},
+       {Stage::detect, stage_of<StructuralSprings>, stage_of<BendSprings>, Stage::integrate}},
+      {"[[body]]\nappear = 3\n", {}, {Stage::arrive}},
+      {"[[body]]\nrelease = 3\n", {}, {Stage::arrive}},
+      {"[collision]\nself_collision = false\n[[body]]\n[dropper]\n", {}, {Stage::detect, stage_of<PenaltyContact>}},
+      {"[collision]\nself_collision = false\n[[body]]\n[[body]]\nposition = [5, 5, 5]\n", {}, {Stage::detect}},
+  };
+  for (const auto& [toml, out, in] : rows) {
+    SCOPED_TRACE(toml);
+    const World world = world_of(toml);
+    for (const auto& [stage, reason] : out) EXPECT_EQ(why(world.plan(), stage), reason);
+    for (const Stage stage : in) EXPECT_TRUE(world.plan().has(stage)) << stage_key(stage);
+  }
+  EXPECT_EQ(world_of(rows[0].toml).plan().shapes, std::vector{&Ground::traits});
 }
 
 TEST(Plan, SaysWhichForcesXpbdDoesNotProject) {
@@ -82,20 +91,6 @@ TEST(Plan, SaysWhichForcesXpbdDoesNotProject) {
               integrator.key == "xpbd" ? (std::vector{stage_of<ShapeMatching>, stage_of<PenaltyContact>})
                                        : std::vector<Stage>{})
         << integrator.key;
-}
-
-TEST(Plan, HasArrivalsWhereABodyComesOrIsReleasedLate) {
-  EXPECT_TRUE(world_of("[[body]]\nappear = 3\n").plan().has(Stage::arrive));
-  EXPECT_TRUE(world_of("[[body]]\nrelease = 3\n").plan().has(Stage::arrive));
-}
-
-TEST(Plan, ADropperCanAlwaysAddAnother) {
-  const World world = world_of("[collision]\nself_collision = false\n[[body]]\n[dropper]\n");
-  EXPECT_TRUE(world.plan().has(Stage::detect) && world.plan().has(stage_of<PenaltyContact>));
-  EXPECT_FALSE(world_of("[collision]\nself_collision = false\n[[body]]\n").plan().has(Stage::detect));
-  EXPECT_TRUE(world_of("[collision]\nself_collision = false\n[[body]]\n[[body]]\nposition = [5, 5, 5]\n")
-                  .plan()
-                  .has(Stage::detect));
 }
 
 TEST(Plan, OfTheDropSceneHasAllButWhatNoneOfItsBodiesAndSolidsNeeds) {

@@ -66,12 +66,14 @@ TEST(Polygon, ConcaveOnesAreCoveredInEveryPlane) {
 }
 
 TEST(Polygon, CornersOnAStraightLineAreKept) {
-  const Polygon p{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 2, 0}, {0, 2, 0}};
+  const Polygon p{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 10, 0}, {0, 10, 0}};  // the shortest cut runs along the line
   expect_covered(p);
   std::vector<int> sides(p.size(), 0);  // how many triangles have the side from a corner to the next
-  for (const Triangle& t : triangulate(p))
+  for (const Triangle& t : triangulate(p)) {
+    EXPECT_GT(glm::length(area_vector({p[t[0]], p[t[1]], p[t[2]]})), 0.1) << "none without area";
     for (std::size_t k = 0; k < 3; ++k)
       if ((t[k] + 1) % p.size() == t[(k + 1) % 3]) ++sides[t[k]];
+  }
   EXPECT_EQ(sides, std::vector<int>(p.size(), 1)) << "each side has one triangle, so that neighbours stay joined";
 }
 
@@ -120,18 +122,6 @@ void expect_cut(const std::vector<std::vector<Index>>& each, const Polygon& vert
       EXPECT_EQ(found, 1) << "of polygon " << p << " from " << a << " to " << b;
     }
   }
-}
-
-TEST(Polygons, ThatShareThreeCornersAreCutApart) {
-  const Polygon tent{{0, 0, 0}, {1, -.2, .5}, {0, 0, 1}, {0, 1.5, .5}, {-1, -.2, .5}};
-  expect_cut({{0, 3, 2, 1}, {0, 4, 2, 3}}, tent);
-  expect_cut({{0, 4, 2, 3}, {0, 3, 2, 1}}, tent);
-}
-
-TEST(Polygons, AreNotCutAlongASideOfAnother) {
-  const Polygon roof{{0, 0, 0}, {1, 0, 1}, {0, 0, 1}, {-1, 0, 1}, {0, 3, 0}};
-  expect_cut({{0, 1, 2, 3}, {0, 2, 4}}, roof);
-  expect_cut({{4, 0, 2}, {0, 1, 2, 3}}, roof);
 }
 
 TEST(Polygons, WithTheSameCornersAreCutApart) {

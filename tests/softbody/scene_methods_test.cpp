@@ -25,19 +25,13 @@ struct Moment {
   collide::Bodies bodies;
 };
 
-/// The cell size that the scene has at this level if it states none.
-glm::vec3 automatic_cell(Scene scene, int level) {
-  scene.collision.levels = level;
-  return *World(std::move(scene), {}).collision().cell_size;
-}
-
 /// The scene's tolerance with every level, bucket count and cell size that the method has use for.
-std::vector<collide::Settings> all_settings(const Scene& scene, const collide::Method& method) {
+std::vector<collide::Settings> all_settings(const World& world, const collide::Method& method) {
   std::vector<collide::Settings> all;
-  collide::Settings s = scene.collision;
+  collide::Settings s = world.scene().collision;
   for (const int level : method.uses_levels ? std::vector{0, 3, 6, 9} : std::vector{3}) {
     s.levels = level;
-    const glm::vec3 automatic = automatic_cell(scene, level);
+    const glm::vec3 automatic = world.automatic_cell_size(level);
     for (const std::uint32_t buckets : method.uses_hash ? std::vector{101u, 1001u, 65537u} : std::vector{1001u}) {
       s.buckets = buckets;
       for (const glm::vec3 cell : {automatic, 0.4f * automatic, glm::vec3(0.23f, 1.1f, 0.5f)}) {
@@ -121,7 +115,7 @@ TEST_P(SceneMethods, FindWhatBruteForceFindsOrSayThatTheyMayMissSome) {
           bench.detect(*collide::find_method(collide::reference_method), moment, settings).contacts;
       ASSERT_GE(truth.size(), self ? 10u : 0u) << "frame " << frame;
       for (const collide::Method& method : collide::method_table()) {
-        for (collide::Settings tried : all_settings(scene, method)) {
+        for (collide::Settings tried : all_settings(world, method)) {
           tried.self_collision = self;
           ASSERT_NO_FATAL_FAILURE(bench.expect(method, moment, tried, truth, recall)) << "frame " << frame;
         }

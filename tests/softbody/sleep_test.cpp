@@ -119,29 +119,6 @@ TEST(Sleeping, ABodyWakesWhenHitAndAllSleepInTheEnd) {
   EXPECT_EQ(world.last_step().substeps, 0) << "sleepers cost nothing";
 }
 
-TEST(Sleeping, NoBodyFallsAsleepWhileOneThatItTouchesMoves) {
-  World world(drop_scene(), {});
-  std::vector<char> before;
-  int fell_asleep = 0;
-  for (int frame = 0; frame < 800; ++frame) {
-    before.clear();
-    for (BodyId b = 0; b < world.bodies().count(); ++b) before.push_back(world.body(b).asleep);
-    world.step();
-    before.resize(world.bodies().count(), false);
-    for (BodyId b = 0; b < world.bodies().count(); ++b) fell_asleep += world.body(b).asleep && !before[b];
-    for (const collide::Contact& c : world.detection().contacts) {
-      const BodyId a = world.bodies().body_of(c.a), b = world.bodies().body_of(c.b);
-      if (world.body(a).asleep && !before[a]) {
-        EXPECT_FALSE(world.body(b).moves()) << "frame " << frame;
-      }
-      if (world.body(b).asleep && !before[b]) {
-        EXPECT_FALSE(world.body(a).moves()) << "frame " << frame;
-      }
-    }
-  }
-  EXPECT_GE(fell_asleep, 15);
-}
-
 /// A ball slides over a mat without friction; no vertex of the one is near any of the other.
 TEST(SleepInSurfaceContact, WhoCarriesSomethingThatMovesStaysAwake) {
   Material smooth = spring_ball();
@@ -171,21 +148,6 @@ TEST(SleepInSurfaceContact, WhoCarriesSomethingThatMovesStaysAwake) {
     EXPECT_FALSE(world.body(1).asleep) << world.frame();
   }
   EXPECT_LT(WorldTestAccess::solver(world).state().max_particle_speed(1), 0.1) << "calm enough to sleep";
-}
-
-TEST(SleepWhereABodyIsRemoved, EndsForWhatIsAsNearAsSurfacesAreKeptApartHoweverSmallTheTolerance) {
-  Scene scene = lone_body(spring_ball());
-  scene.contact_surface = ContactSurface::surfaces;
-  scene.collision.tolerance = 1e-3f;
-  scene.sleep = {1, 2};
-  add_body(scene, {0, 1.03, 0}, glm::dvec3(0.0));
-  add_body(scene, {0, 5, 0}, glm::dvec3(0.0));
-  World world(scene, {});
-  run(world, 4);
-  ASSERT_TRUE(world.all_at_rest());
-  world.remove(0);
-  EXPECT_FALSE(world.body(0).asleep);
-  EXPECT_TRUE(world.body(1).asleep) << "far off";
 }
 
 TEST(SleepWhereABodyIsRemoved, EndsOnEverySideAndForNothingFarAlongOneAxis) {

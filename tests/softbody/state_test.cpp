@@ -108,20 +108,5 @@ TEST_F(StateOfTwoModels, IsRestoredToTheBit) {
   EXPECT_EQ(state.body(state.body_count() - 1).number, lanes + 3u);
 }
 
-TEST(State, GivesABodyALaneOfItsOwnUntilItIsNotAlone) {
-  MeshSource fine;
-  fine.subdivisions = 4;
-  const auto model = make_unbalanced_body_model(fine, spring_ball());
-  State state;
-  state.add(model, {1, 0, 0}, {0, 1, 0});
-  EXPECT_EQ(state.batch_of(0).width, one_lane);
-  const Particle before = state.particle(0, 1234);
-  state.add(model, {2, 0, 0}, {0, 2, 0});
-  EXPECT_EQ(state.batch_of(0).width, next_width(one_lane));
-  EXPECT_EQ(state.batch_of(1).index, state.batch_of(0).index);
-  EXPECT_EQ(state.particle(0, 1234).position, before.position);
-  EXPECT_EQ(state.particle(0, 1234).velocity, before.velocity);
-}
-
 }  // namespace
 }  // namespace softbody::test

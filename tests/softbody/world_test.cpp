@@ -30,46 +30,6 @@ TEST(Arrival, ABodyAppearsIsHeldAndIsReleasedAtItsFrames) {
   EXPECT_EQ(world.frame(), 9);
 }
 
-TEST(World, VerticesAreListedBodyByBody) {
-  Scene scene = lone_body(spring_ball());
-  add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
-  scene.bodies[1].mesh.subdivisions = 1;
-  const World world(scene, {});
-  ASSERT_EQ(world.bodies().vertex_count(), 162u + 42u);
-  EXPECT_EQ(world.bodies().size(0), 162u);
-  const collide::Frame frame = world.positions();
-  for (Index i = 0; i < 42; ++i) {
-    const glm::dvec3 p = world.particle(1, i).position;
-    EXPECT_EQ(glm::vec3(frame.x[162 + i], frame.y[162 + i], frame.z[162 + i]), glm::vec3(p));
-  }
-}
-
-TEST(World, MoreBodiesThanLanesMoveLikeOne) {
-  Scene scene = lone_body(gas_ball(), {1, 2, 3});
-  scene.gravity = {0, -9.81, 0};
-  for (int i = 1; i < 19; ++i) add_body(scene, {0, 0, 4.0 * i}, {1, 2, 3});
-  World many(scene, {.threads = 3, .least_share = 0});
-  scene.bodies.resize(1);
-  World one(scene, {});
-  run(many, 30);
-  run(one, 30);
-  for (BodyId b = 0; b < 19; ++b)
-    for (Index i = 0; i < 162; ++i)
-      EXPECT_EQ(many.particle(b, i).velocity, one.particle(0, i).velocity) << "body " << b;
-}
-
-TEST(World, TheContactsAreThoseOfThePositionsThatItShows) {
-  World world(drop_scene(), {});
-  do world.step();
-  while (world.detection().contacts.size() < 20 && world.frame() < 800);
-  const auto seen = world.detection().contacts;
-  ASSERT_FALSE(seen.empty());
-  const std::uint64_t hash = world.state_hash();
-  change(world, [&](Scene& s) { s.method = "brute-force"; });
-  EXPECT_EQ(world.detection().contacts, seen);
-  EXPECT_EQ(world.state_hash(), hash) << "looking moves nothing";
-}
-
 TEST(World, WhoLooksAfterASubstepSeesThePositionsOfThen) {
   World world(lone_body(spring_ball(), {3, -6, 12}), {.threads = 2, .integrator = {.substeps = 4}, .least_share = 0});
   const glm::dvec3 start = motion(world, 0).centre;
@@ -131,16 +91,6 @@ TEST(Dropper, PutsBodiesClearOfAllOthers) {
   EXPECT_LT(measure(world).deepest_penetration, 1e-5);
 }
 
-TEST(Dropper, IsDeterministic) {
-  World a(drop_scene(), {}), b(drop_scene(), {.threads = 2, .least_share = 0});
-  for (World* w : {&a, &b})
-    for (int i = 0; i < 12; ++i) {
-      w->drop();
-      run(*w, 10);
-    }
-  EXPECT_EQ(a.state_hash(), b.state_hash());
-}
-
 TEST(World, ParticlesGoWhereTheyAreTold) {
   Scene scene = lone_body(spring_ball());
   add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
@@ -159,28 +109,6 @@ TEST(World, ParticlesGoWhereTheyAreTold) {
   }
   EXPECT_EQ(world.particle(0, 7).position, other.position);
   EXPECT_NEAR(world.positions().x[world.bodies().first[1]], told[0].position.x, 1e-4) << "detectors see them there";
-}
-
-TEST(World, ASleeperWakesWhenParticlesAreMoved) {
-  Scene scene = lone_body(spring_ball());
-  scene.sleep = {.speed = 0.03, .frames = 5};
-  World world(scene, {});
-  run(world, 10);
-  ASSERT_TRUE(world.body(0).asleep);
-  std::vector<Particle> same;
-  for (Index i = 0; i < 162; ++i) same.push_back(world.particle(0, i));
-  world.set_particles(0, same);
-  EXPECT_FALSE(world.body(0).asleep);
-}
-
-TEST(Integrators, AreFoundByKeyAndTheDefaultIsOne) {
-  ASSERT_FALSE(integrators().empty());
-  for (const Integrator& i : integrators()) {
-    EXPECT_EQ(find_integrator(i.key), &i);
-    EXPECT_NE(integrator_keys().find(i.key), std::string::npos);
-  }
-  EXPECT_TRUE(find_integrator(default_integrator));
-  EXPECT_FALSE(find_integrator("verlet-ish"));
 }
 
 }  // namespace
