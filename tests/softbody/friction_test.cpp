@@ -19,7 +19,7 @@ const glm::dvec3 down(0, -g, 0);
 
 TEST(Friction, ASlidingSheetLosesMuGTAndStops) {
   for (const double mu : {0.2, 0.6}) {
-    const double v0 = 2, stop = v0 / (mu * g);
+    const double v0 = 2;
     World world(sheet_on_ground(mu, down, glm::dvec3(0, 0, v0)), {});
     for (int frame = 1; frame <= 120; ++frame) {
       world.step();
@@ -28,18 +28,10 @@ TEST(Friction, ASlidingSheetLosesMuGTAndStops) {
       ASSERT_NEAR(m.velocity.z, std::max(0.0, v0 - mu * g * t), 1e-4) << "mu " << mu << ", frame " << frame;
       ASSERT_NEAR(m.centre.y, 0, 1e-6);
     }
-    EXPECT_GT(2.0, stop);
     const Motion end = motion(world, 0);
     EXPECT_EQ(measure(world).max_speed, 0) << "it stands";
     EXPECT_NEAR(end.centre.z, v0 * v0 / (2 * mu * g), 0.01);
   }
-}
-
-TEST(Friction, NoneIsNoLoss) {
-  World world(sheet_on_ground(0, down, glm::dvec3(2, 0, 0)), {});
-  run(world, 60);
-  EXPECT_NEAR(motion(world, 0).velocity.x, 2, 1e-5);
-  EXPECT_NEAR(motion(world, 0).centre.x, 2, 1e-4);
 }
 
 /// Gravity at an angle is a slope.
@@ -55,19 +47,6 @@ TEST(Friction, HoldsBelowTheConeAndSlidesAboveItByTheClosedForm) {
       EXPECT_LT(std::abs(motion(world, 0).centre.x), 1e-6);
     }
   }
-}
-
-TEST(Friction, TurnsASlidingBallIntoARollingOne) {
-  Scene scene = lone_body(gas_ball(), glm::dvec3(3, 0, 0));
-  scene.gravity = down;
-  scene.bodies[0].position = {0, 0.53, 0};
-  set_solid(scene, {Ground{0}, 0.4});
-  World world(scene, {});
-  run(world, 150);
-  const Motion m = motion(world, 0);
-  EXPECT_LT(m.spin_momentum.z, -0.1) << "forward along x is a turn about -z";
-  // A thin shell that stops slipping keeps 3/5 of its speed.
-  EXPECT_NEAR(m.velocity.x, 0.6 * 3, 0.35);
 }
 
 constexpr SphereShape<float> unit_sphere{1};
