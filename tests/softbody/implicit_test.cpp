@@ -126,7 +126,7 @@ TEST(QuasiNewton, IsDoneWithACrushedBodySoon) {
   const auto p = make_body_model({}, gas_ball());
   const double h = 1.0 / 60, r = p->radius;
   const ImplicitMatrix matrix(*p, h);
-  QuasiNewton solver(*p, implicit_kernels());
+  QuasiNewton solver(*p);
   const std::size_t n = p->mesh.vertices.size(), max_contacts = 300;
   const Lanes none(3 * n * implicit_lanes);
   ImplicitStart start{none, none, none, none, {1}};
