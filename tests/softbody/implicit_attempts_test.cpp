@@ -15,13 +15,14 @@ namespace {
 
 /// Makes the end of all lanes something that no attempt comes to, makes an attempt in the lanes `tried`, and expects it
 /// to leave the other lanes alone. Returns what it has solved.
-LaneMask attempt(LaneMask (*advance)(const ImplicitStep&, ImplicitBodies&, LaneMask), ImplicitRig& rig, LaneMask tried,
+LaneMask attempt(LaneMask (*advance)(ImplicitStep&, ImplicitBodies&, LaneMask), ImplicitRig& rig, LaneMask tried,
                  LaneMask in_contact = {}) {
   constexpr double untouched = 12345;
   for (Lanes* end : {&rig.bodies.end_x, &rig.bodies.end_v}) end->assign(end->size(), untouched);
   std::vector<glm::dvec3> forces;
   for (const PlaneContact& c : rig.bodies.planes) forces.push_back(c.force);
-  const LaneMask solved = advance(rig.step(LaneMask().set(), in_contact), rig.bodies, tried);
+  ImplicitStep step = rig.step(LaneMask().set(), in_contact);
+  const LaneMask solved = advance(step, rig.bodies, tried);
   EXPECT_EQ(solved & ~tried, LaneMask()) << "solves only what it is asked for";
   for (std::size_t i = 0; i < rig.bodies.end_x.size(); ++i)
     if (!tried[i % implicit_lanes]) {
