@@ -123,27 +123,6 @@ TEST_P(SolidKernels, BringAParticleOutByATenthOfItsDepthAStepAtMost1MetreASecond
   for (int l = 0; l < lanes; ++l) EXPECT_NEAR(v.at(0, l).y, std::min(0.1 * 0.04 * l / 0.01, 1.0), 1e-5);
 }
 
-TEST_P(SolidKernels, OfASphereActAlongItsRadiusInEachLane) {
-  SolidArguments s = arguments(0.25, unit_sphere);
-  std::mt19937 random(9);
-  std::vector<glm::dvec3> normal, before;
-  for (int l = 0; l < lanes; ++l) {
-    const glm::dvec3 c(l, -l, 0.5 * l);
-    s.place.x[l] = float(c.x), s.place.y[l] = float(c.y), s.place.z[l] = float(c.z);
-    normal.push_back(glm::normalize(random_vector(random, 1)));
-    x.set(0, l, c + 1.0 * normal.back());  // on the surface of radius 1, up to rounding
-    const glm::dvec3 across = glm::normalize(glm::cross(normal.back(), glm::dvec3(0.3, 0.5, 0.8)));
-    before.push_back(-2.0 * normal.back() + 4.0 * across);
-    v.set(0, l, before.back());
-  }
-  act(s);
-  for (int l = 0; l < lanes; ++l) {
-    const glm::dvec3 n = normal[std::size_t(l)], tangential = before[std::size_t(l)] + 2.0 * n;
-    EXPECT_LT(glm::distance(v.at(0, l), tangential * (1 - 0.25 * 2 / 4)), 5e-4) << "lane " << l;
-    EXPECT_LT(glm::distance(glm::dvec3(impulse.x[l], impulse.y[l], impulse.z[l]), 0.25 * 2.0 * n), 1e-4);
-  }
-}
-
 TEST_P(SolidKernels, OfASphereActWhereverTheLawDoesAndNowhereElse) {
   SolidArguments s = arguments(0.25, SphereShape<float>{3});
   std::mt19937 random(10);

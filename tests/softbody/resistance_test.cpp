@@ -12,29 +12,6 @@
 namespace softbody::test {
 namespace {
 
-/// How fast a ball thrown at the ground without gravity leaves it.
-double rebound(double thrown, double limit) {
-  Material m = gas_ball();
-  m[contact::rebound_speed] = limit;
-  Scene scene = lone_body(m, glm::dvec3(0, -thrown, 0));
-  scene.bodies[0].position = {0, 1, 0};
-  set_solid(scene, {Ground{0}, 0.5});
-  World world(scene, {});
-  for (int i = 0; i < 240; ++i) world.step();
-  EXPECT_TRUE(solid_contacts(world).empty()) << "it left";
-  return motion(world, 0).velocity.y;
-}
-
-TEST(ReboundDamping, ThrowsNoBodyBackFasterThanItsSpeed) {
-  EXPECT_GT(rebound(6, 0), 2) << "without it springs and gas throw back";
-  for (const double limit : {0.5, 1.0, 2.0}) {
-    const double speed = rebound(6, limit);
-    EXPECT_GT(speed, 0.05 * limit);
-    EXPECT_LT(speed, 1.05 * limit) << "limit " << limit;
-  }
-  EXPECT_LT(rebound(6, 0.5), rebound(6, 2));
-}
-
 /// One body that wobbles, turns and moves.
 class ResistanceOfABody : public testing::Test {
  protected:

@@ -67,6 +67,7 @@ TEST_F(CandidatesOfBalls, ExpectOfEachPairTheFastestOfEitherBody) {
       candidates_of({{{0, 0, 0}, {10, 0, 0}}, {{1.01f, 0, 0}}, {{2.02f, 0, 0}}}, surface, mesh);
   ASSERT_EQ(found.pairs().size(), 2u);
   for (const SurfaceCandidates::Pair& pair : found.pairs()) EXPECT_GT(pair.speed, 9.9f) << "m/s, " << pair.range.a;
+  EXPECT_NEAR(found.substep_rate(), 10 / (0.15 * 0.3), 5) << "they pass each other by 0.15 of an edge in a substep";
 }
 
 /// No vertex of bodies as flat as these is deep: where they are in one place, their surfaces face the same way.

@@ -233,33 +233,6 @@ TEST(SurfaceContact, TakesShortStepsWhileSurfacesPressAlsoBesideASleeper) {
   EXPECT_EQ(WorldTestAccess::solver(world).steps().plan().integrator->key, "semi-implicit-euler");
 }
 
-TEST(SurfaceContact, TakesSubstepsForItsFastestPair) {
-  Scene scene = ball_in_space(rubber(), {0, -30, 0});
-  add_body(scene, {0.03, -1.3, 0.02}, glm::dvec3(0.0));
-  const auto rate = [&] {
-    World world(scene, {.integrator = {"semi-implicit-euler"}});
-    world.step();
-    return WorldTestAccess::solver(world).surface_contact().candidates().substep_rate();
-  };
-  const float alone = rate();
-  add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
-  add_body(scene, {5, 1.003, 0}, {0, -0.1, 0});
-  EXPECT_GT(alone, 100);
-  EXPECT_FLOAT_EQ(rate(), alone);
-}
-
-/// Nearly all of each surface lies on the other one, so that hardly a vertex is deep.
-TEST(SurfaceContact, BodiesInOnePlaceComeApart) {
-  for (const double offset : {0.0, 1e-5, 1e-3, 0.02}) {
-    Scene scene = ball_in_space(rubber(0));
-    add_body(scene, {offset, 0, 0.3 * offset}, glm::dvec3(0.0));
-    World world(scene, {});
-    run(world, 120);
-    Judge(world).expect_clean("two seconds after they were " + std::to_string(offset) + " m apart");
-    EXPECT_GT(glm::length(motion(world, 0).centre - motion(world, 1).centre), 0.95);
-  }
-}
-
 TEST(SurfaceContact, ABodyWhollyInsideAnotherComesOut) {
   Scene scene = ball_in_space(rubber(0));
   add_body(scene, {0.1, 0.02, 0.03}, glm::dvec3(0.0));
@@ -317,20 +290,6 @@ TEST(SurfaceContact, ASheetCarriesMoreBallsThanThereAreColours) {
   run(world, 20);
   EXPECT_GT(WorldTestAccess::solver(world).surface_contact().candidates().interactions().size(), 70u);
   for (BodyId ball = 1; ball <= 80; ++ball) EXPECT_GT(motion(world, ball).centre.y, 0.05) << ball;
-}
-
-TEST(SurfaceContact, ClothOverASolidSphereNeverPiercesItself) {
-  Scene scene = load_scene(std::filesystem::path(SBCOLLIDE_SCENES) / "cloth.toml");
-  scene.contact_surface = ContactSurface::surfaces;
-  MeshSource& mesh = scene.bodies[0].mesh;
-  mesh.columns = mesh.rows = 24, mesh.width = mesh.depth = 3.6;
-  World world(scene, {});
-  Judge judge(world);
-  for (int i = 0; i < 200; ++i) {
-    world.step();
-    if (i % 10 == 0) judge.expect_clean(frame_of(world));
-  }
-  EXPECT_LT(motion(world, 0).centre.y, 1.5) << "it fell and folded";
 }
 
 /// Skins pressed into each other's way cannot all be pushed out: the impulses of such contacts must not pile up.
