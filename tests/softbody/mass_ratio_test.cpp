@@ -41,7 +41,7 @@ TEST_P(HeavyBall, DoesNotOverlapTheLightOneThatItFallsOn) {
   Judge judge(world);
   const double lift = 0.002 * c.ratio * glm::length(scene.gravity);  // J: the heavy one by 2 mm
   double least = measure(world).energy, smallest = 1;
-  for (int i = 0; i < 90; ++i) {
+  for (int i = 0; i < 60; ++i) {
     world.step();
     if (i % 5 == 0) judge.expect_clean(frame_of(world));
     const Measures m = measure(world);

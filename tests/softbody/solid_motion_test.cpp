@@ -131,30 +131,30 @@ const Target targets[]{
 
 class FastImpact : public testing::TestWithParam<Target> {};
 
-/// Straight down and across, alone, with and without restitution.
+/// Straight down without restitution, and across with it.
 TEST_P(FastImpact, GoesNeitherInNorThroughAndDoesNotExplode) {
-  for (const glm::dvec3& direction : {glm::dvec3(0, -1, 0), glm::dvec3(0.48, -0.8, 0.36)})
-    for (const double restitution : {0.0, 0.5}) {
-      Material m = gas_ball();
-      m[Material::thickness] = 0.005;
-      Scene scene = lone_body(m, thrown * direction);
-      scene.gravity = {0, -g, 0};
-      scene.bodies[0].position = glm::dvec3(0.03, 0.1, 0.02) - 3.0 * direction;
-      scene.solids = GetParam().solids;
-      for (Solid& s : scene.solids) s.restitution = restitution;
-      World world(scene, {});
-      for (int i = 0; i < 20; ++i) {
-        world.step();
-        const Measures now = measure(world);
-        ASSERT_TRUE(now.finite);
-        ASSERT_LT(now.deepest_penetration, deepest_allowed) << "frame " << i;
-        ASSERT_LT(now.max_speed, 3 * thrown) << "frame " << i;
-        if (i < 6) {
-          ASSERT_GT(motion(world, 0).centre.y, GetParam().below) << "frame " << i;
-        }
+  for (const auto& [direction, restitution] :
+       {std::pair(glm::dvec3(0, -1, 0), 0.0), std::pair(glm::dvec3(0.48, -0.8, 0.36), 0.5)}) {
+    Material m = gas_ball();
+    m[Material::thickness] = 0.005;
+    Scene scene = lone_body(m, thrown * direction);
+    scene.gravity = {0, -g, 0};
+    scene.bodies[0].position = glm::dvec3(0.03, 0.1, 0.02) - 3.0 * direction;
+    scene.solids = GetParam().solids;
+    for (Solid& s : scene.solids) s.restitution = restitution;
+    World world(scene, {});
+    for (int i = 0; i < 20; ++i) {
+      world.step();
+      const Measures now = measure(world);
+      ASSERT_TRUE(now.finite);
+      ASSERT_LT(now.deepest_penetration, deepest_allowed) << "frame " << i;
+      ASSERT_LT(now.max_speed, 3 * thrown) << "frame " << i;
+      if (i < 6) {
+        ASSERT_GT(motion(world, 0).centre.y, GetParam().below) << "frame " << i;
       }
-      EXPECT_GT(glm::distance(motion(world, 0).velocity, thrown * direction), 10) << "it met the solid";
     }
+    EXPECT_GT(glm::distance(motion(world, 0).velocity, thrown * direction), 10) << "it met the solid";
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Solids, FastImpact, testing::ValuesIn(targets), [](const auto& i) { return i.param.name; });

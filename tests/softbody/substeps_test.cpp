@@ -11,51 +11,35 @@
 namespace softbody::test {
 namespace {
 
-StepBound bound_of(const World& world) {
-  State state = WorldTestAccess::solver(world).save().bodies;
-  const PenaltyContact penalty;
-  const SolidContact solids(state);
-  collide::Workers workers(1);
-  BatchShares shares(workers);
-  std::vector<const Batch*> moving;
-  for (const Batch& b : state.batches()) moving.push_back(&b);
-  shares.take(std::move(moving), state.particle_count());
-  return StepBounds(state, penalty, solids, shares).measure(world.integrator_choice().integrator());
-}
-
 TEST(StepBounds, AreOfTheBodyThatNeedsMost) {
-  Scene scene = lone_body(gas_ball());
-  for (int i = 1; i < 3; ++i) {
-    scene.bodies.push_back(scene.bodies[0]);
-    scene.bodies[std::size_t(i)].position.x += 5 * i;
-  }
-  for (const std::string key : {"semi-implicit-euler", "imex-euler"}) {
-    World world(scene, {.integrator = {key}});
+  const auto model = make_body_model({}, gas_ball());
+  for (const char* key : {"semi-implicit-euler", "imex-euler"})
     for (const double size : {1.0, 0.6}) {  // of the second body
+      const Integrator& integrator = *find_integrator(key);
+      State state;
       double most = 0;
-      for (BodyId body = 0; body < 3; ++body) {
-        std::vector<Particle> particles;
+      for (BodyId id = 0; id < 3; ++id) {
+        const glm::dvec3 origin(5.0 * id, 0, 0);
+        state.add(model, origin, glm::dvec3(0.0));
         std::vector<glm::dvec3> x;
-        for (Index v = 0; v < world.model(body).mesh.vertices.size(); ++v) {
-          particles.push_back(world.particle(body, v));
-          if (body == 1)
-            particles.back().position =
-                world.body(1).origin + size * (particles.back().position - world.body(1).origin);
-          x.push_back(particles.back().position);
+        std::vector<Particle> particles;
+        for (const glm::dvec3& v : model->start) {
+          x.push_back((id == 1 ? size : 1) * v);
+          particles.push_back({origin + x.back(), glm::dvec3(0.0)});
         }
-        world.set_particles(body, particles);
-        const BodyModel& model = world.model(body);
-        const double step = world.integrator_choice().integrator().stable_step(
-            stiffness_per_mass(model, measure_surface(model, x),
-                               key == "imex-euler" ? Volumes::implicit_ : Volumes::explicit_),
-            damping_bound(model) / model.particle_mass);
-        most = std::max(most, 0.8 / step);
+        state.set_particles(id, particles);
+        const Volumes volumes = integrator.implicit_volume ? Volumes::implicit_ : Volumes::explicit_;
+        const double stiffness = stiffness_per_mass(*model, measure_surface(*model, x), volumes);
+        most = std::max(most, 0.8 / integrator.stable_step(stiffness, damping_bound(*model) / model->particle_mass));
       }
-      const Integrator& integrator = world.integrator_choice().integrator();
-      EXPECT_NEAR((1 - integrator.reserve()) * stable_rate(bound_of(world), integrator), most, 1e-4 * most)
-          << key << size;
+      const PenaltyContact penalty;
+      const SolidContact solids(state);
+      collide::Workers workers(1);
+      BatchShares shares(workers);
+      shares.take({&state.batches()[0]}, state.particle_count());
+      const StepBound bound = StepBounds(state, penalty, solids, shares).measure(integrator);
+      EXPECT_NEAR((1 - integrator.reserve()) * stable_rate(bound, integrator), most, 1e-4 * most) << key << size;
     }
-  }
 }
 
 TEST(StepBounds, CountTheStiffnessOfContacts) {
