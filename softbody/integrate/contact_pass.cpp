@@ -30,7 +30,7 @@ double ContactPass::wake_hit_sleepers(double seconds) {
   return work;
 }
 
-int ContactPass::trusted_substeps(double left, double h) const {
+int ContactPass::covered_substeps(double left, double h) const {
   const double seconds = double(surfaces_.candidates().search().holds_until()) - (found_ - left);
   return std::max(1, int(std::min(seconds / h + 1e-3, 1e6)));
 }

@@ -36,7 +36,7 @@ class ContactPass {
   /// that are left of the frame; of bodies that are strained fast, for the seconds `least` only. Returns the work.
   double find(double left, double ahead, double least);
   /// Returns for how many substeps of h seconds the candidates are likely to hold: at least one.
-  int trusted_substeps(double left, double h) const;
+  int covered_substeps(double left, double h) const;
 
   /// True if the share's bodies may be pushed by surfaces. Then its part of apply() waits for the other threads.
   bool meets_others(const BatchShare& share) const {

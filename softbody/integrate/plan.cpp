@@ -22,7 +22,7 @@ struct Facts {
   }
   template <class Test>
   bool any(Test test) const {
-    return std::any_of(models.begin(), models.end(), [&](const auto& p) { return test(*p); });
+    return std::any_of(models.begin(), models.end(), [&](const auto& model) { return test(*model); });
   }
   bool any_solid(bool (*test)(const Solid&) = [](const Solid&) { return true; }) const {
     return std::ranges::any_of(scene.solids, [&](const Solid& s) { return s.enabled && test(s); });

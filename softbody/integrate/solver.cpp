@@ -141,14 +141,13 @@ FrameResult Solver::take_substeps(double seconds, StepBound bound, const AfterSu
   MomentumRestorer momenta;
   if (!integrator.implicit && series.substeps >= many_substeps)
     for (const Batch* b : shares_.moving()) momenta.note({*b, field(state_.x, b->base), field(state_.v, b->base)});
-  if (steps_.fixed()) set_staggering(stable_staggering(static_cast<float>(series.h())));
   // What pulls at bodies shows only after a substep: in their speed, if they were moved by hand or let go, and in how
   // far they leave the motion that candidates were found for.
   if (contacts_.has_surfaces()) {
     series.trusted = 1;
   } else if (series.trusted > 1 && !steps_.fixed()) {
     take(1);
-    series.trusted = std::min(series.trusted, 1 + StepBounds::trusted_substeps(bounds_.fastest(), series.h()));
+    series.trusted = std::min(series.trusted, 1 + StepBounds::substeps_in_shape(bounds_.fastest(), series.h()));
   }
   for (;;) {
     // One implicit step can be a large part of the work that there may be.
@@ -192,9 +191,10 @@ Solver::Series Solver::plan_series(double left, StepBound& bound) {
 /// fastest: see StepBound. surfaces_decide: how fast the candidates come closer decides the count.
 int Solver::trusted_substeps(const Series& s, double fastest, bool surfaces_decide) const {
   const bool fixed = steps_.fixed();
-  double count = fixed ? s.substeps : std::clamp(double(StepBounds::trusted_substeps(fastest, s.h())), 1.0, s.substeps);
+  double count =
+      fixed ? s.substeps : std::clamp(double(StepBounds::substeps_in_shape(fastest, s.h())), 1.0, s.substeps);
   if (!contacts_.surfaces().candidates().empty()) count = std::min(count, fixed || surfaces_decide ? 1.0 : 4.0);
-  return contacts_.has_surfaces() ? std::min(int(count), contacts_.trusted_substeps(s.left, s.h())) : int(count);
+  return contacts_.has_surfaces() ? std::min(int(count), contacts_.covered_substeps(s.left, s.h())) : int(count);
 }
 
 /// Books the work of `count` substeps that have been run, in J and as a part of the frame's budget.
@@ -207,12 +207,12 @@ void Solver::count_work(int count) {
   steps_.spend(work::implicit * implicit_->take_work());
 }
 
-/// Returns how far (s) velocities stand behind positions in fixed substeps of h: 0 if these are too long to be stable.
-/// Then they conserve no energy, and the plain one is not to grow.
-double Solver::stable_staggering(float h) const {
+/// Returns how far (s) velocities stand behind positions in substeps of h: 0 if these are fixed, and too long to be
+/// stable. Then they conserve no energy, and the plain one is not to grow.
+double Solver::staggering(float h) const {
   const Integrator& i = *steps_.plan().integrator;
-  if (!i.staggered) return 0;
-  return (1 - i.reserve()) * double(h) * stable_rate(bounds_.measure(i), i) > 1 ? 0 : double(h);
+  const auto too_long = [&] { return (1 - i.reserve()) * double(h) * stable_rate(bounds_.measure(i), i) > 1; };
+  return i.staggered && !(steps_.fixed() && too_long()) ? double(h) : 0;
 }
 
 /// Sets which energy the coming substeps conserve, by how far (s) velocities stand behind positions in them, and books
@@ -246,7 +246,7 @@ void Solver::share_batches(bool in_step) {
 void Solver::run(int count, float h, bool first, const AfterSubstep& after_substep) {
   last_substep_ = h;
   const Integrator& integrator = *steps_.plan().integrator;
-  if (!steps_.fixed()) set_staggering(integrator.staggered ? double(h) : 0);
+  if (first || !steps_.fixed()) set_staggering(staggering(h));
   motion_.begin_substeps(integrator, h);
   if (integrator.implicit) prepare_implicit(h);
   const auto holds_body = [&](const Batch* b) { return hand_.holds(state_, *b); };

@@ -115,7 +115,7 @@ class Solver {
   Series plan_series(double left, StepBound& bound);
   int trusted_substeps(const Series& series, double fastest, bool surfaces_decide) const;
   void count_work(int count);
-  double stable_staggering(float h) const;
+  double staggering(float h) const;
   void set_staggering(double seconds);
   void prepare_implicit(float h);
   void share_batches(bool in_step);

@@ -73,7 +73,7 @@ double StepBounds::fastest() const {
   return paces.empty() ? 0 : *std::ranges::max_element(paces);
 }
 
-int StepBounds::trusted_substeps(double fastest, double h) {
+int StepBounds::substeps_in_shape(double fastest, double h) {
   return static_cast<int>(std::min(16.0, 0.2 / (fastest * h)));
 }
 

@@ -23,7 +23,7 @@ class StepBounds {
   double fastest() const;
   /// Returns for how many substeps of h seconds the bounds hold: until the fastest body has moved a fifth of its
   /// radius, since a body that is being crushed gets stiffer. It may be 0; then they hold for less than one.
-  static int trusted_substeps(double fastest, double h);
+  static int substeps_in_shape(double fastest, double h);
   /// Returns what is lost where positions are rounded to floats, in m. extents: of the batches' positions.
   static double rounding(std::span<const Batch* const> batches, std::span<const Extent> extents);
 

@@ -11,37 +11,6 @@
 namespace softbody {
 namespace {
 
-/// Positions and velocities of bodies in double.
-class WideMotion {
- public:
-  /// Takes `count` values of each component from `first` on, of which each is `stride` after the one before.
-  void take(const State& state, std::size_t first, std::size_t stride, std::size_t count) {
-    size_ = count;
-    values_.resize(6 * count);
-    double* to = values_.data();
-    for (const VectorArray* array : {&state.x, &state.v})
-      for (const auto& component : *array) {
-        const float* from = component.data() + first;
-        if (stride == 1)
-          std::copy_n(from, count, to);
-        else
-          for (std::size_t i = 0; i < count; ++i) to[i] = double(from[i * stride]);
-        to += count;
-      }
-  }
-  MovingBodies bodies(const BodyModel& model, int used) const {
-    const auto field = [this](std::size_t k) -> Field<const double> {
-      const double* first = values_.data() + 3 * k * size_;
-      return {first, first + size_, first + 2 * size_};
-    };
-    return {model, used, field(0), field(1)};
-  }
-
- private:
-  std::size_t size_ = 0;
-  LaneArray<double> values_;
-};
-
 BodyMeasures measures_of(const BodyModel& model, const MotionSums& sums, std::size_t lane, const glm::dvec3& origin,
                          const glm::dvec3& gravity) {
   const double mass = model.particle_mass;
@@ -61,6 +30,26 @@ BodyMeasures measures_of(const BodyModel& model, const MotionSums& sums, std::si
   return m;
 }
 
+/// Measures the body in each lane of a batch. wide: memory for positions and velocities in double.
+std::array<BodyMeasures, lanes> measure_batch(const State& state, const Batch& b, const glm::dvec3& gravity,
+                                              LaneArray<double>& wide) {
+  const std::size_t count = b.values();
+  wide.resize(6 * count);
+  double* to = wide.data();
+  for (const VectorArray* array : {&state.x, &state.v})
+    for (const auto& component : *array) to = std::copy_n(component.data() + b.base, count, to);
+  const auto vectors = [&](std::size_t k) -> Field<const double> {
+    const double* first = wide.data() + 3 * k * count;
+    return {first, first + count, first + 2 * count};
+  };
+  MotionSums sums{};
+  force_kernels(b.width).measure_motion({*b.model, b.used, vectors(0), vectors(1)}, sums);
+  std::array<BodyMeasures, lanes> measures;
+  for (std::size_t l = 0; l < std::size_t(b.used); ++l)
+    measures[l] = measures_of(*b.model, sums, l, state.body(b.body[l]).origin, gravity);
+  return measures;
+}
+
 }  // namespace
 
 Energy& Energy::operator+=(const Energy& other) {
@@ -72,23 +61,16 @@ Energy& Energy::operator+=(const Energy& other) {
 }
 
 BodyMeasures measure(const State& state, BodyId id, const glm::dvec3& gravity) {
-  const Batch& b = state.batch_of(id);
-  WideMotion motion;
-  motion.take(state, state.slot(id, 0), std::size_t(b.width), b.particles());
-  MotionSums sums{};
-  force_kernels(one_lane).measure_motion(motion.bodies(*b.model, 1), sums);
-  return measures_of(*b.model, sums, 0, state.body(id).origin, gravity);
+  LaneArray<double> wide;
+  return measure_batch(state, state.batch_of(id), gravity, wide)[std::size_t(state.body(id).lane)];
 }
 
 std::vector<BodyMeasures> measure_bodies(const State& state, const glm::dvec3& gravity) {
   std::vector<BodyMeasures> list(state.body_count());
-  WideMotion motion;  // its memory stays in the cache
+  LaneArray<double> wide;  // stays in the cache
   for (const Batch& b : state.batches()) {
-    motion.take(state, b.base, 1, b.values());
-    MotionSums sums{};
-    force_kernels(b.width).measure_motion(motion.bodies(*b.model, b.used), sums);
-    for (std::size_t l = 0; l < std::size_t(b.used); ++l)
-      list[b.body[l]] = measures_of(*b.model, sums, l, state.body(b.body[l]).origin, gravity);
+    const std::array<BodyMeasures, lanes> measures = measure_batch(state, b, gravity, wide);
+    for (std::size_t l = 0; l < std::size_t(b.used); ++l) list[b.body[l]] = measures[l];
   }
   return list;
 }

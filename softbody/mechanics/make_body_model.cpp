@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "softbody/forces/model_forces.h"
 #include "softbody/mechanics/bound.h"
 #include "softbody/mechanics/deformation.h"
@@ -15,15 +17,13 @@ namespace {
 /// One body by itself, in double precision.
 class Relaxation {
  public:
-  Relaxation(const BodyModel& model, const std::vector<glm::dvec3>& from) : model_(model), size_(from.size()) {
-    for (auto* field : {&x_, &v_, &f_})
-      for (auto& component : *field) component.assign(size_, 0.0);
-    for (std::size_t i = 0; i < from.size(); ++i)
-      for (int k = 0; k < 3; ++k) x_[k][i] = from[i][k];
+  Relaxation(const BodyModel& model, const std::vector<glm::dvec3>& from)
+      : model_(model), size_(from.size()), x_(3 * size_), v_(3 * size_), f_(3 * size_) {
+    for (std::size_t i = 0; i < size_; ++i) write(x_, i, from[i]);
   }
 
   void evaluate() {
-    for (auto& component : f_) std::fill(component.begin(), component.end(), 0.0);
+    std::ranges::fill(f_, 0.0);
     const LaneBodies<double> alone{model_, 1, field(x_), field(f_)};
     const Still still;
     visit_all(model_, alone.x, simd::AddForces<double, one_lane, Still>{alone, still});
@@ -32,7 +32,8 @@ class Relaxation {
   double largest_force() const {
     double largest2 = 0;  // or NaN, once there is one
     for (std::size_t i = 0; i < size_; ++i) {
-      const double force2 = f_[0][i] * f_[0][i] + f_[1][i] * f_[1][i] + f_[2][i] * f_[2][i];
+      const glm::dvec3 force = read(f_, i);
+      const double force2 = glm::dot(force, force);
       if (force2 > largest2 || std::isnan(force2)) largest2 = force2;
     }
     return std::sqrt(largest2);
@@ -43,33 +44,28 @@ class Relaxation {
   void step(double h) {
     const double kick = (kinetic_ > 0 ? h : h / 2) / model_.particle_mass;
     double kinetic = 0;
-    for (int k = 0; k < 3; ++k)
-      for (std::size_t i = 0; i < size_; ++i) {
-        v_[k][i] += kick * f_[k][i];
-        kinetic += v_[k][i] * v_[k][i];
-      }
+    for (std::size_t i = 0; i < v_.size(); ++i) {
+      v_[i] += kick * f_[i];
+      kinetic += v_[i] * v_[i];
+    }
     if (kinetic < kinetic_) {
-      for (auto& component : v_) std::fill(component.begin(), component.end(), 0.0);
+      std::ranges::fill(v_, 0.0);
       kinetic = 0;
     }
     kinetic_ = kinetic;
-    for (int k = 0; k < 3; ++k)
-      for (std::size_t i = 0; i < size_; ++i) x_[k][i] += h * v_[k][i];
+    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += h * v_[i];
   }
 
   std::vector<glm::dvec3> positions() const {
     std::vector<glm::dvec3> result;
-    for (std::size_t i = 0; i < size_; ++i) result.emplace_back(x_[0][i], x_[1][i], x_[2][i]);
+    for (std::size_t i = 0; i < size_; ++i) result.push_back(read(x_, i));
     return result;
   }
 
  private:
-  using Components = std::array<LaneArray<double>, 3>;
-  static Field<double> field(Components& c) { return {c[0].data(), c[1].data(), c[2].data()}; }
-
   const BodyModel& model_;
   std::size_t size_;
-  Components x_, v_, f_;
+  Lanes x_, v_, f_;  // of one lane
   double kinetic_ = 0;
 };
 
@@ -109,25 +105,25 @@ std::vector<glm::dvec3> find_equilibrium(const BodyModel& model, const std::vect
 }
 
 std::shared_ptr<BodyModel> make_unbalanced_body_model(const MeshSource& source, const Material& material) {
-  auto p = make_body_mesh(source);
-  give_material(*p, source, material);
-  return p;
+  auto model = make_body_mesh(source);
+  give_material(*model, source, material);
+  return model;
 }
 
 std::shared_ptr<const BodyModel> make_body_model(const MeshSource& mesh, const Material& material) {
-  auto p = make_unbalanced_body_model(mesh, material);
-  if (material[Material::start_in_equilibrium] == 0 || p->forces->pressure <= 0) return p;
-  p->start = find_equilibrium(*p, p->mesh.vertices);
-  p->start_volume = volume(p->start, p->mesh.triangles);
-  p->start_energy = stored_energy(*p, p->start);
-  return p;
+  auto model = make_unbalanced_body_model(mesh, material);
+  if (material[Material::start_in_equilibrium] == 0 || model->forces->pressure <= 0) return model;
+  model->start = find_equilibrium(*model, model->mesh.vertices);
+  model->start_volume = volume(model->start, model->mesh.triangles);
+  model->start_energy = stored_energy(*model, model->start);
+  return model;
 }
 
 std::shared_ptr<const BodyModel> with_material(const BodyModel& model, const MeshSource& source,
                                                const Material& material) {
-  auto p = std::make_shared<BodyModel>(model);
-  give_material(*p, source, material);
-  return p;
+  auto changed = std::make_shared<BodyModel>(model);
+  give_material(*changed, source, material);
+  return changed;
 }
 
 }  // namespace softbody

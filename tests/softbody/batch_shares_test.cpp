@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <stdexcept>
 
 #include "softbody/state/state.h"
 
@@ -53,13 +52,6 @@ TEST_F(BatchSharesTest, SharesJoinedBatchesByWhatTheyCostAndLeavesTheOthersAlone
   alone.barrier();  // nobody else is to come
 }
 
-TEST_F(BatchSharesTest, VisitsEachIndexOnce) {
-  take(8);
-  std::array<std::atomic<int>, 50> visits{};
-  shares.for_each(visits.size(), [&](std::size_t i) { ++visits[i]; });
-  for (const std::atomic<int>& v : visits) EXPECT_EQ(v, 1);
-}
-
 TEST_F(BatchSharesTest, SharesItems) {
   take(1);
   std::size_t next = 0;
@@ -97,15 +89,6 @@ TEST_F(BatchSharesTest, MeetsAtTheBarrier) {
     seen[std::size_t(share.thread)] = came;
   });
   EXPECT_EQ(seen, (std::array{3, 3, 3}));
-}
-
-TEST_F(BatchSharesTest, ThrowsWhatOneThrows) {
-  take(8);
-  const auto task = [](const BatchShare& share) {
-    if (share.thread == 1) throw std::runtime_error("one");
-    share.barrier();
-  };
-  EXPECT_THROW(shares.run(task), std::runtime_error);
 }
 
 }  // namespace

@@ -190,8 +190,8 @@ INSTANTIATE_TEST_SUITE_P(All, EveryKernel, testing::ValuesIn(tests::targets()), 
 
 int width_of(const World& world, BodyId body) { return WorldTestAccess::solver(world).state().batch_of(body).width; }
 
-/// A ball, of 2562 vertices, just above the ground and one of another material just above it, both falling.
-Scene large_bodies(ContactSurface surface, int subdivisions = 4) {
+/// A ball just above the ground and one of another material just above it, both falling.
+Scene two_balls(ContactSurface surface) {
   Material m = gas_ball();
   m[Material::mass] = 4;
   m[GasPressure::inside] = 1200;
@@ -210,7 +210,6 @@ Scene large_bodies(ContactSurface surface, int subdivisions = 4) {
   scene.bodies[0].position = {0, 0.51, 0};
   add_body(scene, {0.1, 1.515, 0}, {0, -3, 0});
   scene.bodies[1].material = 1;
-  for (BodySource& body : scene.bodies) body.mesh.subdivisions = subdivisions;
   return scene;
 }
 
@@ -238,7 +237,7 @@ TEST_P(TwoBodies, MoveTheSameByThemselvesAndInLanes) {
   const bool slow = GetParam().integrator == "explicit-euler";  // it would ask for hundreds of substeps
   const World::Options options{
       .threads = 2, .integrator = {GetParam().integrator, slow ? std::optional(60) : std::nullopt}, .least_share = 0};
-  const Scene scene = large_bodies(GetParam().surface, find_integrator(GetParam().integrator)->implicit ? 2 : 4);
+  const Scene scene = two_balls(GetParam().surface);
   World solo(scene, options), mixed(scene, options), wide(scene, options);
   visit(mixed, 1);
   visit(wide, 0, 5);
@@ -280,35 +279,8 @@ INSTANTIATE_TEST_SUITE_P(All, TwoBodies, testing::ValuesIn(cases()), [](const au
   return name;
 });
 
-/// Held ones are neighbours in the lanes and do nothing else.
-TEST(LargeBody, MovesTheSameAmongOthers) {
-  Scene scene = large_bodies(ContactSurface::vertices);
-  scene.bodies.pop_back();
-  World alone(scene, {.integrator = {.substeps = 100}});
-  EXPECT_EQ(width_of(alone, 0), one_lane);
-  run(alone, 24);
-  EXPECT_FALSE(solid_contacts(alone).empty());
-  for (const int others : {1, lanes + 1}) {
-    Scene more = scene;
-    for (int i = 0; i < others; ++i) {
-      more.bodies.insert(more.bodies.begin(), scene.bodies[0]);
-      more.bodies[0].position = {10.0 + 2 * i, 3, 0};
-      more.bodies[0].release = 1000;
-    }
-    World many(more, {.integrator = {.substeps = 100}});
-    const auto last = static_cast<BodyId>(others);
-    EXPECT_EQ(std::pair(width_of(many, last), WorldTestAccess::solver(many).state().body(last).lane),
-              std::pair(others > lanes ? lanes : few_lanes, others % lanes));
-    run(many, 24);
-    for (Index i = 0; i < alone.bodies().vertex_count(); ++i) {
-      const Particle a = alone.particle(0, i), b = many.particle(last, i);
-      ASSERT_TRUE(a.position == b.position && a.velocity == b.velocity) << i << ", " << others << " others";
-    }
-  }
-}
-
-TEST(LargeBodies, AreChangedTheSameAtEitherWidth) {
-  const Scene scene = large_bodies(ContactSurface::vertices);
+TEST(LoneBody, IsChangedTheSameAtEitherWidth) {
+  const Scene scene = two_balls(ContactSurface::vertices);
   World narrow(scene, {}), wide(scene, {});
   visit(wide, 0);
   visit(wide, 1);
@@ -332,21 +304,8 @@ TEST(LargeBodies, AreChangedTheSameAtEitherWidth) {
   EXPECT_EQ(narrow.state_hash(), wide.state_hash());
 }
 
-TEST(LargeBodies, OfBothWidthsGoOnFromASnapshot) {
-  World world(large_bodies(ContactSurface::surfaces), {});
-  visit(world, 1);
-  run(world, 6);
-  const Snapshot snapshot = world.snapshot();
-  run(world, 6);
-  World fresh(lone_body(gas_ball()), {});
-  fresh.restore(snapshot);
-  EXPECT_EQ(std::pair(width_of(fresh, 0), width_of(fresh, 1)), std::pair(one_lane, few_lanes));
-  run(fresh, 6);
-  EXPECT_EQ(fresh.state_hash(), world.state_hash());
-}
-
-TEST(LargeBody, ComesToAPlaceThatOneLeft) {
-  Scene scene = large_bodies(ContactSurface::vertices);
+TEST(LoneBody, TakesAPlaceThatOneLeft) {
+  Scene scene = two_balls(ContactSurface::vertices);
   scene.bodies.push_back(scene.bodies[0]);
   scene.bodies[2].position = {9, 3, 0};
   World world(scene, {});
@@ -356,18 +315,15 @@ TEST(LargeBody, ComesToAPlaceThatOneLeft) {
   EXPECT_EQ(WorldTestAccess::solver(world).state().batches().size(), 2u);
 }
 
-TEST(Block, LeavesNothingIdleAsItGrows) {
-  Scene scene = lone_body(gas_ball());
-  for (int i = 1; i < lanes; ++i) add_body(scene, {2.0 * i, 0, 0}, glm::dvec3(0.0));
-  const World world(scene, {});
-  EXPECT_EQ(width_of(world, 0), lanes);
-  EXPECT_LE(world.snapshot().bytes(), world.bodies().vertex_count() * 6 * sizeof(float) + 8192);
-}
-
-TEST(LargeBody, TakesNoRoomForOthers) {
-  const World world(large_bodies(ContactSurface::vertices), {});
-  const std::size_t particles = world.bodies().vertex_count();
-  EXPECT_LE(world.snapshot().bytes(), particles * 6 * sizeof(float) + 4096);  // positions and velocities
+TEST(Block, TakesNoRoomForOthers) {
+  for (const int bodies : {1, lanes}) {
+    Scene scene = lone_body(gas_ball());
+    for (int i = 1; i < bodies; ++i) add_body(scene, {2.0 * i, 0, 0}, glm::dvec3(0.0));
+    const World world(scene, {});
+    EXPECT_EQ(width_of(world, 0), bodies == 1 ? one_lane : lanes);
+    const std::size_t motion = world.bodies().vertex_count() * 6 * sizeof(float);  // positions and velocities
+    EXPECT_LE(world.snapshot().bytes(), motion + (bodies == 1 ? 4096 : 8192));
+  }
 }
 
 }  // namespace

@@ -33,12 +33,6 @@ TEST(ContactLaw, PushesOutAShareOfTheDepthAtABoundedSpeed) {
     }
 }
 
-TEST(ContactLaw, AsksForTheSameAsLengthAndAsSpeed) {
-  for (const double length : {1e-5, 1e-3, 1.0 / 60})
-    for (const double gap : gaps)
-      EXPECT_DOUBLE_EQ(law::min_move(gap, length) / length, law::min_speed(gap, 1 / length));
-}
-
 TEST(ContactLaw, ReturnsAShareOfTheKineticEnergyThatAnImpulseTakes) {
   constexpr double mass = 0.25;
   for (const double e : {0.0, 0.5, 1.0})
@@ -70,22 +64,6 @@ TEST(ContactLaw, MixesTheMaterialsOfBothSides) {
   EXPECT_EQ(law::common_friction(0.2f, 0.9f), law::common_friction(0.9f, 0.2f));
   EXPECT_EQ(law::common_restitution(0.2, 0.9), 0.9);
   EXPECT_EQ(law::common_restitution(0.9, 0.2), 0.9);
-}
-
-TEST(ContactLaw, IsTheSameInFloatAndDouble) {
-  constexpr float step = 0.003f, e = 0.7f;
-  for (int i = 0; i < 8; ++i) {
-    const float g = 0.002f * float(3 - i), s = 0.3f * float(i - 3), limit = 0.25f * float(i % 4);
-    EXPECT_FLOAT_EQ(law::min_move(g, step), float(law::min_move(double(g), double(step))));
-    EXPECT_FLOAT_EQ(law::min_speed(g, 1 / step), float(law::min_speed(double(g), 1 / double(step))));
-    EXPECT_FLOAT_EQ(law::bounce_energy(step, s, g, e),
-                    float(law::bounce_energy(double(step), double(s), double(g), double(e))));
-    const glm::vec3 drag(s, g, i == 3 ? 0 : 0.2f), one = law::within_cone(drag, limit);
-    const simd::Vec<float> same = law::within_cone(simd::Vec<float>{drag.x, drag.y, drag.z}, limit);
-    const glm::dvec3 exact = law::within_cone(glm::dvec3(drag), double(limit));
-    EXPECT_EQ(glm::vec3(same.x, same.y, same.z), one);
-    EXPECT_LE(glm::length(exact - glm::dvec3(one)), 1e-6 * glm::length(exact));
-  }
 }
 
 }  // namespace

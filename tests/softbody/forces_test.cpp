@@ -164,15 +164,5 @@ TEST(Forces, AreNoStifferAndDampNoMoreThanTheirBounds) {
   });
 }
 
-TEST(Forces, HaveKeysAndAReasonToBeLeftOut) {
-  for_each_force(Forces{}, []<class F>(Name<F>) {
-    EXPECT_FALSE(F::key.empty());
-    if constexpr (HasElements<F>) {
-      EXPECT_FALSE(std::string_view(F::absent).empty());
-      EXPECT_FALSE(F::keys.empty());
-    }
-  });
-}
-
 }  // namespace
 }  // namespace softbody::test

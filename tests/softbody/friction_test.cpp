@@ -19,7 +19,7 @@ const glm::dvec3 down(0, -g, 0);
 
 TEST(Friction, ASlidingSheetLosesMuGTAndStops) {
   for (const double mu : {0.2, 0.6}) {
-    const double v0 = 2, stop = v0 / (mu * g);
+    const double v0 = 2;
     World world(sheet_on_ground(mu, down, glm::dvec3(0, 0, v0)), {});
     for (int frame = 1; frame <= 120; ++frame) {
       world.step();
@@ -28,18 +28,10 @@ TEST(Friction, ASlidingSheetLosesMuGTAndStops) {
       ASSERT_NEAR(m.velocity.z, std::max(0.0, v0 - mu * g * t), 1e-4) << "mu " << mu << ", frame " << frame;
       ASSERT_NEAR(m.centre.y, 0, 1e-6);
     }
-    EXPECT_GT(2.0, stop);
     const Motion end = motion(world, 0);
     EXPECT_EQ(measure(world).max_speed, 0) << "it stands";
     EXPECT_NEAR(end.centre.z, v0 * v0 / (2 * mu * g), 0.01);
   }
-}
-
-TEST(Friction, NoneIsNoLoss) {
-  World world(sheet_on_ground(0, down, glm::dvec3(2, 0, 0)), {});
-  run(world, 60);
-  EXPECT_NEAR(motion(world, 0).velocity.x, 2, 1e-5);
-  EXPECT_NEAR(motion(world, 0).centre.x, 2, 1e-4);
 }
 
 /// Gravity at an angle is a slope.
@@ -55,19 +47,6 @@ TEST(Friction, HoldsBelowTheConeAndSlidesAboveItByTheClosedForm) {
       EXPECT_LT(std::abs(motion(world, 0).centre.x), 1e-6);
     }
   }
-}
-
-TEST(Friction, TurnsASlidingBallIntoARollingOne) {
-  Scene scene = lone_body(gas_ball(), glm::dvec3(3, 0, 0));
-  scene.gravity = down;
-  scene.bodies[0].position = {0, 0.53, 0};
-  set_solid(scene, {Ground{0}, 0.4});
-  World world(scene, {});
-  run(world, 150);
-  const Motion m = motion(world, 0);
-  EXPECT_LT(m.spin_momentum.z, -0.1) << "forward along x is a turn about -z";
-  // A thin shell that stops slipping keeps 3/5 of its speed.
-  EXPECT_NEAR(m.velocity.x, 0.6 * 3, 0.35);
 }
 
 constexpr SphereShape<float> unit_sphere{1};
@@ -142,27 +121,6 @@ TEST_P(SolidKernels, BringAParticleOutByATenthOfItsDepthAStepAtMost1MetreASecond
   for (int l = 0; l < lanes; ++l) x.set(0, l, {0, -0.04 * l, 0});
   act(arguments(0));
   for (int l = 0; l < lanes; ++l) EXPECT_NEAR(v.at(0, l).y, std::min(0.1 * 0.04 * l / 0.01, 1.0), 1e-5);
-}
-
-TEST_P(SolidKernels, OfASphereActAlongItsRadiusInEachLane) {
-  SolidArguments s = arguments(0.25, unit_sphere);
-  std::mt19937 random(9);
-  std::vector<glm::dvec3> normal, before;
-  for (int l = 0; l < lanes; ++l) {
-    const glm::dvec3 c(l, -l, 0.5 * l);
-    s.place.x[l] = float(c.x), s.place.y[l] = float(c.y), s.place.z[l] = float(c.z);
-    normal.push_back(glm::normalize(random_vector(random, 1)));
-    x.set(0, l, c + 1.0 * normal.back());  // on the surface of radius 1, up to rounding
-    const glm::dvec3 across = glm::normalize(glm::cross(normal.back(), glm::dvec3(0.3, 0.5, 0.8)));
-    before.push_back(-2.0 * normal.back() + 4.0 * across);
-    v.set(0, l, before.back());
-  }
-  act(s);
-  for (int l = 0; l < lanes; ++l) {
-    const glm::dvec3 n = normal[std::size_t(l)], tangential = before[std::size_t(l)] + 2.0 * n;
-    EXPECT_LT(glm::distance(v.at(0, l), tangential * (1 - 0.25 * 2 / 4)), 5e-4) << "lane " << l;
-    EXPECT_LT(glm::distance(glm::dvec3(impulse.x[l], impulse.y[l], impulse.z[l]), 0.25 * 2.0 * n), 1e-4);
-  }
 }
 
 TEST_P(SolidKernels, OfASphereActWhereverTheLawDoesAndNowhereElse) {

@@ -15,13 +15,14 @@ namespace {
 
 /// Makes the end of all lanes something that no attempt comes to, makes an attempt in the lanes `tried`, and expects it
 /// to leave the other lanes alone. Returns what it has solved.
-LaneMask attempt(LaneMask (*advance)(const ImplicitStep&, ImplicitBodies&, LaneMask), ImplicitRig& rig, LaneMask tried,
+LaneMask attempt(LaneMask (*advance)(ImplicitStep&, ImplicitBodies&, LaneMask), ImplicitRig& rig, LaneMask tried,
                  LaneMask in_contact = {}) {
   constexpr double untouched = 12345;
   for (Lanes* end : {&rig.bodies.end_x, &rig.bodies.end_v}) end->assign(end->size(), untouched);
   std::vector<glm::dvec3> forces;
   for (const PlaneContact& c : rig.bodies.planes) forces.push_back(c.force);
-  const LaneMask solved = advance(rig.step(LaneMask().set(), in_contact), rig.bodies, tried);
+  ImplicitStep step = rig.step(LaneMask().set(), in_contact);
+  const LaneMask solved = advance(step, rig.bodies, tried);
   EXPECT_EQ(solved & ~tried, LaneMask()) << "solves only what it is asked for";
   for (std::size_t i = 0; i < rig.bodies.end_x.size(); ++i)
     if (!tried[i % implicit_lanes]) {
@@ -77,15 +78,6 @@ TEST(SecondOrderStep, IsOfSecondOrder) {
   const double ratio = error(2e-3) / error(1e-3);
   EXPECT_GT(ratio, 7);
   EXPECT_LT(ratio, 9);
-}
-
-TEST(SecondOrderStep, KeepsMomentumAndGainsNoEnergyAsABodySwings) {
-  ImplicitRig rig(1e4);
-  rig.move(2, {1, 0, 0}, {0, 3, 1}, {1.05, 0.98, 0.97});
-  ASSERT_EQ(attempt(second_order_step, rig, mask({2})), mask({2}));
-  EXPECT_LT(glm::distance(rig.end(2).velocity, rig.start(2).velocity), 1e-12);
-  EXPECT_LT(glm::distance(rig.end(2).momentum, rig.start(2).momentum), 1e-12 * glm::length(rig.start(2).momentum));
-  EXPECT_EQ(rig.gain(2, false), 0);
 }
 
 TEST(SecondOrderStep, RefusesBodiesInContact) {
@@ -206,41 +198,21 @@ TEST(FirstOrderStep, RefusesWhatItsForcesDoNotExplain) {
   EXPECT_EQ(attempt(first_order_step, rig, mask({2, 3})), mask({3}));
 }
 
-TEST(RigidFallbackStep, LeavesARigidMotionAsItIs) {
-  std::mt19937 random(1);
+/// Planes stop the body in lane 1, the one in lane 3 falls, and no step is taken in lane 2.
+TEST(RigidFallbackStep, KeepsTheSpinOfABodyThatFallsOrIsStopped) {
   ImplicitRig rig;
-  for (int i = 0; i < 50; ++i) {
-    const glm::dvec3 velocity = random_vector(random, 5), spin = random_vector(random, 5);
-    rig.move(1, velocity, spin);
-    ASSERT_EQ(attempt(rigid_fallback_step, rig, mask({1})), mask({1}));
-    const RigidMotion end = rig.end(1), start = rig.start(1);
-    ASSERT_LT(glm::distance(end.momentum, start.momentum), 1e-3 * glm::length(start.momentum)) << "rest: energy";
-    ASSERT_LT(glm::distance(end.velocity, velocity), 1e-9);
-  }
-}
-
-TEST(RigidFallbackStep, KeepsItsSpinWhileItFalls) {
-  ImplicitRig rig;
-  const glm::dvec3 velocity(1, -2, 0), spin(0, 3, 0);
+  const glm::dvec3 velocity(2, -1, 0), spin(0, 3, 0);
   rig.gravity = {0, -9.81, 0};
-  rig.move(1, velocity, spin);
-  ASSERT_EQ(attempt(rigid_fallback_step, rig, mask({1})), mask({1}));
-  EXPECT_LT(glm::distance(rig.end(1).spin, spin), 0.01);
-  EXPECT_LT(glm::distance(rig.end(1).velocity, velocity + 0.01 * rig.gravity), 1e-9);
-}
-
-/// Its planes stop it, its spin goes on.
-TEST(RigidFallbackStep, KeepsSpinAndStopsAtPlanes) {
-  ImplicitRig rig;
-  const glm::dvec3 spin(0, 3, 0);
-  for (const std::size_t lane : {1u, 2u}) {
-    rig.move(lane, {2, -1, 0}, spin);
+  for (const std::size_t lane : {1u, 2u, 3u}) {
+    rig.move(lane, velocity, spin);
+    if (lane == 3) continue;
     for (std::size_t i = 0; i < rig.particles(); ++i)
       rig.bodies.planes.push_back(plane(i, lane, {0, 1, 0}, 0, {1, 1, 1}));
   }
-  ASSERT_EQ(attempt(rigid_fallback_step, rig, mask({1})), mask({1}));
-  EXPECT_LT(glm::distance(rig.end(1).spin, spin), 0.01);
+  ASSERT_EQ(attempt(rigid_fallback_step, rig, mask({1, 3})), mask({1, 3}));
   EXPECT_LT(glm::distance(rig.end(1).velocity, glm::dvec3(2, 0, 0)), 1e-9);
+  EXPECT_LT(glm::distance(rig.end(3).velocity, velocity + rig.h * rig.gravity), 1e-9);
+  for (const std::size_t lane : {1u, 3u}) EXPECT_LT(glm::distance(rig.end(lane).spin, spin), 0.01);
   EXPECT_EQ(impulse(rig, 1), glm::dvec3(0.0));
   EXPECT_NE(impulse(rig, 2), glm::dvec3(0.0));
 }

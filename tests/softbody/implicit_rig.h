@@ -78,7 +78,7 @@ struct ImplicitRig {
   glm::dvec3 gravity{0.0};
   ImplicitMatrices matrices;
   ImplicitBodies bodies{*model};
-  QuasiNewton solver{*model, implicit_kernels()};
+  QuasiNewton solver{*model};
   ImplicitStart local;
 };
 

@@ -20,7 +20,7 @@ struct Bowls {
   std::array<double, implicit_lanes> quartic{};
   Lanes x = Lanes(3 * particles * implicit_lanes);
   int gradients = 0;
-  Minimiser minimiser{particles, implicit_kernels()};
+  Minimiser minimiser{particles};
 
   bool run(int iterations, double max_step = 1e3) {
     const auto gradient = [&](const Lanes& at, Lanes& g) {

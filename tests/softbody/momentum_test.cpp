@@ -5,7 +5,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -101,21 +100,6 @@ TEST(StiffBody, FollowsAHand) {
   world.grab(Grab{.body = 0, .target = {0, 2, 0}});
   run(world, 6);
   EXPECT_GT(motion(world, 0).velocity.y, 1);
-}
-
-TEST(StiffBodies, FlyTheSameOnEveryProcessor) {
-  Scene scene = lone_body(gas_ball(stiffness), {1, 2, 3});
-  for (int i = 1; i < lanes + 2; ++i) add_body(scene, {0, 0, 2 * i}, {0.1 * i, 1, 0});
-  std::vector<std::uint64_t> hashes;
-  for (const std::int64_t target : tests::targets())
-    for (const int threads : {1, 2}) {
-      const tests::UseTarget use(target);
-      World world(scene, {.threads = threads, .integrator = {"velocity-verlet"}, .least_share = 0});
-      run(world, 5);
-      EXPECT_GE(world.last_step().substeps, 64);
-      hashes.push_back(world.state_hash());
-    }
-  for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]);
 }
 
 /// Its neighbour in the lanes meets a solid, or does not.

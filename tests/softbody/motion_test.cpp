@@ -26,20 +26,6 @@ TEST(FreeFall, IsTheClosedFormOfSemiImplicitEuler) {
   }
 }
 
-TEST(FreeFall, DoesNotDeformABody) {
-  Scene scene = lone_body(gas_ball());
-  scene.gravity = {0, -9.81, 0};
-  World world(scene, {});
-  run(world, 120);
-  const Measures m = measure(world);
-  EXPECT_NEAR(m.volume_ratio_min, 1, 1e-5);
-  const Motion motion_of = motion(world, 0);
-  for (Index i = 0; i < 162; ++i) {
-    const glm::dvec3 r = world.particle(0, i).position - motion_of.centre;
-    EXPECT_LT(glm::distance(r, world.model(0).start[i]), 1e-4);
-  }
-}
-
 TEST(BodyOrigin, FollowsItsParticlesWithoutAJump) {
   Scene scene = lone_body(spring_ball(), glm::dvec3(90, 0, 0));
   World world(scene, {});
@@ -56,69 +42,6 @@ TEST(BodyOrigin, FollowsItsParticlesWithoutAJump) {
   EXPECT_GT(moves, 100);
 }
 
-/// Where the particles of a body that starts away from its balance are at eight times, after `steps` steps in all.
-std::vector<glm::dvec3> pulsate(double seconds, int steps) {
-  Material m = gas_ball();
-  m[GasPressure::inside] = 160000;
-  m[Material::start_in_equilibrium] = false;
-  World world(lone_body(m), {.frame_time = seconds / steps, .integrator = {"semi-implicit-euler", 1}});
-  std::vector<glm::dvec3> x;
-  for (int i = 1; i <= steps; ++i) {
-    world.step();
-    for (Index v = 0; i % (steps / 8) == 0 && v < 162; ++v) x.push_back(world.particle(0, v).position);
-  }
-  return x;
-}
-
-TEST(Convergence, OfAPulsatingBodyIsOfFirstOrder) {
-  constexpr double seconds = 0.008;
-  const auto exact = pulsate(seconds, 4096);
-  std::vector<double> log_error;
-  for (const int steps : {32, 64, 128, 256}) {
-    const auto x = pulsate(seconds, steps);
-    ASSERT_EQ(x.size(), exact.size());
-    double error2 = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) error2 += glm::dot(x[i] - exact[i], x[i] - exact[i]) / double(x.size());
-    ASSERT_GT(std::sqrt(error2), 1e-5) << "above the noise of floats";
-    log_error.push_back(0.5 * std::log2(error2));
-  }
-  for (std::size_t i = 1; i < log_error.size(); ++i) {
-    EXPECT_GT(log_error[i - 1] - log_error[i], 0.8) << "halving " << i;
-    EXPECT_LT(log_error[i - 1] - log_error[i], 1.2) << "halving " << i;
-  }
-}
-
-TEST(Energy, OfABodyInFreeFlightDoesNotGrow) {
-  for (const double damping_ratio : {0.0, 0.3}) {
-    Material m = gas_ball();
-    m[StructuralSprings::damping_ratio] = m[BendSprings::damping_ratio] = damping_ratio;
-    m[GasPressure::inside] = 102500;
-    m[Material::start_in_equilibrium] = false;
-    Scene scene = lone_body(m, glm::dvec3(0.5, 0, 0));
-    const auto kinetic = [](const World& world) {
-      double sum = 0;
-      for (Index i = 0; i < 162; ++i)
-        sum += 0.5 / 162 * glm::dot(world.particle(0, i).velocity, world.particle(0, i).velocity);
-      return sum;
-    };
-    World world(scene, {.frame_time = 1e-4});
-    const double start = measure(world).energy;
-    double swing = 0;
-    for (int i = 0; i < 3000; ++i) {
-      world.step();
-      swing = std::max(swing, kinetic(world));
-      ASSERT_LT(measure(world).energy, start + 0.1 * swing) << "step " << i << ", ratio " << damping_ratio;
-    }
-    EXPECT_GT(swing, 0.5) << "it pulsates";
-    if (damping_ratio > 0) {
-      EXPECT_LT(kinetic(world), 0.125 + 0.1 * swing) << "until its dampers have nearly stopped it";
-      EXPECT_LT(measure(world).energy, start - 0.3 * swing);
-    } else {
-      EXPECT_NEAR(measure(world).energy, start, 0.1 * swing);
-    }
-  }
-}
-
 TEST(Energy, OfAFallingBodyIsThatOfItsStart) {
   Scene scene = lone_body(gas_ball());
   scene.gravity = {0, -9.81, 0};
@@ -128,16 +51,6 @@ TEST(Energy, OfAFallingBodyIsThatOfItsStart) {
   const double fallen = 0.5 * 9.81;
   EXPECT_NEAR(measure(world).energy, start, 0.01 * fallen * 9.81);
   EXPECT_NEAR(measure(world).momentum.y, -9.81, 1e-3) << "1 kg after a second";
-}
-
-/// Gives a free body a spin: it grazes a rough solid sphere in passing, without gravity.
-Scene grazing(double internal_damping) {
-  Material m = gas_ball();
-  m[Material::internal_damping] = internal_damping;
-  Scene scene = lone_body(m, glm::dvec3(3, 0, 0));
-  scene.bodies[0].position = {-1.5, 1.35, 0.2};
-  set_solid(scene, {.shape = SolidSphere{.centre = glm::dvec3(0.0), .radius = 1}, .friction = 1});
-  return scene;
 }
 
 TEST(Energy, OfShearSpringsIsThatOfTheDiagonalsStretch) {
@@ -177,20 +90,6 @@ TEST(Measures, OfAllBodiesAreTheirExtremes) {
     EXPECT_NEAR(all.volume_ratio_min, std::min(1.0, scale * scale * scale), 1e-5);
     EXPECT_NEAR(all.volume_ratio_max, std::max(1.0, scale * scale * scale), 1e-5);
     EXPECT_NEAR(measure(world, 1).largest_strain, 0, 1e-5);
-  }
-}
-
-TEST(Spin, OfABodyInFreeFlightIsConserved) {
-  for (const double damping : {0.0, 10.0}) {
-    World world(grazing(damping), {});
-    run(world, 90);
-    ASSERT_TRUE(solid_contacts(world).empty());
-    const Motion before = motion(world, 0);
-    ASSERT_GT(glm::length(before.spin_momentum), 0.05) << "it spins";
-    run(world, 120);
-    const Motion after = motion(world, 0);
-    EXPECT_LT(glm::distance(after.spin_momentum, before.spin_momentum), 1e-3 * glm::length(before.spin_momentum));
-    EXPECT_LT(glm::distance(after.velocity, before.velocity), 1e-5 * glm::length(before.velocity));
   }
 }
 

@@ -5,14 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "softbody/contact/rebound.h"
 #include "softbody/forces/penalty_law.h"
 #include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
-#include "tests/support/world_test_access.h"
+#include "tests/support/penalty_test_access.h"
 
 namespace softbody::test {
 namespace {
@@ -85,13 +85,6 @@ TEST(PenaltyContact, StoresWhatItsFrictionSpringsHold) {
   EXPECT_NEAR(pair.penalty.energy(0, std::as_const(pair.x).field()) - before, 0.5 * 100 * 1e-6, 1e-8);
 }
 
-TEST(PenaltyContact, FadesOutWhereTheDetectorLosesSight) {
-  EXPECT_NEAR(force({0, 0.0999, 0}, glm::dvec3(0.0)).y, 0, 1e-4);
-  EXPECT_EQ(force({0, 0.1001, 0}, glm::dvec3(0.0)).y, 0);
-  EXPECT_EQ(force({0.08, 0.08, 0}, glm::dvec3(0.0)).y, 0);
-  EXPECT_GT(force({0, -0.3, 0}, glm::dvec3(0.0)).y, 5) << "but not behind the surface: it still pushes out";
-}
-
 TEST(PenaltyContact, DampsByTheSpeedOfSeparationBetweenNothingAndThreeTimes) {
   const double still = force({0, 0.05, 0}, glm::dvec3(0.0)).y;
   EXPECT_NEAR(force({0, 0.05, 0}, {0, 1, 0}).y, 0.5 * still, 1e-4);
@@ -118,10 +111,6 @@ TEST(PenaltyContact, GivesBackTheShareOfRestitutionOfWhatItsDamperTakes) {
     EXPECT_EQ(rebounds.give_back(state, seconds), 0) << "they have just parted";
     EXPECT_NEAR(rebounds.give_back(state, seconds), e * e * damped * (1 - damped), 1e-6) << e;
   }
-}
-
-TEST(PenaltyContact, SeesPositionsFromTheirBodiesOrigins) {
-  EXPECT_NEAR(Pair({0, 5.05, 0}, 0, {0, -5, 0}).force(glm::dvec3(0.0)).y, force({0, 0.05, 0}, glm::dvec3(0.0)).y, 1e-3);
 }
 
 TEST(PenaltyContact, FrictionIsADampedSpringUpToCoulombsLimit) {
@@ -361,43 +350,6 @@ TEST_P(PairsInLanes, GiveTheSameBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, PairsInLanes, testing::ValuesIn(tests::targets()), tests::target_name);
-
-/// A block of balls that fall into each other, a heavy sheet that lies on them, and one ball that is held.
-std::unique_ptr<World> crowd(int threads) {
-  Scene scene = lone_body(gas_ball());
-  for (int i = 1; i < 20; ++i) add_body(scene, {0.93 * (i % 3), 0.93 * (i / 9), 0.93 * (i / 3 % 3)}, {0, -0.1 * i, 0});
-  scene.bodies[3].release = 1000;
-  scene.bodies[5].mesh = {.kind = "grid", .columns = 9, .rows = 9, .width = 2, .depth = 2};
-  auto world = std::make_unique<World>(scene, World::Options{.threads = threads, .least_share = 0});
-  run(*world, 4);
-  return world;
-}
-
-void expect_the_same(const World& a, const World& b) {
-  const PenaltyPairs &of_a = WorldTestAccess::solver(a).penalty_contact().pairs(),
-                     &of_b = WorldTestAccess::solver(b).penalty_contact().pairs();
-  ASSERT_GT(of_a.size(), 200u);
-  EXPECT_EQ(of_a.contact, of_b.contact);
-  for (std::size_t i = 0; i < of_a.size(); ++i) {
-    const PenaltyPair p = pair_of(of_a, i), q = pair_of(of_b, i);
-    EXPECT_EQ(p.normal, q.normal);
-    EXPECT_EQ(p.stretch, q.stretch);
-    EXPECT_EQ(std::tuple(p.stiffness, p.friction, p.damped_mass), std::tuple(q.stiffness, q.friction, q.damped_mass));
-  }
-  EXPECT_EQ(a.state_hash(), b.state_hash());
-  EXPECT_EQ(a.state().ledger.booked(WorkBy::penalty), b.state().ledger.booked(WorkBy::penalty));
-}
-
-TEST(PenaltyContact, IsTheSameOnAnyNumberOfThreads) {
-  const auto alone = crowd(1);
-  for (const int threads : {2, 3}) expect_the_same(*alone, *crowd(threads));
-}
-
-TEST_P(PairsInLanes, AreFoundWithTheSameBits) {
-  const auto own = crowd(1);
-  const tests::UseTarget simplest(tests::targets().back());
-  expect_the_same(*own, *crowd(1));
-}
 
 }  // namespace
 }  // namespace softbody::test

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "softbody/forces/shape_matching.h"
+#include "softbody/integrate/resistance.h"
 #include "softbody/mechanics/deformation.h"
 #include "softbody/mechanics/make_body_model.h"
 #include "softbody/state/best_rotation.h"
@@ -81,6 +82,9 @@ TEST(ShapeMatching, IsForMeshesFromFilesUnlessTheMaterialSaysOtherwise) {
   ASSERT_TRUE(data<ShapeMatching>(*p));
   EXPECT_NEAR(data<ShapeMatching>(*p)->stiffness, p->particle_mass * rate * rate,
               1e-9 * p->particle_mass * rate * rate);
+  EXPECT_NEAR(internal_damping(*p), 2 * ShapeMatching::damping_ratio * rate, 1e-9 * rate);
+  m[Material::internal_damping] = 1e3;
+  EXPECT_EQ(internal_damping(*make_body_model(source, m)), 1e3) << "the larger one";
   m[ShapeMatching::frequency] = 0;
   EXPECT_FALSE(data<ShapeMatching>(*make_body_model(source, m)));
 }

@@ -35,7 +35,7 @@ double min_distance(const World& world) {
 
 struct Case {
   const char* name;
-  void (*put)(Scene&);
+  Solid solid;
 };
 
 class SolidFeatures : public testing::TestWithParam<Case> {
@@ -46,7 +46,7 @@ class SolidFeatures : public testing::TestWithParam<Case> {
     scene.gravity = {0, -9.81, 0};
     scene.bodies[0].position = {0.03, 0.55, 0.02};
     scene.contact_surface = surface;
-    GetParam().put(scene);
+    set_solid(scene, GetParam().solid);
     World world(scene, {});
     double least = std::numeric_limits<double>::infinity();
     for (int frame = 0; frame < 60; ++frame) {
@@ -64,49 +64,24 @@ TEST_P(SolidFeatures, StayOutOfFacesBetweenTheVertices) {
   EXPECT_LT(deepest(ContactSurface::surfaces), 0.001);
 }
 
-SolidBox box(const glm::dvec3& half, const glm::dvec3& x, const glm::dvec3& y) {
+SolidBox box(const glm::dvec3& centre, const glm::dvec3& half, const glm::dvec3& x, const glm::dvec3& y) {
   const glm::dvec3 u = glm::normalize(x), w = glm::normalize(glm::cross(u, y));
-  SolidBox b;
-  b.half_size = half;
-  b.axes = {u, glm::cross(w, u), w};
-  return b;
+  return {.centre = centre, .half_size = half, .axes = {u, glm::cross(w, u), w}};
 }
 
 const Case cases[]{
-    {"SmallSphere",
-     [](Scene& s) {
-       set_solid(s, {SolidSphere{.centre = {0, -0.12, 0}, .radius = 0.1}});
-     }},
-    {"Rod",
-     [](Scene& s) {
-       set_solid(s, {SolidCapsule{.from = {-1, -0.1, 0.3}, .to = {1, -0.1, -0.2}, .radius = 0.05}});
-     }},
-    {"Spike",
-     [](Scene& s) {
-       set_solid(s, {SolidCapsule{.from = {0, -1, 0}, .to = {0, -0.07, 0}, .radius = 0.03}});
-     }},
-    {"Edge",
-     [](Scene& s) {
-       set_solid(s, {box({0.6, 0.4, 2}, {1, 1, 0}, {-1, 1, 0})});
-       shape_of<SolidBox>(s).centre = {-0.1414, -0.7414, 0};
-     }},
-    {"Corner",
-     [](Scene& s) {
-       set_solid(s, {box({0.3, 0.3, 0.3}, {1, 1.4, 0}, {-1, 1, 1})});
-       shape_of<SolidBox>(s).centre = {0, -0.55, 0};
-     }},
-    {"Plate",
-     [](Scene& s) {
-       set_solid(s, {box({1, 0.5, 0.01}, {1, 0, 0.3}, {0, 1, 0})});
-       shape_of<SolidBox>(s).centre = {0, -0.55, 0};
-     }},
+    {"SmallSphere", {SolidSphere{.centre = {0, -0.12, 0}, .radius = 0.1}}},
+    {"Rod", {SolidCapsule{.from = {-1, -0.1, 0.3}, .to = {1, -0.1, -0.2}, .radius = 0.05}}},
+    {"Spike", {SolidCapsule{.from = {0, -1, 0}, .to = {0, -0.07, 0}, .radius = 0.03}}},
+    {"Edge", {box({-0.1414, -0.7414, 0}, {0.6, 0.4, 2}, {1, 1, 0}, {-1, 1, 0})}},
+    {"Corner", {box({0, -0.55, 0}, {0.3, 0.3, 0.3}, {1, 1.4, 0}, {-1, 1, 1})}},
+    {"Plate", {box({0, -0.55, 0}, {1, 0.5, 0.01}, {1, 0, 0.3}, {0, 1, 0})}},
 };
 INSTANTIATE_TEST_SUITE_P(All, SolidFeatures, testing::ValuesIn(cases),
                          [](const auto& c) { return std::string(c.param.name); });
 
 TEST(CoresOf, AreTheCornersAndEdgesOfABox) {
-  SolidBox b = box({0.7, 0.2, 0.4}, {1, 1.4, 0}, {-1, 1, 1});
-  b.centre = {0.5, 0.25, -0.5};
+  const SolidBox b = box({0.5, 0.25, -0.5}, {0.7, 0.2, 0.4}, {1, 1.4, 0}, {-1, 1, 1});
   std::vector<glm::dvec3> corners;
   int edges = 0;
   for (const SolidCore& core : interior_of(b).cores) {

@@ -41,14 +41,6 @@ TEST(StableStep, OfADamperAloneAndOfNothing) {
   EXPECT_NEAR(stable_step(1e-12, 5), stable_step(0, 5), 1e-9);
 }
 
-TEST(StableStep, ShrinksWithStiffnessAndWithDamping) {
-  for (double k = 1; k < 1e8; k *= 10)
-    for (double c = 0.1; c < 1e4; c *= 10) {
-      EXPECT_LT(stable_step(2 * k, c), stable_step(k, c));
-      EXPECT_LT(stable_step(k, 2 * c), stable_step(k, c));
-    }
-}
-
 /// Largest eigenvalue of -dF/dx over the particle mass at x, by power iteration; the shift makes it the one of largest
 /// size, even where squeezed springs bring negative ones.
 double largest_eigenvalue(const BodyModel& model, const std::vector<glm::dvec3>& x, double shift) {
@@ -86,20 +78,22 @@ TEST(StiffnessBound, HoldsTheLargestEigenvalueOfTheSprings) {
   EXPECT_DOUBLE_EQ(2 * stiffness_per_mass(*p, {.volume = 0.3}), bound) << "without gas the volume does not matter";
 }
 
-TEST(StiffnessBound, HoldsSpringsAndGasTogetherAtEverySize) {
+TEST(StiffnessBound, HoldsSpringsAndGasTogetherAtEverySizeFlatAndInverted) {
   for (const double stiffness : {200.0, 20.0})
-    for (const double size : {0.5, 0.7, 1.0, 1.15, 1.4}) {
+    for (const glm::dvec3& scale : {glm::dvec3(0.5), glm::dvec3(0.7), glm::dvec3(1), glm::dvec3(1.15), glm::dvec3(1.4),
+                                    glm::dvec3(1, 0.3, 1), glm::dvec3(1, -0.2, 1), glm::dvec3(1, -1, 1)}) {
       Material m = gas_ball();
       m[StructuralSprings::stiffness] = stiffness;
       m[BendSprings::stiffness] = stiffness / 4;
       m[GasPressure::inside] = 103000;
       const auto p = make_body_model({}, m);
       auto x = p->start;
-      for (auto& v : x) v *= size;
+      for (auto& v : x) v *= scale;
       const double bound = 2 * stiffness_per_mass(*p, measure_surface(*p, x));
       const double eigenvalue = largest_eigenvalue(*p, x, bound / 2);
-      EXPECT_LE(eigenvalue, bound) << "stiffness " << stiffness << ", size " << size;
-      EXPECT_GT(eigenvalue, size == 1 ? 0.95 * bound : bound / 4) << "stiffness " << stiffness << ", size " << size;
+      EXPECT_LE(eigenvalue, bound) << "stiffness " << stiffness << ", " << scale.x << " by " << scale.y;
+      if (scale.x != scale.y) continue;
+      EXPECT_GT(eigenvalue, scale.x == 1 ? 0.95 * bound : bound / 4) << "stiffness " << stiffness << ", " << scale.x;
     }
 }
 
@@ -127,16 +121,6 @@ TEST(StiffnessBound, HoldsACrumpledBody) {
           std::abs(data<GasPressure>(*p)->gauge(s.volume)) * p->largest_degree * s.two_medians / 6 / p->particle_mass;
       EXPECT_LE(bound, (springs + norm + geometric) * (1 + 1e-12)) << "no more than the sum of its parts";
     }
-}
-
-TEST(StiffnessBound, HoldsAFlattenedAndAnInvertedBody) {
-  const auto p = make_body_model({}, gas_ball());
-  for (const double height : {0.3, 0.05, -0.2, -1.0}) {
-    auto x = p->start;
-    for (auto& v : x) v.y *= height;
-    const double bound = 2 * stiffness_per_mass(*p, measure_surface(*p, x));
-    EXPECT_LE(largest_eigenvalue(*p, x, bound / 2), bound) << "height " << height;
-  }
 }
 
 }  // namespace

@@ -41,6 +41,22 @@ TEST(StepController, DividesAFrameIntoStableSubsteps) {
   }
 }
 
+TEST(StepController, TakesNoStepLongerThanASixtiethOfASecondUnlessFixed) {
+  FrameConditions half_a_second = ball;
+  half_a_second.seconds = 0.5;
+  for (const char* integrator : {"semi-implicit-euler", "implicit", "xpbd"}) {
+    StepController free = with(integrator), fixed = with(integrator, 1);
+    EXPECT_EQ(substeps(free, {}, half_a_second), integrator == std::string_view("implicit") ? 32 : 30) << integrator;
+    EXPECT_EQ(substeps(fixed, {}, half_a_second), fixed.bounds_of().substeps_per_step) << integrator;
+  }
+}
+
+/// A body does not stay round where a step bends it by more than its radius.
+TEST(StepController, TakesImplicitStepsThatABodyStaysRoundIn) {
+  EXPECT_EQ(first_substeps("implicit", {.deformation = 30 / frame}), 4) << "3 of the ladder";
+  EXPECT_EQ(first_substeps("implicit", {.deformation = 1e4 / frame}), 16);
+}
+
 /// Contact of surfaces acts after an implicit solve.
 TEST(StepController, TakesShortImplicitStepsWhereSurfacesMayTouch) {
   const StepBound bound{.surfaces_near = true};
@@ -133,6 +149,17 @@ TEST(StepController, ChoosesTheCheaperIntegrator) {
     c.*none = true;
     EXPECT_FALSE(implicit(1e12, c));
   }
+}
+
+/// Else a body that swings would be moved in another way with every swing.
+TEST(StepController, ChoosesByTheRateThatItKeeps) {
+  StepController steps = with("auto");
+  for (const int count : {200, 100}) {
+    substeps(steps, stable(count));
+    EXPECT_TRUE(steps.plan().integrator->implicit) << count;
+  }
+  for (int i = 0; i < 62; ++i) substeps(steps, stable(100));
+  EXPECT_FALSE(steps.plan().integrator->implicit);
 }
 
 TEST(StepController, ChoosesImplicitStepsIfTheFixedOnesWouldBeUnstable) {

@@ -11,69 +11,35 @@
 namespace softbody::test {
 namespace {
 
-StepBound bound_of(const World& world) {
-  State state = WorldTestAccess::solver(world).save().bodies;
-  const PenaltyContact penalty;
-  const SolidContact solids(state);
-  collide::Workers workers(1);
-  BatchShares shares(workers);
-  std::vector<const Batch*> moving;
-  for (const Batch& b : state.batches()) moving.push_back(&b);
-  shares.take(std::move(moving), state.particle_count());
-  return StepBounds(state, penalty, solids, shares).measure(world.integrator_choice().integrator());
-}
-
 TEST(StepBounds, AreOfTheBodyThatNeedsMost) {
-  Scene scene = lone_body(gas_ball());
-  for (int i = 1; i < 3; ++i) {
-    scene.bodies.push_back(scene.bodies[0]);
-    scene.bodies[std::size_t(i)].position.x += 5 * i;
-  }
-  for (const std::string key : {"semi-implicit-euler", "imex-euler"}) {
-    World world(scene, {.integrator = {key}});
+  const auto model = make_body_model({}, gas_ball());
+  for (const char* key : {"semi-implicit-euler", "imex-euler"})
     for (const double size : {1.0, 0.6}) {  // of the second body
+      const Integrator& integrator = *find_integrator(key);
+      State state;
       double most = 0;
-      for (BodyId body = 0; body < 3; ++body) {
-        std::vector<Particle> particles;
+      for (BodyId id = 0; id < 3; ++id) {
+        const glm::dvec3 origin(5.0 * id, 0, 0);
+        state.add(model, origin, glm::dvec3(0.0));
         std::vector<glm::dvec3> x;
-        for (Index v = 0; v < world.model(body).mesh.vertices.size(); ++v) {
-          particles.push_back(world.particle(body, v));
-          if (body == 1)
-            particles.back().position =
-                world.body(1).origin + size * (particles.back().position - world.body(1).origin);
-          x.push_back(particles.back().position);
+        std::vector<Particle> particles;
+        for (const glm::dvec3& v : model->start) {
+          x.push_back((id == 1 ? size : 1) * v);
+          particles.push_back({origin + x.back(), glm::dvec3(0.0)});
         }
-        world.set_particles(body, particles);
-        const BodyModel& model = world.model(body);
-        const double step = world.integrator_choice().integrator().stable_step(
-            stiffness_per_mass(model, measure_surface(model, x),
-                               key == "imex-euler" ? Volumes::implicit_ : Volumes::explicit_),
-            damping_bound(model) / model.particle_mass);
-        most = std::max(most, 0.8 / step);
+        state.set_particles(id, particles);
+        const Volumes volumes = integrator.implicit_volume ? Volumes::implicit_ : Volumes::explicit_;
+        const double stiffness = stiffness_per_mass(*model, measure_surface(*model, x), volumes);
+        most = std::max(most, 0.8 / integrator.stable_step(stiffness, damping_bound(*model) / model->particle_mass));
       }
-      const Integrator& integrator = world.integrator_choice().integrator();
-      EXPECT_NEAR((1 - integrator.reserve()) * stable_rate(bound_of(world), integrator), most, 1e-4 * most)
-          << key << size;
+      const PenaltyContact penalty;
+      const SolidContact solids(state);
+      collide::Workers workers(1);
+      BatchShares shares(workers);
+      shares.take({&state.batches()[0]}, state.particle_count());
+      const StepBound bound = StepBounds(state, penalty, solids, shares).measure(integrator);
+      EXPECT_NEAR((1 - integrator.reserve()) * stable_rate(bound, integrator), most, 1e-4 * most) << key << size;
     }
-  }
-}
-
-/// Their contact is the stiffest for the lighter one.
-TEST(StepBounds, AreOfTheLighterBodyInEitherOrder) {
-  const auto substeps = [](double first, double second) {
-    Scene scene = lone_body(spring_ball());
-    scene.materials.push_back(scene.materials[0]);
-    scene.materials[0][Material::mass] = first, scene.materials[1][Material::mass] = second;
-    for (Material& m : scene.materials) m[contact::stiffness] = 1000;
-    add_body(scene, {0, 1.02, 0}, glm::dvec3(0.0));
-    scene.bodies[1].material = 1;
-    World world(scene, {.integrator = {"semi-implicit-euler"}});
-    world.step();
-    return world.last_step().substeps;
-  };
-  const int lighter_first = substeps(0.5, 50);
-  EXPECT_GT(lighter_first, 3 * substeps(50, 50));
-  EXPECT_NEAR(substeps(50, 0.5), lighter_first, 0.05 * lighter_first);
 }
 
 TEST(StepBounds, CountTheStiffnessOfContacts) {
@@ -96,6 +62,17 @@ TEST(StepBounds, CountTheStiffnessOfContacts) {
                                      own + penalty, damping_bound(model) / model.particle_mass));
 }
 
+TEST(StepBounds, ReckonWithTheRoundingOfTheFarthestPosition) {
+  Batch batch;
+  batch.used = 2;
+  batch.moves[0] = 1;  // the second body stands
+  Extent extent{};
+  extent.lo.set(0, {0, -3, 0}), extent.hi.set(0, {2, -1, 1});
+  extent.lo.set(1, {0, 0, 0}), extent.hi.set(1, {9, 0, 0});
+  const Batch* const moving = &batch;
+  EXPECT_EQ(StepBounds::rounding({&moving, 1}, {&extent, 1}), 3.0 / (1 << 24));
+}
+
 /// A tenth of its radius in a substep, at most. Who is far from solids does not count, in the same block or not.
 TEST(StepBounds, KeepUpWithASoftBodyNearASolid) {
   Material soft = spring_ball();
@@ -114,7 +91,7 @@ TEST(StepBounds, KeepUpWithASoftBodyNearASolid) {
 }
 
 TEST(StepController, FollowsABodyThatIsCrushedWithinAFrame) {
-  for (const double speed : {30.0, 100.0, 300.0, 1000.0}) {
+  for (const double speed : {30.0, 300.0, 1000.0}) {
     Scene scene = lone_body(gas_ball(), {0, -speed, 0});
     scene.bodies[0].position = {0, 1, 0};
     set_solid(scene, {Ground{}});
@@ -133,9 +110,9 @@ TEST(StepController, FollowsABodyThatIsCrushedWithinAFrame) {
 /// At rest, but far from its balance: no speed tells yet how soon it will have another shape, and another bound. Then
 /// it is fast: a step by the bound of its present shape would lead right through its own far side.
 TEST(StepController, FollowsABodyThatSnapsBack) {
-  for (const double stretch : {2.0, 3.0, 5.0, 10.0, 20.0, 50.0})
-    for (const double stiffness : {1e1, 1e2, 1e3, 1e4})
-      for (const double frame_time : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
+  for (const double stretch : {2.0, 10.0, 50.0})
+    for (const double stiffness : {1e1, 1e3})
+      for (const double frame_time : {1.0 / 30, 1.0 / 240}) {
         Material m = gas_ball();
         m.set(StructuralSprings::keys, {stiffness, 0.1});
         m.set(BendSprings::keys, {stiffness / 4, 0.1});
@@ -168,102 +145,6 @@ TEST(StepController, KeepsOtherBodiesStableWhereOneNeedsTooMany) {
     ASSERT_LT(world.last_step().seconds, world.frame_time());
     ASSERT_LT(measure(world).max_speed, 11) << "frame " << frame;
     ASSERT_LT(measure(world, 0).largest_strain, 0.1) << "frame " << frame;
-  }
-}
-
-TEST(StepController, FollowsTheBound) {
-  Scene scene = lone_body(spring_ball());
-  for (const double stiffness : {10.0, 300.0, 30000.0}) {
-    scene.materials[0][StructuralSprings::stiffness] = stiffness;
-    World world(scene, {});
-    const BodyModel& model = world.model(0);
-    world.step();
-    const double h =
-        stable_step(model.forces->pair_stiffness / model.particle_mass, damping_bound(model) / model.particle_mass);
-    EXPECT_EQ(world.last_step().needed, int(std::ceil(1.0 / 60 / h)));
-    EXPECT_EQ(world.last_step().substeps, on_ladder(1.0 / 60 / h, 8));
-  }
-}
-
-/// However soft the body and stable the integrator.
-TEST(StepController, LimitsStepsToASixtiethOfASecondUnlessFixed) {
-  for (const std::string integrator : {"semi-implicit-euler", "implicit", "xpbd"}) {
-    const int each = find_integrator(integrator)->substeps_per_step;
-    Material soft = spring_ball();
-    soft[StructuralSprings::stiffness] = soft[BendSprings::stiffness] = 0.01;
-    const auto substeps = [&](double frame_time, std::optional<int> fixed) {
-      World world(lone_body(soft), {.frame_time = frame_time, .integrator = {integrator, fixed}});
-      world.step();
-      return world.last_step().substeps;
-    };
-    EXPECT_GE(substeps(0.5, {}), 30) << integrator;
-    EXPECT_LE(substeps(0.5, {}), 32) << integrator;
-    EXPECT_EQ(substeps(1.0 / 60, {}), each) << integrator;
-    EXPECT_EQ(substeps(0.5, 1), each) << integrator;
-  }
-}
-
-/// Slow motion, or implicit steps, whatever the integrator.
-TEST(StepController, RefusesNoMaterialHoweverStiff) {
-  for (const Integrator& integrator : integrators())
-    for (const ContactSurfaceInfo& surface : contact_surfaces)
-      for (const double stiffness : {1e9, 1e12}) {
-        Scene scene = lone_body(spring_ball());
-        scene.materials[0][StructuralSprings::stiffness] = stiffness;
-        scene.contact_surface = surface.value;
-        add_body(scene, {0, 2, 0}, {});
-        World world(scene, {.integrator = {std::string(integrator.key)}, .budget = {.least = 1e6}});
-        world.step();
-        EXPECT_GT(world.last_step().seconds, 0) << integrator.key;
-        EXPECT_TRUE(world.last_step().integrator->stable_at_any_step() ||
-                    world.last_step().seconds < world.frame_time());
-        EXPECT_TRUE(measure(world).finite) << integrator.key;
-      }
-}
-
-/// Two balls of 5 kg fall on a sheet of 0.3 kg whose springs are up to 100,000 times as stiff as cloth's, in long
-/// frames.
-TEST(StepController, TakesStiffScenesInImplicitSteps) {
-  for (const double times : {1e3, 1e4, 1e5}) {
-    Material ball = gas_ball(), sheet = spring_ball();
-    ball[Material::mass] = 5, sheet[Material::mass] = 0.3;
-    ball.set(StructuralSprings::keys, {100 * times, 0.1});
-    sheet.set(StructuralSprings::keys, {50 * times, 0.1});
-    Scene scene = lone_body(ball);
-    scene.materials.push_back(sheet);
-    scene.gravity = {0, -9.81, 0};
-    set_solid(scene, {Ground{}});
-    scene.bodies[0].position = {0, 1, 0};
-    add_body(scene, {0.3, 2.2, 0}, {});
-    add_body(scene, {0, 0.3, 0}, {});
-    scene.bodies[2].material = 1;
-    scene.bodies[2].mesh = {.kind = "grid", .columns = 10, .rows = 10, .width = 2, .depth = 2};
-    World world(scene, {.frame_time = 1.0 / 30});
-    for (int frame = 0; frame < 30; ++frame) {
-      world.step();
-      ASSERT_EQ(world.last_step().seconds, world.frame_time()) << times << " in frame " << frame;
-      ASSERT_TRUE(measure(world).finite);
-      ASSERT_LT(measure(world).max_speed, 20) << times << " in frame " << frame;
-    }
-  }
-}
-
-/// A hard throw against a solid: however it deforms, the step that was chosen has to carry it.
-TEST(StepController, KeepsACrushedBodyInOnePiece) {
-  for (const double speed : {3.0, 10.0, 30.0}) {
-    Scene scene = lone_body(gas_ball(), glm::dvec3(0, -speed, 0));
-    scene.bodies[0].position = {0, 1, 0};
-    set_solid(scene, {Ground{}});
-    World world(scene, {});
-    const double before = measure(world).energy, kinetic = 0.5 * speed * speed;
-    for (int i = 0; i < 120; ++i) {
-      world.step();
-      const Measures m = measure(world);
-      ASSERT_TRUE(m.finite) << "frame " << i;
-      ASSERT_LT(m.max_speed, 3 * speed);
-      ASSERT_LT(m.energy, before + 0.1 * kinetic) << "frame " << i << " at " << speed << " m/s";
-    }
-    EXPECT_GT(measure(world).volume_ratio_min, 0.9);
   }
 }
 

@@ -34,16 +34,6 @@ TEST(SurfaceContact, KeepsMomentumAndAngularMomentum) {
   }
 }
 
-TEST(SurfaceContact, DoesNotActBetweenBodiesThatAreApart) {
-  Scene scene = ball_in_space(rubber(), glm::dvec3(3, 0, 0));
-  add_body(scene, {0, 1.1, 0}, {-3, 0, 0});
-  World world(scene, {});
-  run(world, 30);
-  EXPECT_NEAR(motion(world, 0).velocity.x, 3, 1e-5);
-  EXPECT_NEAR(motion(world, 1).velocity.x, -3, 1e-5);
-  EXPECT_NEAR(glm::length(motion(world, 0).spin_momentum), 0, 1e-5);
-}
-
 /// A ball thrown down at something around the origin.
 struct Target {
   const char* name;
@@ -107,29 +97,6 @@ INSTANTIATE_TEST_SUITE_P(At, ThrownBall,
                                          Target{"sleeping_ball_at_1000", false, false, true, 1000, 1},
                                          Target{"held_sheet_at_1000", true, true, false, 1000, 1}),
                          [](const auto& target) { return std::string(target.param.name); });
-
-/// What lies on the solid is hit from behind by the body's other half: both keep it, the solid and the surface.
-TEST(SurfaceContact, ABallThrownAtASolidSphereDoesNotPierceItself) {
-  for (const double speed : {100.0, 300.0}) {
-    Scene scene = load_scene(std::filesystem::path(SBCOLLIDE_SCENES) / "A.toml");
-    scene.contact_surface = ContactSurface::surfaces;
-    scene.gravity = glm::dvec3(0.0);
-    remove_solids<Ground>(scene);
-    scene.bodies.resize(1);
-    BodySource& ball = scene.bodies[0];
-    const SolidSphere& solid = shape_of<SolidSphere>(scene);
-    ball.position = solid.centre + glm::dvec3(0.04, solid.radius + 0.8, 0.03);
-    ball.velocity = {0, -speed, 0};
-    World world(scene, {});
-    Judge judge(world);
-    for (int i = 0; i < 20; ++i) {
-      world.step();
-      judge.expect_clean(std::to_string(speed) + " m/s, " + frame_of(world));
-      ASSERT_LT(measure(world).deepest_penetration, 1e-3) << speed << " m/s, " << frame_of(world);
-    }
-    EXPECT_GT(motion(world, 0).velocity.y, 0) << "it was thrown back";
-  }
-}
 
 /// Slack and without gas: it falls in, and its two sides meet on the solid, at any speed.
 TEST(SurfaceContact, ASlackBallThatFallsInOnASolidSphereDoesNotPierceItself) {
@@ -266,48 +233,6 @@ TEST(SurfaceContact, TakesShortStepsWhileSurfacesPressAlsoBesideASleeper) {
   EXPECT_EQ(WorldTestAccess::solver(world).steps().plan().integrator->key, "semi-implicit-euler");
 }
 
-TEST(SurfaceContact, TakesSubstepsForItsFastestPair) {
-  Scene scene = ball_in_space(rubber(), {0, -30, 0});
-  add_body(scene, {0.03, -1.3, 0.02}, glm::dvec3(0.0));
-  const auto rate = [&] {
-    World world(scene, {.integrator = {"semi-implicit-euler"}});
-    world.step();
-    return WorldTestAccess::solver(world).surface_contact().candidates().substep_rate();
-  };
-  const float alone = rate();
-  add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
-  add_body(scene, {5, 1.003, 0}, {0, -0.1, 0});
-  EXPECT_GT(alone, 100);
-  EXPECT_FLOAT_EQ(rate(), alone);
-}
-
-/// Nearly all of each surface lies on the other one, so that hardly a vertex is deep.
-TEST(SurfaceContact, BodiesInOnePlaceComeApart) {
-  for (const double offset : {0.0, 1e-5, 1e-3, 0.02}) {
-    Scene scene = ball_in_space(rubber(0));
-    add_body(scene, {offset, 0, 0.3 * offset}, glm::dvec3(0.0));
-    World world(scene, {});
-    run(world, 120);
-    Judge(world).expect_clean("two seconds after they were " + std::to_string(offset) + " m apart");
-    EXPECT_GT(glm::length(motion(world, 0).centre - motion(world, 1).centre), 0.95);
-  }
-}
-
-TEST(SurfaceContact, BodiesOfUnlikeMassAndMeshThatStartFarInEachOtherPartWithoutMomentum) {
-  for (const int subdivisions : {1, 2, 3}) {  // of the heavy one
-    Scene scene = ball_in_space(rubber());
-    scene.materials.push_back(scene.materials[0]);
-    scene.materials[1][Material::mass] = 8;
-    add_body(scene, {0.2, 0.05, 0}, glm::dvec3(0.0));
-    scene.bodies[1].material = 1;
-    scene.bodies[1].mesh.subdivisions = subdivisions;
-    World world(scene, {});
-    run(world, 10);
-    EXPECT_GT(glm::length(motion(world, 0).velocity), 0.1) << "they part";
-    EXPECT_LT(glm::length(measure(world).momentum), 1e-4) << subdivisions;
-  }
-}
-
 TEST(SurfaceContact, ABodyWhollyInsideAnotherComesOut) {
   Scene scene = ball_in_space(rubber(0));
   add_body(scene, {0.1, 0.02, 0.03}, glm::dvec3(0.0));
@@ -367,60 +292,6 @@ TEST(SurfaceContact, ASheetCarriesMoreBallsThanThereAreColours) {
   for (BodyId ball = 1; ball <= 80; ++ball) EXPECT_GT(motion(world, ball).centre.y, 0.05) << ball;
 }
 
-TEST(SurfaceContact, AStackInAWellStandsWithoutSinkingIn) {
-  Scene scene = ball_in_space(damped(rubber()));
-  scene.gravity = {0, -9.81, 0};
-  set_solid(scene, {Ground{0}, 0.6});
-  scene.bodies[0].position = {0.02, 0.6, 0.01};
-  add_body(scene, {-0.03, 1.7, 0.02}, glm::dvec3(0.0));
-  add_body(scene, {0.02, 2.8, -0.03}, glm::dvec3(0.0));
-  for (const glm::dvec3& inwards :
-       {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, 0, -1)})
-    add_solid(scene, {SolidPlane{-0.55 * inwards, inwards}, 0.3, 0});
-  World world(scene, {});
-  Judge judge(world);
-  for (int i = 0; i < 300; ++i) {
-    world.step();
-    if (i % 10 == 0) judge.expect_clean(frame_of(world));
-  }
-  EXPECT_GT(motion(world, 2).centre.y, motion(world, 1).centre.y + 0.7);
-  EXPECT_GT(motion(world, 1).centre.y, motion(world, 0).centre.y + 0.7);
-}
-
-TEST(SurfaceContact, ClothOverASolidSphereNeverPiercesItself) {
-  Scene scene = load_scene(std::filesystem::path(SBCOLLIDE_SCENES) / "cloth.toml");
-  scene.contact_surface = ContactSurface::surfaces;
-  MeshSource& mesh = scene.bodies[0].mesh;
-  mesh.columns = mesh.rows = 24, mesh.width = mesh.depth = 3.6;
-  World world(scene, {});
-  Judge judge(world);
-  for (int i = 0; i < 200; ++i) {
-    world.step();
-    if (i % 10 == 0) judge.expect_clean(frame_of(world));
-  }
-  EXPECT_LT(motion(world, 0).centre.y, 1.5) << "it fell and folded";
-}
-
-TEST(SurfaceContact, AStarThatFallsOnAStarStaysOutside) {
-  Scene scene = load_scene(std::filesystem::path(SBCOLLIDE_SCENES) / "star.toml");
-  scene.contact_surface = ContactSurface::surfaces;
-  remove_solids<SolidSphere>(scene);
-  const BodySource star = scene.bodies[0];
-  scene.bodies = {star, star};
-  scene.bodies[0].position = {0, 0.7, 0};
-  scene.bodies[1].position = {0.15, 1.9, 0.1};
-  World world(scene, {});
-  Judge judge(world);
-  judge.expect_clean("at the start");
-  bool met = false;
-  for (int i = 0; i < 90; ++i) {
-    world.step();
-    met = met || !world.surface_contacts().empty();
-    if (i % 3 == 0) judge.expect_clean(frame_of(world));
-  }
-  EXPECT_TRUE(met);
-}
-
 /// Skins pressed into each other's way cannot all be pushed out: the impulses of such contacts must not pile up.
 TEST(SurfaceContact, KeepsBodiesAwakeThatLieInEachOther) {
   Scene scene = ball_in_space(rubber());
@@ -437,25 +308,6 @@ TEST(SurfaceContact, KeepsBodiesAwakeThatLieInEachOther) {
   }
   EXPECT_GT(overlapping, 10);
   EXPECT_TRUE(world.body(0).asleep && world.body(1).asleep);
-}
-
-TEST(SurfaceContact, HeavyBodiesThatCrushEachOtherGainNoEnergy) {
-  Scene scene = find_scene("A", SBCOLLIDE_SCENES);
-  scene.contact_surface = ContactSurface::surfaces;
-  scene.materials[0][Material::mass] = 90;
-  scene.bodies.clear();
-  for (int i = 0; i < 6; ++i) add_body(scene, {0.15 + 0.05 * (i % 2), 2.7 + 1.2 * i, 0.1}, glm::dvec3(0.0));
-  World world(scene, {});
-  const double start = measure(world).energy;
-  double least = start, smallest = 1;
-  for (int i = 0; i < 100; ++i) {
-    world.step();
-    const Measures m = measure(world);
-    EXPECT_LT(m.energy, least + 1e-3 * start) << frame_of(world);
-    least = std::min(least, m.energy);
-    smallest = std::min(smallest, m.volume_ratio_min);
-  }
-  EXPECT_LT(smallest, 0.97) << "they were crushed";
 }
 
 }  // namespace

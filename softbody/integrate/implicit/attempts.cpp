@@ -81,7 +81,7 @@ void finish(const MovingAxes& axes, Lanes x, Lanes v, ImplicitBodies& bodies) {
 
 }  // namespace
 
-LaneMask second_order_step(const ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried) {
+LaneMask second_order_step(ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried) {
   LaneMask solved = tried & ~step.in_contact;
   if (solved.none()) return solved;
   const double h = step.h, stage = implicit_stage * h;
@@ -110,7 +110,7 @@ LaneMask second_order_step(const ImplicitStep& step, ImplicitBodies& bodies, Lan
   return solved;
 }
 
-LaneMask first_order_step(const ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried) {
+LaneMask first_order_step(ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried) {
   const MovingAxes axes = step.axes.subset(tried);
   axes.enter(bodies.x, bodies.v, step.start);
   std::vector<PlaneContact> planes;
@@ -140,7 +140,7 @@ LaneMask first_order_step(const ImplicitStep& step, ImplicitBodies& bodies, Lane
   return solved;
 }
 
-LaneMask rigid_fallback_step(const ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried) {
+LaneMask rigid_fallback_step(ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried) {
   for (std::size_t l = 0; l < implicit_lanes; ++l)
     if (tried[l]) move_without_gain(step, bodies, l);
   for (PlaneContact& c : bodies.planes)

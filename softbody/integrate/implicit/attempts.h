@@ -25,23 +25,23 @@ struct ImplicitStep {
   LaneMask in_contact{};  // lanes whose bodies touch something at the start
 };
 
-// An attempt sets the end of the lanes `tried` (bodies.end_x and end_v) and leaves the other lanes as they are. It
-// returns the lanes that it has solved; the end of the rest is not to be used.
+// An attempt sets the end of the lanes `tried` (bodies.end_x and end_v) and leaves the other lanes as they are. It uses
+// the step's solver and memory. It returns the lanes that it has solved; the end of the rest is not to be used.
 
 /// Takes a step of second order, in two stages, in those of the lanes that touch nothing. Springs, gas and dampers
 /// enter by Alexander's method, what else acts in moving axes by the explicit one that goes with it (Ascher, Ruuth and
 /// Spiteri 1997, "Implicit-explicit Runge-Kutta methods", (2,2,2)). Refuses lanes whose solve does not converge, that
 /// end behind a plane, or that gain energy.
-LaneMask second_order_step(const ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried);
+LaneMask second_order_step(ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried);
 
 /// Takes a step of backward Euler with contact in the solve. Fills in the forces of the lanes' planes. Refuses lanes
 /// whose momentum does not change as the forces say, or that gain more energy than can be dissipated.
-LaneMask first_order_step(const ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried);
+LaneMask first_order_step(ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried);
 
 /// Moves and rotates each body as a rigid body that stops at its planes. If that would give it energy, it rotates about
 /// its angular momentum instead; if that does, too, its spin is reduced. Its shape does not change, and its deformation
 /// velocities are lost. Refuses no lane.
-LaneMask rigid_fallback_step(const ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried);
+LaneMask rigid_fallback_step(ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried);
 
 /// Each is made in the lanes that those before it have left open. The last one solves all of them.
 inline constexpr std::array implicit_attempts{second_order_step, first_order_step, rigid_fallback_step};

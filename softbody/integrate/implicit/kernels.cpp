@@ -108,19 +108,7 @@ void add_scaled(std::size_t count, const double* times, const double* a, double*
     store(y + at, load<V>(y + at) + t * load<V>(a + at));
 }
 
-/// y += times * a, a the same for all lanes.
-void add_scaled_shared(std::size_t count, const double* times, const double* a, double* y) {
-  const V t = load<V>(times);
-  for (std::size_t i = 0; i < count; ++i) store(y + i * implicit_lanes, load<V>(y + i * implicit_lanes) + a[i] * t);
-}
-
-void inner_product_shared(std::size_t count, const double* a, const double* b, double* result) {
-  V sum{};
-  for (std::size_t i = 0; i < count; ++i) sum += a[i] * load<V>(b + i * implicit_lanes);
-  store(result, sum);
-}
-
-constexpr ImplicitKernels table{substitute, turn, inner_product, inner_product_shared, add_scaled, add_scaled_shared};
+constexpr ImplicitKernels table{substitute, turn, inner_product, add_scaled};
 
 const ImplicitKernels& Table() { return table; }
 

@@ -27,9 +27,7 @@ struct ImplicitKernels {
   void (*substitute)(const CholeskyFactor&, double* x, double* scratch);
   void (*turn)(std::size_t particles, const double (*rotation)[implicit_lanes], bool back, Field<double> v);
   void (*inner_product)(std::size_t count, const double* a, const double* b, double* result);
-  void (*inner_product_shared)(std::size_t count, const double* shared, const double* b, double* result);
   void (*add_scaled)(std::size_t count, const double* times, const double* a, double* y);
-  void (*add_scaled_shared)(std::size_t count, const double* times, const double* shared, double* y);
 };
 
 const ImplicitKernels& implicit_kernels();

@@ -5,7 +5,7 @@
 
 namespace softbody {
 
-Minimiser::Minimiser(std::size_t particles, const ImplicitKernels& kernels) : kernels_(kernels), particles_(particles) {
+Minimiser::Minimiser(std::size_t particles) : kernels_(implicit_kernels()), particles_(particles) {
   for (Lanes* v : {&trial_, &gradient_, &trial_gradient_, &direction_}) v->resize(3 * particles * implicit_lanes);
   for (auto* list : {&steps_, &changes_})
     for (Lanes& v : *list) v.resize(3 * particles * implicit_lanes);

@@ -22,7 +22,7 @@ struct Objective {
 /// is shortened by the secant of the slopes, so that no value of the function is needed.
 class Minimiser {
  public:
-  Minimiser(std::size_t particles, const ImplicitKernels& kernels);
+  explicit Minimiser(std::size_t particles);
 
   /// Forgets what earlier calls have learnt of the function.
   void forget() { remembered_ = 0; }

@@ -18,12 +18,12 @@ constexpr int max_iterations = 40, iterations_of_round = 12;
 
 }  // namespace
 
-QuasiNewton::QuasiNewton(const BodyModel& model, const ImplicitKernels& kernels)
-    : kernels_(kernels),
+QuasiNewton::QuasiNewton(const BodyModel& model)
+    : kernels_(implicit_kernels()),
       forces_(implicit_force_kernels()),
       particles_(model.mesh.vertices.size()),
       stride_(particles_ * implicit_lanes),
-      minimiser_(particles_, kernels) {
+      minimiser_(particles_) {
   for (Lanes* v : {&target_, &x_, &push_, &scratch_}) v->resize(3 * stride_);
 }
 
@@ -94,12 +94,13 @@ void QuasiNewton::apply_matrix(const ImplicitProblem& p, Lanes& q) {
   }
   kernels_.turn(particles_, rotation_, true, field(q));
   kernels_.substitute(p.matrix.factor(), q.data(), scratch_.data());
-  if (!p.matrix.gas().empty()) {
-    PerLane along;
-    kernels_.inner_product_shared(3 * particles_, p.matrix.gas().data(), q.data(), along.data());
-    for (double& a : along) a *= -p.matrix.gas_weight();
-    kernels_.add_scaled_shared(3 * particles_, along.data(), p.matrix.gas_response().data(), q.data());
-  }
+  const std::vector<double>&gas = p.matrix.gas(), &response = p.matrix.gas_response();
+  PerLane along{};
+  for (std::size_t i = 0; i < gas.size(); ++i)
+    for (std::size_t l = 0; l < implicit_lanes; ++l) along[l] += gas[i] * q[i * implicit_lanes + l];
+  for (double& a : along) a *= -p.matrix.gas_weight();
+  for (std::size_t i = 0; i < response.size(); ++i)
+    for (std::size_t l = 0; l < implicit_lanes; ++l) q[i * implicit_lanes + l] += response[i] * along[l];
   kernels_.turn(particles_, rotation_, false, field(q));
 }
 

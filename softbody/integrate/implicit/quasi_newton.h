@@ -25,7 +25,7 @@ namespace softbody {
 
 class QuasiNewton {
  public:
-  QuasiNewton(const BodyModel& model, const ImplicitKernels& kernels);
+  explicit QuasiNewton(const BodyModel& model);
 
   /// Solves a step and returns the positions at its end.
   const Lanes& solve(const ImplicitProblem& problem);

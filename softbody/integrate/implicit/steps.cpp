@@ -96,7 +96,7 @@ void ImplicitSteps::retain(const std::function<bool(const BodyModel&)>& in_use) 
 
 void ImplicitSteps::prepare(const std::shared_ptr<const BodyModel>& model, double h, int threads) {
   auto& [matrices, work] = models_[model];
-  while (work.size() < std::size_t(threads)) work.emplace_back(*model, kernels_);
+  while (work.size() < std::size_t(threads)) work.emplace_back(*model);
   for (const double length : {h, implicit_stage * h}) matrices.prepare(*model, length);
 }
 

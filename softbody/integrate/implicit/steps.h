@@ -61,8 +61,6 @@ class ImplicitMatrices {
 /// Takes the steps, and owns the matrices and the workspaces that they need.
 class ImplicitSteps {
  public:
-  ImplicitSteps() : kernels_(implicit_kernels()) {}
-
   /// Forgets the body models that are not in use.
   void retain(const std::function<bool(const BodyModel&)>& in_use);
   /// Gets ready for steps of h (s) of the model's bodies on threads 0 to threads - 1. Throws SceneError as
@@ -77,7 +75,7 @@ class ImplicitSteps {
  private:
   /// What a thread computes with while it takes steps of one body model.
   struct Work {
-    Work(const BodyModel& model, const ImplicitKernels& kernels) : solver(model, kernels), bodies(model) {}
+    explicit Work(const BodyModel& model) : solver(model), bodies(model) {}
     QuasiNewton solver;
     ImplicitBodies bodies;
     ImplicitStart start;
@@ -88,7 +86,6 @@ class ImplicitSteps {
   };
   static void advance_part(OfModel& own, int thread, const ImplicitBatch& part, const ImplicitResult& result, double h);
 
-  const ImplicitKernels& kernels_;
   std::map<std::shared_ptr<const BodyModel>, OfModel> models_;
 };
 
