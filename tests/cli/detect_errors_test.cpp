@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <span>
 
 #include "tests/cli/detect_rig.h"
 #include "tests/cli/ply_rig.h"
@@ -11,21 +12,29 @@
 namespace cli::test {
 namespace {
 
+/// Returns a text, repeated so many times.
+std::string repeated(const std::string& piece, std::size_t times) {
+  std::string text;
+  text.reserve(piece.size() * times);
+  while (times-- > 0) text += piece;
+  return text;
+}
+
 struct BadFile {
   const char* name;
   std::string text;
-  std::vector<std::string> words;
+  Words words;
 };
 
-class BadObj : public testing::TestWithParam<BadFile> {};
-
-TEST_P(BadObj, IsRefusedWithItsLine) {
-  const TemporaryFolder folder;
-  const std::string bad = folder.write("bad.obj", GetParam().text), out = folder.path() / "out.csv";
-  std::vector<std::string> words{bad};
-  words.insert(words.end(), GetParam().words.begin(), GetParam().words.end());
-  expect_refused({"detect", bad, "--tolerance", "0.1", "--json", "--contacts", out}, words);
-  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"bad.obj"});
+/// Expects that `detect` refuses each file with its name and these words, and writes nothing.
+void expect_bad(const std::string& file, std::span<const BadFile> rows) {
+  for (const auto& [name, text, words] : rows) {
+    SCOPED_TRACE(name);
+    const TemporaryFolder folder;
+    const std::string bad = folder.write(file, text), out = folder.path() / "out.csv";
+    expect_refused({"detect", bad, "--tolerance", "0.1", "--json", "--contacts", out}, with(words, {bad}));
+    EXPECT_EQ(file_names(folder.path()), std::set<std::string>{file});
+  }
 }
 
 const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -72,28 +81,10 @@ const BadFile bad_files[]{
     {"text_after_coordinates", "v 0 0 0 red\n", {":1: ", "'red'"}},
     {"vertex_after_weight", "v 0 0 0 1v 1 1 1\n", {":1: ", "'1v'"}},
     {"long_line", "# " + std::string(3 << 20, 'x'), {":1: ", "longer than 1 MiB"}},
-    {"long_continued_line",
-     "v 0 0 0\nf" +
-         [] {
-           std::string text;
-           for (int i = 0; i < 400'000; ++i) text += " 1 \\\n";
-           return text;
-         }(),
-     {":2: ", "longer than 1 MiB"}},
+    {"long_continued_line", "v 0 0 0\nf" + repeated(" 1 \\\n", 400'000), {":2: ", "longer than 1 MiB"}},
 };
 
-INSTANTIATE_TEST_SUITE_P(Files, BadObj, testing::ValuesIn(bad_files), [](const auto& i) { return i.param.name; });
-
-class BadPly : public testing::TestWithParam<BadFile> {};
-
-TEST_P(BadPly, IsRefusedWithItsPlace) {
-  const TemporaryFolder folder;
-  const std::string bad = folder.write("bad.ply", GetParam().text), out = folder.path() / "out.csv";
-  std::vector<std::string> words{bad};
-  words.insert(words.end(), GetParam().words.begin(), GetParam().words.end());
-  expect_refused({"detect", bad, "--tolerance", "0.1", "--json", "--contacts", out}, words);
-  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"bad.ply"});
-}
+TEST(DetectErrors, NameTheLineOfABadObjFile) { expect_bad("bad.obj", bad_files); }
 
 const std::string begin_text = "ply\nformat ascii 1.0\n";
 const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
@@ -181,13 +172,13 @@ const BadFile bad_ply_files[]{
     {"control_characters", begin_text + "element vertex 1\nproperty fl\x1b[31m x\n", {":4: ", "'fl?[31m'"}},
 };
 
-INSTANTIATE_TEST_SUITE_P(Files, BadPly, testing::ValuesIn(bad_ply_files), [](const auto& i) { return i.param.name; });
+TEST(DetectErrors, NameThePlaceInABadPlyFile) { expect_bad("bad.ply", bad_ply_files); }
 
-class DetectErrors : public testing::Test {
+class DetectRefuses : public testing::Test {
  protected:
-  void refuse(std::vector<std::string> more, const std::vector<std::string>& words) {
-    more.insert(more.begin(), {"detect", good});
-    expect_refused(more, words);
+  /// Expects that `detect good.obj` refuses what follows, and writes nothing.
+  void refuse(const Words& more, const Words& words) {
+    expect_refused(with({"detect", good}, more), words);
     EXPECT_EQ(file_names(folder.path()), before);
   }
 
@@ -198,14 +189,14 @@ class DetectErrors : public testing::Test {
   std::set<std::string> before = file_names(folder.path());
 };
 
-TEST_F(DetectErrors, NameFilesThatDoNotMatch) {
+TEST_F(DetectRefuses, FilesThatDoNotMatch) {
   refuse({fewer, "--tolerance", "1"}, {fewer, good, "body 0", "2", "3"});
   refuse({lone, "--tolerance", "1"}, {lone, good, "number of bodies"});
   refuse({"--rest", fewer, "--tolerance", "1"}, {fewer, "body 0"});
   refuse({"--rest", lone, "--tolerance", "1"}, {lone, "number of bodies"});
 }
 
-TEST_F(DetectErrors, NameFilesOfOtherParts) {
+TEST_F(DetectRefuses, FilesOfOtherParts) {
   const auto file = [&](const std::string& name, const std::vector<std::vector<unsigned>>& faces, float x) {
     before.insert(name);
     return folder.write(name, ply({{x, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {5, 0, 0}}, faces)).string();
@@ -223,7 +214,7 @@ TEST_F(DetectErrors, NameFilesOfOtherParts) {
   EXPECT_EQ(run({"detect", parts, mixed, "--bodies", "one", "--tolerance", "1"}).status, 0);
 }
 
-TEST_F(DetectErrors, NameFilesThatCannotBeRead) {
+TEST_F(DetectRefuses, FilesThatCannotBeRead) {
   const std::string missing = folder.path() / "missing.obj", inside = good + "/x.obj";
   refuse({missing, "--tolerance", "1"}, {missing, "cannot be read"});
   refuse({inside, "--tolerance", "1"}, {inside, "cannot be read"});
@@ -232,15 +223,7 @@ TEST_F(DetectErrors, NameFilesThatCannotBeRead) {
   expect_refused({"detect", "/dev/zero", "--tolerance", "1"}, {"/dev/zero:1: "});
 }
 
-/// Returns a text, repeated so many times.
-std::string repeated(const std::string& piece, std::size_t times) {
-  std::string text;
-  text.reserve(piece.size() * times);
-  while (times-- > 0) text += piece;
-  return text;
-}
-
-TEST_F(DetectErrors, NameTheFirstLineBeyondALimit) {
+TEST_F(DetectRefuses, TheFirstLineBeyondALimit) {
   const std::string more = ":4000001: more than 4000000 ";
   const std::vector<std::array<std::string, 2>> files{
       {repeated("v 0 0 0\n", 4'000'001), more + "vertices"},
@@ -252,52 +235,20 @@ TEST_F(DetectErrors, NameTheFirstLineBeyondALimit) {
   }
 }
 
-TEST_F(DetectErrors, RefuseTooManyFramesAfterTheFirst) {
-  std::vector<std::string> words{"detect"};
-  words.insert(words.end(), 1000, folder.write("one.obj", repeated("v 0 0 0\n", 134'218)));
-  words.insert(words.end(), {"--tolerance", "1"});
-  expect_refused(words, {"1000 files of 134218 vertices each", "at most 134217728", "fewer files"});
+TEST_F(DetectRefuses, TooManyFramesAfterTheFirst) {
+  const Words files(1000, folder.write("one.obj", repeated("v 0 0 0\n", 134'218)));
+  expect_refused(with({"detect", "--tolerance", "1"}, files),
+                 {"1000 files of 134218 vertices each", "at most 134217728", "fewer files"});
 }
 
-TEST_F(DetectErrors, NameBadFacesOfLaterFiles) {
+TEST_F(DetectRefuses, BadFacesOfLaterFiles) {
   const std::string bad = folder.write("bad.obj", three + "f 1 2 9\no b\nv 0 0 1\n");
   before.insert("bad.obj");
   refuse({bad, "--tolerance", "1"}, {bad + ":4: "});
   refuse({"--rest", bad, "--tolerance", "1"}, {bad + ":4: "});
 }
 
-TEST_F(DetectErrors, NameTheOption) {
-  expect_refused({"detect", "--tolerance", "1"}, {"FILE"});
-  expect_refused({"detect"}, {"required"});
-  refuse({}, {"--tolerance"});
-  for (const char* value : {"0", "-1", "-0.5", "nan", "inf", "1e300", "1e-60", "one", "0.1m", ""})
-    refuse({"--tolerance", value}, {"--tolerance"});
-  for (const char* value : {"5e+29", "2e+18", "9e-19", "1e-40"})
-    refuse({"--tolerance", value}, {"--tolerance " + std::string(value), "1e-18 to 1e18 m"});
-  const auto with = [](std::vector<std::string> more) {
-    more.insert(more.begin(), {"--tolerance", "1"});
-    return more;
-  };
-  refuse(with({"--bodies", "two"}), {"--bodies two", "objects, components, one"});
-  refuse(with({"--bodies", "1"}), {"--bodies 1"});
-  refuse(with({"--method", "all", "--contacts", folder.path() / "c.csv"}), {"--contacts", "one method"});
-  refuse(with({"--method", "magic"}), {"--method magic", "brute-force", "multi-level-sb-exact"});
-  refuse(with({"--scene", "drop"}), {"--scene"});
-  for (const char* value : {"-1", "16", "3.5", "x", ""}) refuse(with({"--levels", value}), {"--levels"});
-  for (const char* value : {"0", "-1", "16777217", "9999999999999999999999", "x", ""})
-    refuse(with({"--buckets", value}), {"--buckets"});
-  for (const char* value : {"0", "-1", "nan", "inf", "1e300", "x", ""})
-    refuse(with({"--cell-size", value}), {"--cell-size"});
-  for (const char* value : {"0,1,2", "1,2", "1,2,-3", "1,2,x", ""}) refuse(with({"--primes", value}), {"--primes"});
-  for (const char* value : {"0", "-1", "257", "x", ""}) refuse(with({"--threads", value}), {"--threads"});
-  for (const char* value : {"0", "-1", "2.5", "x", ""}) refuse(with({"--repeat", value}), {"--repeat"});
-  for (const char* option : {"--rest", "--contacts", "--method"}) {
-    refuse(with({option}), {option});
-    refuse(with({option, ""}), {option});
-  }
-}
-
-TEST_F(DetectErrors, NameAContactsFileThatCannotBeWritten) {
+TEST_F(DetectRefuses, AContactsFileThatCannotBeWritten) {
   const std::string nowhere = folder.path() / "none" / "out.csv", below_file = good + "/out.csv", dir = folder.path();
   for (const std::string& out : {nowhere, below_file, dir})
     refuse({"--tolerance", "1", "--json", "--contacts", out}, {out, "cannot be written"});
@@ -305,14 +256,8 @@ TEST_F(DetectErrors, NameAContactsFileThatCannotBeWritten) {
     refuse({"--tolerance", "1", "--contacts", "/dev/full"}, {"/dev/full", "not a regular file"});
 }
 
-TEST_F(DetectErrors, NameAnOptionWithoutItsValue) {
-  refuse({"--tolerance", "1", "--contacts", "--json"}, {"--contacts", "its value is missing"});
-  refuse({"--tolerance", "1", "--rest", "--json"}, {"--rest", "its value is missing"});
-}
-
-TEST_F(DetectErrors, NeverReplaceAMeshByContacts) {
-  const std::string text = read_file(good);
-  const std::string lone_text = read_file(lone);
+TEST_F(DetectRefuses, AMeshAsTheContactsFile) {
+  const std::string text = read_file(good), lone_text = read_file(lone);
   refuse({"--tolerance", "1", "--contacts", good}, {good, "is the input"});
   refuse({"--rest", good, "--tolerance", "1", "--contacts", folder.path() / "." / "good.obj"},
          {"is the input " + good});
@@ -321,18 +266,11 @@ TEST_F(DetectErrors, NeverReplaceAMeshByContacts) {
   EXPECT_EQ(read_file(lone), lone_text);
 }
 
-TEST_F(DetectErrors, NeverAppendStandardOutputToAMesh) {
+TEST_F(DetectRefuses, AMeshAsStandardOutput) {
   const std::string text = read_file(good);
   const std::string command = SBCOLLIDE_PROGRAM " detect " + good + " --tolerance 1 >> " + good + " 2>/dev/null";
   EXPECT_NE(std::system(command.c_str()), 0);
   EXPECT_EQ(read_file(good), text);
-}
-
-TEST_F(DetectErrors, LeaveTheOldContactsAfterALateError) {
-  const std::string old = folder.write("old.csv", "old");
-  before.insert("old.csv");
-  refuse({lone, "--tolerance", "1", "--contacts", old}, {lone});
-  EXPECT_EQ(read_file(old), "old");
 }
 
 }  // namespace
