@@ -100,15 +100,5 @@ TEST(StabilityReport, CreditsBodiesThatAppearWithTheirEnergy) {
       << "what they gain is not theirs: see stability_cell_test.cpp";
 }
 
-TEST(StabilityReport, RefusesBadInputBeforeAnythingRuns) {
-  const TemporaryFolder folder;
-  const auto empty = folder.write("empty.toml", "name = \"nothing\"\n");
-  const Outcome none = run({"report", "stability", "--scene", empty, "--out", folder.path() / "out"});
-  EXPECT_EQ(none.status, 2);
-  EXPECT_NE(none.err.find("no body"), std::string::npos) << none.err;
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
-  EXPECT_EQ(run({"report", "stability", "--scene", "nowhere", "--out", folder.path()}).status, 2);
-}
-
 }  // namespace
 }  // namespace cli::test
