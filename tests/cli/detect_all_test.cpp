@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <numeric>
-#include <random>
 
 #include "collide/methods.h"
 #include "tests/cli/detect_rig.h"
@@ -18,63 +16,22 @@ using nlohmann::json;
 
 using DetectBodies = DetectFolder;
 
-/// A state whose vertices are scattered over its file.
-struct Scattered {
-  std::vector<std::array<float, 3>> vertices;
-  std::vector<std::vector<unsigned>> faces;
-  std::vector<unsigned> place;  // by vertex of the state: its number in the file
-
-  Scattered(const State& state, unsigned seed) {
-    std::size_t count = 0;
-    for (const Body& body : state.bodies) count += body.vertices.size();
-    place.resize(count);
-    std::iota(place.begin(), place.end(), 0u);
-    std::mt19937 random(seed);
-    std::ranges::shuffle(place, random);
-    vertices.resize(count);
-    std::size_t base = 0;
-    for (const Body& body : state.bodies) {
-      for (const auto& face : body.faces) {
-        faces.emplace_back();
-        for (const unsigned corner : face) faces.back().push_back(place[base + corner]);
-      }
-      for (const auto& vertex : body.vertices) vertices[place[base++]] = vertex;
-    }
-    std::ranges::shuffle(faces, random);
-  }
-
-  /// Returns contacts of the state as those of the file. Its bodies are in the order of their first vertices, and those
-  /// without a face are the last one.
-  std::vector<ContactRow> rows(std::vector<ContactRow> of_state, const State& state) const {
-    std::vector<unsigned> body_of, first(state.bodies.size(), ~0u);
-    for (unsigned b = 0; b < state.bodies.size(); ++b)
-      body_of.insert(body_of.end(), state.bodies[b].vertices.size(), b);
-    for (std::size_t v = 0; v < body_of.size(); ++v)
-      if (const unsigned b = body_of[v]; !state.bodies[b].faces.empty()) first[b] = std::min(first[b], place[v]);
-    const auto rank = [&](unsigned body) {
-      return static_cast<unsigned>(std::ranges::count_if(first, [&](unsigned other) { return other < first[body]; }));
-    };
-    for (ContactRow& row : of_state) {
-      row = {row.frame, place[row.vertex_a], place[row.vertex_b], rank(row.body_a), rank(row.body_b), row.distance};
-      if (row.vertex_a < row.vertex_b) continue;
-      std::swap(row.vertex_a, row.vertex_b);
-      std::swap(row.body_a, row.body_b);
-    }
-    std::ranges::sort(of_state);
-    return of_state;
-  }
-};
+/// Two bodies whose vertices take turns in the file.
+const std::vector<std::array<float, 3>> scattered{{0, 0, 0}, {5, 0.0625, 0}, {5, 0, 0},
+                                                  {9, 9, 0}, {0, 5, 0},      {0, 0.03125, 0}};
+const std::vector<std::vector<unsigned>> faces{{0, 2, 4}, {1, 3, 5}};
 
 TEST_F(DetectBodies, NamesVerticesAsTheFileDoes) {
-  const State state = random_state(3), next = moved(state, 0.05f, 5);
-  const Scattered first(state, 1), second(next, 1);
-  auto expected = first.rows(oracle(0, state, {.tolerance = 0.07f}), state);
-  const auto later = first.rows(oracle(1, next, {.tolerance = 0.07f, .edges = &state}), state);
-  expected.insert(expected.end(), later.begin(), later.end());
-  ASSERT_GT(std::ranges::count_if(expected, [](const ContactRow& r) { return r.body_a != r.body_b; }), 20);
+  std::vector<std::array<float, 3>> next = scattered;
+  next[3] = {0, 5, 0.0625};
+  const std::vector<ContactRow> expected{{0, 0, 5, 0, 1, 0.03125},
+                                         {0, 1, 2, 1, 0, 0.0625},
+                                         {1, 0, 5, 0, 1, 0.03125},
+                                         {1, 1, 2, 1, 0, 0.0625},
+                                         {1, 3, 4, 1, 0, 0.0625}};
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
-    const auto a = folder.write("a.ply", ply(first.vertices, first.faces, {.format = format, .extras = true}));
-    const auto b = folder.write("b.ply", ply(second.vertices, {}, {.format = format, .real = "double"}));
+    const auto a = folder.write("a.ply", ply(scattered, faces, {.format = format, .extras = true}));
+    const auto b = folder.write("b.ply", ply(next, {}, {.format = format, .real = "double"}));
     for (const std::string method : {"brute-force", "multi-level-sb-exact"})
       EXPECT_EQ(contacts({a, b, "--tolerance", "0.07", "--method", method}), expected) << format << ", " << method;
   }
@@ -95,22 +52,21 @@ TEST_F(DetectBodies, AreWhatTheOptionSays) {
 }
 
 TEST_F(DetectBodies, MayComeThroughAPipe) {
-  const State state = random_state(2);
-  const Scattered scattered(state, 2);
-  for (const std::string& text :
-       {state.obj(), ply(scattered.vertices, scattered.faces, {.format = "binary_big_endian"})}) {
+  for (const auto& [text, contacts] :
+       {std::pair(random_state(2).obj(), oracle(0, random_state(2), {.tolerance = 0.07f}).size()),
+        std::pair(ply(scattered, faces, {.format = "binary_big_endian"}), std::size_t{2})}) {
     const std::string path = folder.write("a", text), out = folder.path() / "out";
     const std::string command =
         "cat " + path + " | " SBCOLLIDE_PROGRAM " detect /dev/stdin --tolerance 0.07 --json > " + out;
     EXPECT_EQ(std::system(command.c_str()), 0);
-    EXPECT_EQ(json::parse(read_file(out))["frames"][0]["contacts"], oracle(0, state, {.tolerance = 0.07f}).size());
+    EXPECT_EQ(json::parse(read_file(out))["frames"][0]["contacts"], contacts);
   }
 }
 
 TEST_F(DetectBodies, AreNotedThatAreSingleFacesOrFarFromTheOrigin) {
-  const std::vector<std::vector<unsigned>> faces{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
   std::vector<std::array<float, 3>> vertices;
   for (unsigned v = 0; v < 9; ++v) vertices.push_back({float(v % 3), float(v / 3), 0});
+  const std::string single = ply(vertices, {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}});
   const auto far = [](float x) { return ply({{x, 0, 0}, {x, 1, 0}, {x, 0, 1}}, {{0, 1, 2}}); };
   struct Noted {
     std::string file;
@@ -118,9 +74,8 @@ TEST_F(DetectBodies, AreNotedThatAreSingleFacesOrFarFromTheOrigin) {
     const char* note;  // nullptr: none
   };
   for (const auto& [text, options, note] :
-       {Noted{ply(vertices, faces), {}, "3 faces are 3 bodies"},
-        Noted{ply(vertices, faces), {"--bodies", "one"}, nullptr}, Noted{far(1e4f), {}, nullptr},
-        Noted{far(1e6f), {}, "move the bodies near the origin"}}) {
+       {Noted{single, {}, "3 faces are 3 bodies"}, Noted{single, {"--bodies", "one"}, nullptr},
+        Noted{far(1e4f), {}, nullptr}, Noted{far(1e6f), {}, "move the bodies near the origin"}}) {
     const json warnings = detect(with({folder.write("a.ply", text), "--tolerance", "0.1"}, options))["warnings"];
     ASSERT_EQ(warnings.size(), note ? 1u : 0u) << warnings;
     EXPECT_TRUE(!note || warnings[0].get<std::string>().find(note) != std::string::npos) << warnings;

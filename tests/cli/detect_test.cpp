@@ -41,20 +41,6 @@ TEST_F(Detect, FindsTheSameAsADoubleLoopByExactMethodsWithAnyOptions) {
   }
 }
 
-TEST_F(Detect, FindsASubsetByTheLiteralMethod) {
-  const State state = random_state(4);
-  const std::string obj = file("state.obj", state);
-  const auto expected = oracle(0, state, {.tolerance = 0.09f});
-  const auto literal = [&](const Words& more) {
-    const auto found = contacts(with({obj, "--tolerance", "0.09", "--method", "multi-level-sb"}, more));
-    EXPECT_TRUE(std::ranges::includes(expected, found));
-    return found.size();
-  };
-  EXPECT_GT(literal({}), 0u);
-  EXPECT_EQ(literal({"--buckets", "1"}), expected.size()) << "one bucket holds all boxes";
-  EXPECT_LT(literal({"--cell-size", "0.02", "--buckets", "16000057"}), expected.size()) << "corners skip cells";
-}
-
 TEST_F(Detect, LeavesOutPairsByTheOptionsSelfAndRest) {
   const State rest = random_state(6), state = moved(rest, 0.05f, 7);
   State with_faces = state;
@@ -138,24 +124,19 @@ TEST_F(Detect, TakesTheCellSizeFromTheBodiesAtRestElseFromTheFirstFrame) {
     EXPECT_EQ(method["cell_size"], json({4.25, 4.25, 4.25}));
 }
 
-TEST_F(Detect, WarnsOfPrimesThatSpoilTheHash) {
-  const Words no_hash{file("state.obj", random_state(14)), "--tolerance", "0.05", "--primes", "2002,5,1006"},
-      hash = with(no_hash, {"--method", "multi-level-sb"});
-  const json spoilt = detect(hash)["warnings"];
-  ASSERT_EQ(spoilt.size(), 1u);
-  EXPECT_NE(spoilt[0].get<std::string>().find("prime 2002 is 0 modulo 1001"), std::string::npos) << spoilt;
-  EXPECT_EQ(detect(no_hash)["warnings"], json::array());
-  EXPECT_EQ(detect(with(hash, {"--buckets", "997"}))["warnings"], json::array());
-}
-
-TEST_F(Detect, WarnsOfFilesThatMayMeanSomethingElse) {
+TEST_F(Detect, WarnsOfPrimesAndFilesThatMayMeanSomethingElse) {
   const std::string obj = folder.write("a.obj", "v 0 0 0 2\nv 1 0 0\nv 2 0 0\no a\nf 1 2 3\no b\nf 1 2 3\n");
-  const json warnings = detect({obj, "--tolerance", "1"})["warnings"];
-  ASSERT_EQ(warnings.size(), 2u);
-  EXPECT_NE(warnings[0].get<std::string>().find("2 objects have faces"), std::string::npos) << warnings;
-  EXPECT_NE(warnings[1].get<std::string>().find("weight"), std::string::npos) << warnings;
-  const Outcome table = run({"detect", obj, "--tolerance", "1"});
-  EXPECT_NE(table.out.find("note: 2 objects have faces"), std::string::npos) << table.out;
+  const Words poor{obj, "--tolerance", "1", "--primes", "1001,5,7", "--method", "grid-hash"};
+  const json warnings = detect(poor)["warnings"];
+  ASSERT_EQ(warnings.size(), 3u);
+  const std::string table = run(with({"detect"}, poor)).out;
+  for (const auto& [i, words] :
+       {std::pair(0, "prime 1001 is 0 modulo 1001"), {1, "2 objects have faces"}, {2, "weight"}}) {
+    const std::string warning = warnings[static_cast<std::size_t>(i)];
+    EXPECT_NE(warning.find(words), std::string::npos) << warning;
+    EXPECT_NE(table.find("note: " + warning), std::string::npos) << table;
+  }
+  EXPECT_EQ(detect(with(poor, {"--buckets", "997"}))["warnings"].size(), 2u) << "they spoil another hash";
 }
 
 TEST_F(Detect, CountsBodiesWithoutVertices) {
