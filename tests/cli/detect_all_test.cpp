@@ -37,7 +37,7 @@ TEST_F(DetectBodies, NamesVerticesAsTheFileDoes) {
   }
 }
 
-TEST_F(DetectBodies, AreWhatTheOptionSays) {
+TEST_F(DetectBodies, TakesObjectsComponentsOrAllAsTheOptionSays) {
   const std::string text = "v 0 0 0\nv 1 0 0\nv 2 0 0\no b\nv 3 0 0\nv 4 0 0\nv 5 0 0\nv 6 0 0\nf 1 2 4\nf 5 6 6\n";
   const std::string obj = folder.write("a.obj", text),
                     ply_file = folder.write("b.ply", ply({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {{0, 1, 3}}));
@@ -51,7 +51,7 @@ TEST_F(DetectBodies, AreWhatTheOptionSays) {
   EXPECT_EQ(bodies(ply_file, {"--bodies", "objects"}), 1);
 }
 
-TEST_F(DetectBodies, MayComeThroughAPipe) {
+TEST_F(DetectBodies, ReadsThemThroughAPipe) {
   for (const auto& [text, contacts] :
        {std::pair(random_state(2).obj(), oracle(0, random_state(2), {.tolerance = 0.07f}).size()),
         std::pair(ply(scattered, faces, {.format = "binary_big_endian"}), std::size_t{2})}) {
@@ -63,7 +63,7 @@ TEST_F(DetectBodies, MayComeThroughAPipe) {
   }
 }
 
-TEST_F(DetectBodies, AreNotedThatAreSingleFacesOrFarFromTheOrigin) {
+TEST_F(DetectBodies, NotesSingleFacesAndPositionsFarFromTheOrigin) {
   std::vector<std::array<float, 3>> vertices;
   for (unsigned v = 0; v < 9; ++v) vertices.push_back({float(v % 3), float(v / 3), 0});
   const std::string single = ply(vertices, {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}});
