@@ -26,31 +26,35 @@ constexpr std::string_view all_methods = "all";  // in place of a method's key
 constexpr std::size_t max_positions = std::size_t{1} << 27;  // of all frames together: 1.5 GiB
 
 /// Returns what is to be said if the floats that hold the positions are far apart beside the tolerance; else nothing.
-std::string rounding_note(const SequenceTask& task, double tolerance) {
+std::string rounding_note(const SequenceTask& task) {
   constexpr double spacing = 0x1p-23, small = 1.0 / 16;  // of neighbouring floats, relative; of the tolerance
   double farthest = 0;
   for (const files::SequenceFrame& frame : task.frames)
     for (const auto& axis : {frame.view().x, frame.view().y, frame.view().z})
       for (const float value : axis) farthest = std::max(farthest, std::abs(double{value}));
-  if (farthest * spacing <= small * tolerance) return {};
+  if (farthest * spacing <= small * task.tolerance) return {};
   return fmt::format(
       "coordinates of {:.3g} m are kept as floats, which are {:.2g} m apart there, beside a tolerance of "
       "{:g} m: move the bodies near the origin",
-      farthest, farthest * spacing, tolerance);
+      farthest, farthest * spacing, task.tolerance);
 }
 
-/// Returns the task without its settings, and adds to `notes` what the authors of the files may have meant differently.
-SequenceTask read_sequence(const Options& options, std::vector<std::string>& notes) {
+/// Returns the task without its settings.
+SequenceTask read_sequence(const Options& options) {
   const DetectOptions& d = options.detect;
   files::FrameSequence sequence({d.files.begin(), d.files.end()}, {.by = d.by, .rest = d.rest});
   const std::size_t vertices = sequence.bodies()->bodies.vertex_count();
   if (vertices * sequence.count() > max_positions)
     throw UsageError(fmt::format("{} files of {} vertices each: at most {} together; give fewer files at a time",
                                  sequence.count(), vertices, max_positions));
-  SequenceTask task{d.files, {}, {}, options.threads, d.repeat, d.reuse};
+  SequenceTask task{.files = d.files,
+                    .tolerance = *options.detection.tolerance,
+                    .threads = options.threads,
+                    .repeat = d.repeat,
+                    .reuse = d.reuse};
   for (std::size_t f = 0; f < sequence.count(); ++f) task.frames.push_back(sequence.read(f));
-  std::ranges::copy(sequence.notes(), std::back_inserter(notes));
-  if (const std::string note = rounding_note(task, *options.detection.tolerance); !note.empty()) notes.push_back(note);
+  task.notes = sequence.notes();
+  if (const std::string note = rounding_note(task); !note.empty()) task.notes.push_back(note);
   return task;
 }
 
@@ -134,29 +138,22 @@ Json frames_json(const MethodRun& run, bool scored) {
   return frames;
 }
 
-/// What all methods run on, and what is to be said of it.
-struct Given {
-  const Options& options;
-  const SequenceTask& task;
-  const std::vector<std::string>& notes;
-
-  std::vector<std::string> notes_for(const collide::Method& method) const {
-    std::vector<std::string> all = warnings(method, task.settings);
-    std::ranges::copy(notes, std::back_inserter(all));
-    return all;
-  }
-};
+std::vector<std::string> notes_for(const collide::Method& method, const SequenceTask& task) {
+  std::vector<std::string> all = warnings(method, task.settings);
+  std::ranges::copy(task.notes, std::back_inserter(all));
+  return all;
+}
 
 /// Returns what one method gives. compared: nullptr, or all runs, of which this is one.
-Json to_json(const Given& given, const MethodRun& run, const MethodRuns* compared) {
-  const glm::vec3& cell = *given.task.settings.cell_size;
+Json to_json(const SequenceTask& task, const MethodRun& run, const MethodRuns* compared) {
+  const glm::vec3& cell = *task.settings.cell_size;
   Json document{{"method", run.method->key},
-                {"tolerance", *given.options.detection.tolerance},
+                {"tolerance", task.tolerance},
                 {"cell_size", {cell.x, cell.y, cell.z}},
-                {"threads", given.task.threads},
-                {"bodies", given.task.of().bodies.count()},
-                {"vertices", given.task.of().bodies.vertex_count()},
-                {"warnings", given.notes_for(*run.method)}};
+                {"threads", task.threads},
+                {"bodies", task.of().bodies.count()},
+                {"vertices", task.of().bodies.vertex_count()},
+                {"warnings", notes_for(*run.method, task)}};
   const bool scored = compared && compared->reference;
   if (compared) {
     document["reference"] = scored ? Json(compared->reference->key) : Json(nullptr);
@@ -169,17 +166,16 @@ Json to_json(const Given& given, const MethodRun& run, const MethodRuns* compare
 
 // ---- tables ----
 
-void print_heading(const Given& given, std::string_view method, const std::vector<std::string>& notes) {
-  const glm::vec3& cell = *given.task.settings.cell_size;
+void print_heading(const SequenceTask& task, std::string_view method, const std::vector<std::string>& notes) {
+  const glm::vec3& cell = *task.settings.cell_size;
   std::cout << fmt::format(
       "{}, tolerance {:g} m, cells of {:.3g} x {:.3g} x {:.3g} m, threads {}, bodies {}, vertices {}\n", method,
-      *given.options.detection.tolerance, cell.x, cell.y, cell.z, given.task.threads, given.task.of().bodies.count(),
-      given.task.of().bodies.vertex_count());
+      task.tolerance, cell.x, cell.y, cell.z, task.threads, task.of().bodies.count(), task.of().bodies.vertex_count());
   for (const std::string& note : notes) std::cout << "note: " << note << '\n';
 }
 
-void print_table(const Given& given, const MethodRun& run) {
-  print_heading(given, run.method->name, given.notes_for(*run.method));
+void print_table(const SequenceTask& task, const MethodRun& run) {
+  print_heading(task, run.method->name, notes_for(*run.method, task));
   std::cout << "  frame     ms min  ms median   contacts       self     pair tests       hashes      boxes\n";
   for (std::size_t f = 0; f < run.rows.size(); ++f) {
     const DetectRow& r = run.rows[f];
@@ -189,15 +185,15 @@ void print_table(const Given& given, const MethodRun& run) {
   }
 }
 
-void print_table(const Given& given, const MethodRuns& all) {
-  std::vector<std::string> notes = given.notes;
+void print_table(const SequenceTask& task, const MethodRuns& all) {
+  std::vector<std::string> notes = task.notes;
   for (const MethodRun& run : all.runs)
-    for (const std::string& note : warnings(*run.method, given.task.settings))
+    for (const std::string& note : warnings(*run.method, task.settings))
       if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
-  print_heading(given, "All methods", notes);
+  print_heading(task, "All methods", notes);
   std::cout << fmt::format(
-      "frames {}: their contacts, tests and hashes together, mean time of one; true contacts: {}\n",
-      given.task.frames.size(), all.reference ? all.reference->name : "not known");
+      "frames {}: their contacts, tests and hashes together, mean time of one; true contacts: {}\n", task.frames.size(),
+      all.reference ? all.reference->name : "not known");
   std::cout << fmt::format("{:28} {:>10} {:>8} {:>9} {:>12} {:>15} {:>14}\n", "method", "contacts", "recall",
                            "precision", "ms a frame", "pair tests", "hashes");
   const auto share = [](std::optional<double> value) -> std::string {
@@ -228,17 +224,15 @@ void detect(const Options& options) {
   collide::Settings settings;
   settings.self_collision = options.detect.self_collision;
   apply(options.detection, settings);
-  std::vector<std::string> notes;
-  SequenceTask task = read_sequence(options, notes);
+  SequenceTask task = read_sequence(options);
   task.settings = settings;
   if (!settings.cell_size)
     task.settings.cell_size = collide::automatic_cell_size(task.frames[0].view(), settings.levels, settings.tolerance);
-  const Given given{options, task, notes};
   if (compares) {
     const MethodRuns all = run_all_methods(task);
-    if (!options.json) return print_table(given, all);
+    if (!options.json) return print_table(task, all);
     Json list = Json::array();
-    for (const MethodRun& run : all.runs) list.push_back(to_json(given, run, &all));
+    for (const MethodRun& run : all.runs) list.push_back(to_json(task, run, &all));
     std::cout << list.dump() << '\n';
     return;
   }
@@ -250,8 +244,8 @@ void detect(const Options& options) {
     if (csv) write_contacts(*csv, task, frame, contacts);
   });
   if (csv) csv->commit();
-  if (!options.json) return print_table(given, run);
-  std::cout << to_json(given, run, nullptr).dump() << '\n';
+  if (!options.json) return print_table(task, run);
+  std::cout << to_json(task, run, nullptr).dump() << '\n';
 }
 
 }  // namespace app::cli

@@ -15,12 +15,14 @@ namespace app::cli {
 
 /// A recorded sequence and how to run over it.
 struct SequenceTask {
-  std::vector<std::string> files;            // by frame
-  std::vector<files::SequenceFrame> frames;  // all with the same bodies
-  collide::Settings settings;
+  std::vector<std::string> files;              // by frame
+  std::vector<files::SequenceFrame> frames{};  // all with the same bodies
+  collide::Settings settings{};
+  double tolerance = 0;  // m, as typed
   int threads = 1;
-  int repeat = 1;     // runs over the whole sequence, each with a new detector
-  bool reuse = true;  // a detector may use data of earlier frames
+  int repeat = 1;                    // runs over the whole sequence, each with a new detector
+  bool reuse = true;                 // a detector may use data of earlier frames
+  std::vector<std::string> notes{};  // what the authors of the files may have meant differently
 
   const files::SequenceBodies& of() const { return *frames.front().of; }
 };

@@ -18,8 +18,8 @@ std::vector<std::pair<std::string, std::string>> draw_all(const std::vector<Plot
   try {
     for (const Plot& plot : plots) {
       say("plot " + plot.name, static_cast<double>(pictures.size() / 2) / static_cast<double>(plots.size()));
-      pictures.emplace_back(plot.name + ".svg", draw(plot, Picture::svg));
-      pictures.emplace_back(plot.name + ".png", draw(plot, Picture::png));
+      pictures.emplace_back(plot.name + ".svg", draw(plot, "svg size 960,720 font 'sans-serif,14'"));
+      pictures.emplace_back(plot.name + ".png", draw(plot, "pngcairo size 960,720 font 'sans,11'"));
     }
   } catch (const std::runtime_error& error) {
     clear_progress();
@@ -70,7 +70,7 @@ void write_report(const ReportOptions& options, const Table& figures, std::strin
   for (const auto& [name, bytes] : files) files::require_no_input(options.out / name);
   for (const auto& [name, bytes] : files) files::write_file(options.out / name, bytes);
   for (const auto& [name, bytes] : files) std::cout << (options.out / name).string() << '\n';
-  for (const std::string& warning : page.warnings()) std::fprintf(stderr, "sbcollide: %s\n", warning.c_str());
+  if (!page.warning().empty()) std::fprintf(stderr, "sbcollide: %s\n", page.warning().c_str());
 }
 
 }  // namespace app::report

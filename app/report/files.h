@@ -27,7 +27,7 @@ std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options);
 std::uint64_t vertex_count(const softbody::Scene& scene);
 
 /// Writes the figures, the page and its plots into a folder that exists, and prints the path of each file. The page's
-/// warnings go to standard error. Without gnuplot it leaves out the plots and says so there, too.
+/// warning goes to standard error. Without gnuplot it leaves out the plots and says so there, too.
 void write_report(const ReportOptions& options, const Table& figures, std::string_view page_name, const Page& page);
 
 }  // namespace app::report

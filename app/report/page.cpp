@@ -10,13 +10,6 @@
 
 namespace app::report {
 
-std::string warn_of_busy_machine(const TimedParts& timed) {
-  constexpr double min_share = 0.9;  // of a core; waits of a few percent are in any long run
-  if (!(timed.processor < min_share * timed.wall)) return {};
-  return fmt::format("Times may be off: the program got only {:.0f} % of a core while they were taken.",
-                     100 * timed.processor / timed.wall);
-}
-
 std::string command_of(const ReportOptions& o) {
   std::string text = "sbcollide report " + o.name;
   if (o.scene) text.append(" --scene ").append(*o.scene);
@@ -60,10 +53,12 @@ Plot Page::empty_plot(std::string name, const std::string& text) {
   return plot;
 }
 
-void Page::warn(const std::string& text) {
-  if (text.empty()) return;
-  parts_.push_back(text + "\n");
-  warnings_.push_back(text);
+void Page::warn_if_busy(const TimedParts& timed) {
+  constexpr double min_share = 0.9;  // of a core; waits of a few percent are in any long run
+  if (!(timed.processor < min_share * timed.wall)) return;
+  warning_ = fmt::format("Times may be off: the program got only {:.0f} % of a core while they were taken.",
+                         100 * timed.processor / timed.wall);
+  text("{}", warning_);
 }
 
 void Page::plot(Plot plot) {

@@ -14,10 +14,6 @@
 
 namespace app::report {
 
-/// Returns a sentence on times that mean little, because the program had to wait for a processor while they were taken;
-/// empty where they are good. Parts on several threads count as good if they had one core together.
-std::string warn_of_busy_machine(const TimedParts& timed);
-
 /// Returns the command that makes the report again; of more than two files of a sequence it has the first and the last.
 std::string command_of(const ReportOptions& options);
 
@@ -55,15 +51,18 @@ class Page {
   Plot plot_of(const std::string& part, std::string name, const Holes&... holes) const {
     return empty_plot(std::move(name), text_of(part, holes...));
   }
-  /// Adds a paragraph that write_report() also prints on standard error. An empty one is left out.
-  void warn(const std::string& text);
+  /// Adds a sentence if the times mean little, because the program had to wait for a processor while they were taken;
+  /// write_report() also prints it on standard error. Parts on several threads count as good if they had one core
+  /// together.
+  void warn_if_busy(const TimedParts& timed);
   /// Adds a table. Its first `text_columns` hold text, the others numbers.
   void table(const Table& table, std::size_t text_columns = 1) { parts_.push_back(table.markdown(text_columns)); }
   /// Adds a plot. A plot without a series is left out.
   void plot(Plot plot);
 
   const std::vector<Plot>& plots() const { return plots_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  /// Returns the sentence of warn_if_busy(), or an empty text.
+  const std::string& warning() const { return warning_; }
   /// Returns the text. With plots it shows each plot, which lies beside it as NAME.svg.
   std::string markdown(bool with_plots) const;
 
@@ -75,7 +74,7 @@ class Page {
   ReportOptions options_;
   std::vector<std::string> parts_;  // empty: the next plot
   std::vector<Plot> plots_;
-  std::vector<std::string> warnings_;
+  std::string warning_;
 };
 
 }  // namespace app::report

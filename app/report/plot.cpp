@@ -48,14 +48,11 @@ std::string script(const Plot& plot) {
   return text + drawn + "\n";
 }
 
-std::string draw(const Plot& plot, Picture kind) {
+std::string draw(const Plot& plot, std::string_view terminal) {
   // The picture goes into a file without a name, which holds any amount, so that neither side waits.
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::tmpfile(), &std::fclose);
   if (!out) throw std::runtime_error("gnuplot: no temporary file can be made; is the disk full?");
-  const std::string text =
-      (kind == Picture::svg ? "set terminal svg size 960,720 font 'sans-serif,14' background 'white' noenhanced\n"
-                            : "set terminal pngcairo size 960,720 font 'sans,11' background 'white' noenhanced\n") +
-      script(plot);
+  const std::string text = fmt::format("set terminal {} background 'white' noenhanced\n", terminal) + script(plot);
   std::FILE* const in = ::popen(fmt::format("gnuplot - 2>/dev/null >/dev/fd/{}", ::fileno(out.get())).c_str(), "w");
   if (in) std::fwrite(text.data(), 1, text.size(), in);
   const int status = in ? ::pclose(in) : -1;

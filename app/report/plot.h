@@ -34,14 +34,12 @@ struct Plot {
   }
 };
 
-enum class Picture { svg, png };
-
 /// Returns the gnuplot script of a plot, which has a series; it sets no terminal.
 std::string script(const Plot& plot);
 
-/// Draws a plot, which has a series, and returns the bytes of the picture. Throws std::runtime_error, which says what
-/// to do, if gnuplot is not installed or cannot draw the plot.
-std::string draw(const Plot& plot, Picture kind);
+/// Draws a plot, which has a series, on a terminal of gnuplot, and returns the bytes of the picture. Throws
+/// std::runtime_error, which says what to do, if gnuplot is not installed or cannot draw the plot.
+std::string draw(const Plot& plot, std::string_view terminal);
 
 /// Returns "#rrggbb".
 std::string colour(const collide::Method& method);

@@ -5,16 +5,12 @@
 #if SBCOLLIDE_GRAPHICS
 #include <webp/demux.h>
 
-#include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <memory>
-#include <thread>
 #include <utility>
 
 #include "engine/image.h"
 #include "tests/cli/process.h"
-#include "tests/full_disk.h"
 #include "tests/load_png.h"
 
 namespace cli::test {
@@ -52,13 +48,8 @@ Film film(const std::filesystem::path& file) {
 }
 
 /// Returns a command that animates a scene whose bodies move from the first frame on.
-std::vector<std::string> animate(const std::string& frames, const std::filesystem::path& file,
-                                 const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments{"simulate", "--scene", "A", "--frames", frames, "--animation", file};
-  const std::vector<std::string> small{"--size", "64x48"};
-  arguments.insert(arguments.end(), more.empty() ? small.begin() : more.begin(),
-                   more.empty() ? small.end() : more.end());
-  return arguments;
+Words animate(const std::string& frames, const std::filesystem::path& file, const Words& more = {"--size", "64x48"}) {
+  return with({"simulate", "--scene", "A", "--frames", frames, "--animation", file}, more);
 }
 
 TEST(Animation, ShowsEverySecondFrameInRealTimeForever) {
@@ -123,29 +114,23 @@ TEST(Animation, OfOnePictureIsAStillImage) {
 TEST(Animation, IsTheSameInEachRunAndDoesNotChangeTheSimulation) {
   const TemporaryFolder folder;
   const auto one = folder.path() / "one.webp", other = folder.path() / "other.webp";
-  const std::vector<std::string> plain{"--scene", "A", "--frames", "20", "--size", "64x48"};
-  const auto with = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), plain.begin(), plain.end());
-    return simulate(more)["state_hash"];
+  const auto hash_of = [](const Words& more) {
+    return simulate(with({"--scene", "A", "--frames", "20", "--size", "64x48"}, more))["state_hash"];
   };
-  const auto hash = with({});
-  EXPECT_EQ(with({"--animation", one, "--threads", "1"}), hash);
-  EXPECT_EQ(with({"--animation", other, "--threads", "3", "--capture", "1,2", "--out", folder.path()}), hash);
+  const auto hash = hash_of({});
+  EXPECT_EQ(hash_of({"--animation", one, "--threads", "1"}), hash);
+  EXPECT_EQ(hash_of({"--animation", other, "--threads", "3", "--capture", "1,2", "--out", folder.path()}), hash);
   EXPECT_EQ(read_file(one), read_file(other));
-}
-
-TEST(Animation, RefusesOtherKindsOfFile) {
-  const TemporaryFolder folder;
-  for (const char* name : {"run.gif", "run.WEBP", "run", "webp", ".webp", "run.webp.png"})
-    expect_refused(animate("2", folder.path() / name), {std::string("/") + name + ": the name must end in .webp"});
-  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{});
 }
 
 TEST(Animation, RefusesWhatAWebPFileCannotHoldBeforeAnythingRuns) {
   const TemporaryFolder folder;
+  for (const char* name : {"run.gif", "run.WEBP", "run", "webp", ".webp", "run.webp.png"})
+    expect_refused(animate("2", folder.path() / name), {std::string("/") + name + ": the name must end in .webp"});
   const auto file = folder.path() / "run.webp";
   expect_refused(animate("20001", file), {"--animation", "--frames 20000 or fewer"});
   expect_refused(animate("2", file, {"--size", "16384x1"}), {"--animation", "16383", "--size"});
+  expect_refused(animate("3", folder.path() / "missing" / "run.webp"), {"missing/run.webp: cannot be written"});
   EXPECT_EQ(file_names(folder.path()), std::set<std::string>{});
 }
 
@@ -156,28 +141,6 @@ TEST(Animation, ReplacesOnlyAnOlderWebPFile) {
   EXPECT_EQ(film(old).pictures.size(), 2u);
   expect_refused(animate("3", other), {"other.webp: cannot be written: it exists"});
   EXPECT_EQ(read_file(other), "something else");
-}
-
-TEST(Animation, LeavesNothingBehindWhenItCannotBeWritten) {
-  const TemporaryFolder folder;
-  const auto old = folder.write("old.webp", "RIFF, an old one");
-  expect_refused(animate("3", folder.path() / "missing" / "run.webp"), {"missing/run.webp: cannot be written"});
-  {
-    const tests::FullDisk full;
-    expect_refused(animate("3", old), {"old.webp: cannot be written"});
-  }
-  EXPECT_EQ(read_file(old), "RIFF, an old one");
-  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"old.webp"});
-}
-
-TEST(Animation, LeavesNothingBehindWhenTheRunIsInterrupted) {
-  const TemporaryFolder folder;
-  Process process(animate("20000", folder.path() / "run.webp"));  // for minutes
-  while (process.running() && file_names(folder.path()).empty())
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  process.send(SIGINT);
-  EXPECT_EQ(process.wait().signal, SIGINT);
-  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{});
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The reader of OBJ files: numbers, statements, objects, and random bytes.
+// The reader of OBJ files: numbers, statements and objects. Lines: tests/softbody; any bytes: tests/fuzz.
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/cli/detect_rig.h"
 #include "tests/read_bodies.h"
+#include "tests/temporary_folder.h"
 
 namespace cli::test {
 namespace {
@@ -18,7 +18,7 @@ using app::files::BodyMeshes;
 using Edges = std::vector<BodyMeshes::Edge>;
 
 BodyFile read(const std::string& text) {
-  const TemporaryFolder folder;
+  const tests::TemporaryFolder folder;
   return app::files::read_bodies(folder.write("a.obj", text));
 }
 
@@ -96,110 +96,31 @@ TEST(ReadObj, IgnoresWeightsAndColours) {
   EXPECT_NE(b.notes[0].find("3 vertices have a weight other than 1"), std::string::npos) << b.notes[0];
 }
 
-constexpr const char* six = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 4 0 0\nv 5 0 0\n";
+const std::string six = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 4 0 0\nv 5 0 0\n";
 
 TEST(ReadObj, GivesObjectsTheVerticesThatTheirFacesName) {
-  using First = std::vector<collide::Index>;
-  const auto first_of = [](const std::string& text) {
-    const BodyFile b = read(text);
-    EXPECT_EQ(b.notes, std::vector<std::string>{}) << text;
-    return b.meshes.first;
+  struct Case {
+    std::string text;
+    std::vector<collide::Index> first;
+    bool noted;  // some object has no vertices of its own
   };
-  EXPECT_EQ(first_of(std::string(six) + "o a\nf 1 2 3\no b\nf 6 5 4\n"), (First{0, 3, 6}));
-  EXPECT_EQ(first_of(std::string(six) + "o a\nf 2 3 4\no b\nf 5 6 5\n"), (First{0, 1, 4, 6}))
-      << "vertices that no face names";
-  EXPECT_EQ(first_of(std::string(six) + "f 1 2 1\no a\nf 4 3 3\no none\no b\nf 5 6 5\n"), (First{0, 2, 4, 4, 6}));
-  EXPECT_EQ(first_of(std::string(six) + "o a\nf 1 2 1\nf 2 3 2\n"), (First{0, 6}));
-  EXPECT_EQ(first_of(std::string(six) + "o a\no b\n"), (First{0, 6, 6, 6})) << "without faces, empty objects stay so";
-  EXPECT_EQ(read(std::string(six) + "o a\nf 1 2 3\no b\nf 6 5 4\n").meshes.edges(1), (Edges{{0, 2}, {2, 1}, {1, 0}}));
-}
-
-TEST(ReadObj, NotesObjectsWithoutVerticesOfTheirOwn) {
-  const auto noted = [](const std::string& text) {
+  for (const auto& [text, first, noted] :
+       std::vector<Case>{{six + "o a\nf 1 2 3\no b\nf 6 5 4\n", {0, 3, 6}, false},
+                         {six + "o a\nf 2 3 4\no b\nf 5 6 5\n", {0, 1, 4, 6}, false},  // vertices that no face names
+                         {six + "f 1 2 1\no a\nf 4 3 3\no none\no b\nf 5 6 5\n", {0, 2, 4, 4, 6}, false},
+                         {six + "o a\nf 1 2 1\nf 2 3 2\n", {0, 6}, false},
+                         {six + "o a\no b\n", {0, 6, 6, 6}, false},  // without faces, empty objects stay so
+                         {six + "o a\nf 1 3 5\no b\nf 2 4 6\n", {0, 6, 6, 6}, true},
+                         {six + "o a\nf 1 2 3\no b\nf 3 4 5\n", {0, 6, 6, 6}, true},    // they share a vertex
+                         {six + "o a\nf 4 5 6\no b\nf 1 2 3\n", {0, 6, 6, 6}, true},    // in another order
+                         {six + "o a\nf 1 2 3\no b\nv 9 9 9\n", {0, 6, 6, 7}, true},    // not all vertices stand first
+                         {"o a\n" + six + "f 1 2 3\no b\nf 4 5 6\n", {0, 6, 6}, true},  // object a has them all
+                         {"o a\n" + six + "o b\nf 1 2 3\n", {0, 6, 6}, true}}) {
     const BodyFile b = read(text);
-    EXPECT_EQ(b.notes.size(), 1u) << text;
-    return b.meshes.first;
-  };
-  using First = std::vector<collide::Index>;
-  const std::string mixed = std::string(six) + "o a\nf 1 3 5\no b\nf 2 4 6\n";
-  EXPECT_EQ(noted(mixed), (First{0, 6, 6, 6}));
-  EXPECT_EQ(noted(std::string(six) + "o a\nf 1 2 3\no b\nf 3 4 5\n"), (First{0, 6, 6, 6})) << "they share a vertex";
-  EXPECT_EQ(noted(std::string(six) + "o a\nf 4 5 6\no b\nf 1 2 3\n"), (First{0, 6, 6, 6})) << "in another order";
-  EXPECT_EQ(noted(std::string(six) + "o a\nf 1 2 3\no b\nv 9 9 9\n"), (First{0, 6, 6, 7}))
-      << "not all vertices stand first";
-  EXPECT_EQ(noted(std::string("o a\n") + six + "f 1 2 3\no b\nf 4 5 6\n"), (First{0, 6, 6})) << "object a has them all";
-  EXPECT_EQ(noted(std::string("o a\n") + six + "o b\nf 1 2 3\n"), (First{0, 6, 6}));
-}
-
-TEST(ReadObj, ReadsLinesAcrossTheEndsOfPieces) {
-  std::string text;
-  constexpr std::size_t count = 150'000;  // some pieces of 1 MiB
-  for (std::size_t i = 0; i < count; ++i)
-    text += i % 3 ? "v " + std::to_string(i) + " 0 0\n" : "v " + std::to_string(i) + " \\\r\n 0 0\n";
-  const BodyFile b = read(text);
-  ASSERT_EQ(b.at.x.size(), count);
-  for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(b.at.x[i], static_cast<float>(i));
-}
-
-/// Returns the text with a few bytes changed, removed or doubled, or cut short.
-std::string mutated(std::string text, std::mt19937& random) {
-  static const std::string spice("\0\n\r\\/-+#.e0f vo\xff", 17);
-  for (unsigned n = 1 + random() % 4; n > 0 && !text.empty(); --n) {
-    const std::size_t at = random() % text.size();
-    switch (random() % 6) {
-      case 0:
-        text[at] = static_cast<char>(random() % 256);
-        break;
-      case 1:
-        text[at] = spice[random() % spice.size()];
-        break;
-      case 2:
-        text.erase(at, 1 + random() % 20);
-        break;
-      case 3: {
-        const std::size_t from = random() % text.size();
-        text.insert(at, text.substr(from, random() % 60));
-        break;
-      }
-      case 4:
-        text.insert(at, 1, spice[random() % spice.size()]);
-        break;
-      default:
-        if (random() % 8 == 0) text.resize(at);
-    }
+    EXPECT_EQ(b.meshes.first, first) << text;
+    EXPECT_EQ(b.notes.size(), noted ? 1u : 0u) << text;
   }
-  return text;
-}
-
-TEST(ReadObj, WithstandsAnyBytes) {
-  const TemporaryFolder folder;
-  std::mt19937 random(1);
-  const std::string sources[]{
-      random_state(1).obj().substr(0, 3000) + "\n",
-      "v 0 0 0\nv 1 0 0 1 0.5\no b\nv 1 1 0\nv 0 1e-3 0\nv 0 0 1\nf 3/1/1 4//2 5/3 \\\n-1\nf -3 -2 -1\no c\n# end\n"};
-  int read = 0, refused = 0;
-  for (int i = 0; i < 3000; ++i) {
-    // A new file each time: some file systems flush a file to disk that replaces another.
-    const auto file = folder.write(std::to_string(i) + ".obj", mutated(sources[i % 2], random));
-    try {
-      const BodyFile b = app::files::read_bodies(file);
-      ++read;
-      ASSERT_EQ(b.meshes.first.front(), 0u);
-      ASSERT_EQ(b.meshes.first.back(), b.at.x.size());
-      ASSERT_EQ(b.meshes.first_polygon.size(), b.meshes.count() + 1);
-      for (const float x : b.at.x) ASSERT_TRUE(std::isfinite(x));
-      for (std::size_t k = 0; k < b.meshes.count(); ++k) {
-        for (const auto& [p, q] : b.meshes.edges(k)) ASSERT_TRUE(p < b.meshes.size(k) && q < b.meshes.size(k));
-      }
-    } catch (const app::files::MeshFileError& error) {
-      ++refused;
-      const std::string line = error.what();
-      ASSERT_TRUE(line.starts_with(file.string() + ":")) << line;
-      for (const char c : line) ASSERT_TRUE(c >= ' ' && c <= '~') << line;
-    }
-  }
-  EXPECT_GT(read, 200);
-  EXPECT_GT(refused, 400);
+  EXPECT_EQ(read(six + "o a\nf 1 2 3\no b\nf 6 5 4\n").meshes.edges(1), (Edges{{0, 2}, {2, 1}, {1, 0}}));
 }
 
 }  // namespace

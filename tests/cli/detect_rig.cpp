@@ -11,8 +11,6 @@
 namespace cli::test {
 namespace {
 
-std::string text_of(float value) { return fmt::format("{:.9g}", value); }
-
 float squared_distance(const std::array<float, 3>& a, const std::array<float, 3>& b) {
   const float dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
   return dx * dx + dy * dy + dz * dz;
@@ -50,21 +48,19 @@ Body crumpled_grid(unsigned columns, unsigned rows, std::mt19937& random) {
 }  // namespace
 
 std::string State::obj() const {
-  std::ostringstream text;
-  text << "# a test\nmtllib none.mtl\n";
+  std::string text = "# a test\nmtllib none.mtl\n";
   std::size_t base = 1;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (b > 0) text << "o body " << b << '\n';
-    for (const auto& v : bodies[b].vertices)
-      text << "v " << text_of(v[0]) << ' ' << text_of(v[1]) << ' ' << text_of(v[2]) << '\n';
+    if (b > 0) text += fmt::format("o body {}\n", b);
+    for (const auto& [x, y, z] : bodies[b].vertices) text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", x, y, z);
     for (const auto& face : bodies[b].faces) {
-      text << 'f';
-      for (const unsigned corner : face) text << ' ' << base + corner;
-      text << '\n';
+      text += 'f';
+      for (const unsigned corner : face) text += fmt::format(" {}", base + corner);
+      text += '\n';
     }
     base += bodies[b].vertices.size();
   }
-  return text.str();
+  return text;
 }
 
 std::vector<ContactRow> oracle(unsigned frame, const State& state, const Rules& rules) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "tests/cli/process.h"
 
 namespace cli::test {
@@ -47,5 +49,20 @@ State moved(const State& state, float max, unsigned seed);
 
 /// Reads a contacts file. Fails the test if it is not of the contract's form.
 std::vector<ContactRow> read_contacts(const std::filesystem::path& file);
+
+/// A folder with files for `detect`.
+class DetectFolder : public testing::Test {
+ protected:
+  std::string file(const std::string& name, const State& state) const { return folder.write(name, state.obj()); }
+  /// Returns the contacts that `detect` writes. Each call replaces those of the one before.
+  std::vector<ContactRow> contacts(const Words& arguments) {
+    const std::string csv = folder.path() / "contacts.csv";
+    figures = detect(with(arguments, {"--contacts", csv}));
+    return read_contacts(csv);
+  }
+
+  TemporaryFolder folder;
+  nlohmann::json figures;  // what the last contacts() printed
+};
 
 }  // namespace cli::test

@@ -5,12 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
-#include <random>
 
 #include "app/base/usage_error.h"
-#include "tests/cli/detect_rig.h"
 #include "tests/cli/ply_rig.h"
+#include "tests/temporary_folder.h"
 
 namespace cli::test {
 namespace {
@@ -26,7 +24,7 @@ class FrameSequenceTest : public testing::Test {
   std::filesystem::path write(const std::string& text, const std::string& ending) {
     return folder.write(std::to_string(written++) + ending, text);
   }
-  TemporaryFolder folder;
+  tests::TemporaryFolder folder;
   int written = 0;
 };
 
@@ -76,33 +74,6 @@ TEST_F(FrameSequenceTest, TakesRestShapesInAnyFormat) {
   const FrameSequence sequence({obj(one)}, {.rest = rest});
   ASSERT_EQ(sequence.bodies()->bodies.shape[0]->rest().size(), 3u);
   EXPECT_EQ(sequence.bodies()->bodies.shape[0]->rest()[1], glm::vec3(2, 0, 0));
-}
-
-TEST_F(FrameSequenceTest, KeepsTheOrderOfTheFileInScatteredBodies) {
-  std::vector<std::array<float, 3>> now, later;
-  for (int v = 0; v < 30; ++v) {
-    now.push_back({float(v), 0, 0});
-    later.push_back({0, float(v), 0});
-  }
-  std::vector<unsigned> order(now.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::ranges::shuffle(order, std::mt19937(1));
-  std::vector<std::vector<unsigned>> faces;
-  for (unsigned f = 0; f < 9; ++f) faces.push_back({order[3 * f], order[3 * f + 1], order[3 * f + 2]});
-  FrameSequence sequence({write(ply(now, faces), ".ply"), write(ply(later, {}), ".ply")}, {});
-  const app::files::BodyMeshes& meshes = sequence.bodies()->meshes;
-  ASSERT_EQ(meshes.count(), 10u);
-  const SequenceFrame first = sequence.read(0), second = sequence.read(1);
-  for (collide::Index v = 0; v < meshes.vertex_count(); ++v) {
-    EXPECT_EQ(first.at.x[v], float(meshes.file_vertex[v]));
-    EXPECT_EQ(second.at.y[v], float(meshes.file_vertex[v])) << "a frame without faces";
-  }
-  for (std::size_t b = 0; b < meshes.count(); ++b) {
-    EXPECT_TRUE(
-        std::is_sorted(meshes.file_vertex.begin() + meshes.first[b], meshes.file_vertex.begin() + meshes.first[b + 1]));
-    if (b == 0 || b == 9) continue;
-    EXPECT_LT(meshes.file_vertex[meshes.first[b - 1]], meshes.file_vertex[meshes.first[b]]);
-  }
 }
 
 TEST_F(FrameSequenceTest, CutsPolygonsIntoTriangles) {

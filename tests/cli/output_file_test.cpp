@@ -28,26 +28,20 @@ std::string refusal(const fs::path& path) {
   return "";
 }
 
-TEST(OutputFile, ReplacesTheOldFileOnCommit) {
+TEST(OutputFile, ReplacesTheOldFileOnCommitAndOnlyThen) {
   const TemporaryFolder folder;
-  const fs::path path = folder.write("file", "old");
-  {
-    app::files::OutputFile file(path);
-    file.write("ne");
-    file.write("w");
-    EXPECT_EQ(read_file(path), "old");
-    file.commit();
-  }
-  EXPECT_EQ(read_file(path), "new");
-  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"file"});
-}
-
-TEST(OutputFile, ChangesNothingWithoutACommit) {
-  const TemporaryFolder folder;
-  const fs::path path = folder.write("file", "old");
+  const fs::path path = folder.write("file", "old"), ordinary = folder.write("ordinary", "x");
   for (const fs::path& each : {path, folder.path() / "other"}) app::files::OutputFile(each).write("new");
   EXPECT_EQ(read_file(path), "old");
-  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"file"});
+  EXPECT_EQ(file_names(folder.path()), (std::set<std::string>{"file", "ordinary"}));
+  app::files::OutputFile file(path);
+  file.write("ne");
+  file.write("w");
+  EXPECT_EQ(read_file(path), "old");
+  file.commit();
+  EXPECT_EQ(read_file(path), "new");
+  EXPECT_EQ(file_names(folder.path()), (std::set<std::string>{"file", "ordinary"}));
+  EXPECT_EQ(fs::status(path).permissions(), fs::status(ordinary).permissions());
 }
 
 TEST(OutputFile, NeverReplacesAnInputUnderAnyNameOrLink) {
@@ -80,13 +74,6 @@ TEST(OutputFile, ReplacesOnlyFilesWithItsHeading) {
     EXPECT_THROW(app::files::OutputFile(folder.write("file", text), "a,b\n"), app::UsageError) << text;
     EXPECT_EQ(read_file(folder.path() / "file"), text);
   }
-}
-
-TEST(OutputFile, HasThePermissionsOfAnOrdinaryFile) {
-  const TemporaryFolder folder;
-  const fs::path path = folder.path() / "file", ordinary = folder.write("ordinary", "x");
-  app::files::OutputFile(path).commit();
-  EXPECT_EQ(fs::status(path).permissions(), fs::status(ordinary).permissions());
 }
 
 TEST(OutputFile, NamesThePathInErrorsAndLeavesNoFile) {

@@ -7,41 +7,29 @@
 namespace cli::test {
 namespace {
 
-class Play : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!SBCOLLIDE_GRAPHICS) GTEST_SKIP() << "this build has no window";
-  }
-  std::string write(const std::string& name, const std::string& text) const {
-    return folder.write(name, text).string();
-  }
-
+TEST(Play, RefusesBadFilesAndWhatDoesNotGoWithThem) {
+  if (!SBCOLLIDE_GRAPHICS) GTEST_SKIP() << "this build has no window";
   const TemporaryFolder folder;
+  const auto write = [&](const char* name, const std::string& text) { return folder.write(name, text).string(); };
   const std::string triangle = write("good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-};
-
-TEST_F(Play, RefusesFilesThatCannotBeFrames) {
-  expect_refused({"--play"}, {"--play"});
-  expect_refused({"--play", "none.obj"}, {"none.obj", "cannot be"});
-  expect_refused({"--play", write("bad.obj", "v 0 0 zero\n")}, {"bad.obj:1", "zero"});
-  expect_refused({"--play", write("short.ply", "ply\nformat ascii 1.0\nelement vertex 2\n")}, {"short.ply"});
-  expect_refused({"--play", write("empty.obj", "")}, {"empty.obj"});
-}
-
-TEST_F(Play, RefusesOptionsOfWhatIsSimulated) {
-  expect_refused({"--play", triangle, "--scene", "drop"}, {"--scene", "--play"});
-  expect_refused({"--mesh", triangle, "--play", triangle}, {"--mesh", "--play"});
-  expect_refused({"--play", triangle, "--integrator", "xpbd"}, {"--integrator", "--play simulates nothing"});
-  expect_refused({"--play", triangle, "--substeps", "3"}, {"--substeps", "--play simulates nothing"});
-  expect_refused({"--play", triangle, "--contact-surface", "surface"}, {"--contact-surface", "--play"});
-  expect_refused({"--play", triangle, "simulate", "--frames", "2"}, {"--play", "window"});
-}
-
-TEST_F(Play, RefusesBadSettings) {
-  expect_refused({"--play", triangle, "--bodies", "parts"}, {"--bodies parts", "components"});
-  expect_refused({"--bodies", "one"}, {"--bodies", "--play"});
-  expect_refused({"--play", triangle, "--tolerance", "-1"}, {"--tolerance"});
-  expect_refused({"--play", triangle, "--method", "magic"}, {"--method magic"});
+  const Words play{"--play", triangle};
+  for (const auto& [arguments, says] : std::vector<std::pair<Words, Words>>{
+           {{"--play"}, {"--play"}},
+           {{"--play", "none.obj"}, {"none.obj", "cannot be"}},
+           {{"--play", write("bad.obj", "v 0 0 zero\n")}, {"bad.obj:1", "zero"}},
+           {{"--play", write("short.ply", "ply\nformat ascii 1.0\nelement vertex 2\n")}, {"short.ply"}},
+           {{"--play", write("empty.obj", "")}, {"empty.obj"}},
+           {with(play, {"--scene", "drop"}), {"--scene", "--play"}},
+           {with({"--mesh", triangle}, play), {"--mesh", "--play"}},
+           {with(play, {"--integrator", "xpbd"}), {"--integrator", "--play simulates nothing"}},
+           {with(play, {"--substeps", "3"}), {"--substeps", "--play simulates nothing"}},
+           {with(play, {"--contact-surface", "surface"}), {"--contact-surface", "--play"}},
+           {with(play, {"simulate", "--frames", "2"}), {"--play", "window"}},
+           {with(play, {"--bodies", "parts"}), {"--bodies parts", "components"}},
+           {{"--bodies", "one"}, {"--bodies", "--play"}},
+           {with(play, {"--tolerance", "-1"}), {"--tolerance"}},
+           {with(play, {"--method", "magic"}), {"--method magic"}}})
+    expect_refused(arguments, says);
 }
 
 }  // namespace

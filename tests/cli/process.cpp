@@ -17,8 +17,8 @@ namespace cli::test {
 namespace {
 
 /// Returns the test's own environment with these changes.
-std::vector<std::string> environment_with(const std::vector<std::string>& changes) {
-  std::vector<std::string> all = changes;
+Words environment_with(const Words& changes) {
+  Words all = changes;
   for (char** entry = environ; *entry; ++entry) {
     const std::string line = *entry, name = line.substr(0, line.find('=') + 1);
     if (std::ranges::none_of(changes, [&](const std::string& change) { return change.starts_with(name); }))
@@ -28,7 +28,7 @@ std::vector<std::string> environment_with(const std::vector<std::string>& change
 }
 
 /// Returns pointers to the strings, and a null pointer, as C requires. The strings must outlive them.
-std::vector<char*> pointers(std::vector<std::string>& strings) {
+std::vector<char*> pointers(Words& strings) {
   std::vector<char*> list;
   for (std::string& string : strings) list.push_back(string.data());
   list.push_back(nullptr);
@@ -37,9 +37,8 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
 
 }  // namespace
 
-Process::Process(const std::vector<std::string>& arguments, const std::filesystem::path& where,
-                 const std::vector<std::string>& environment, const std::filesystem::path& out,
-                 const std::filesystem::path& err)
+Process::Process(const Words& arguments, const std::filesystem::path& where, const Words& environment,
+                 const std::filesystem::path& out, const std::filesystem::path& err)
     : out_(out.empty() ? folder_.path() / "out" : out), err_(err.empty() ? folder_.path() / "err" : err) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -53,9 +52,7 @@ Process::Process(const std::vector<std::string>& arguments, const std::filesyste
   sigfillset(&all);
   posix_spawnattr_setsigdefault(&attributes, &all);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-  std::vector<std::string> words{SBCOLLIDE_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<std::string> variables = environment_with(environment);
+  Words words = with({SBCOLLIDE_PROGRAM}, arguments), variables = environment_with(environment);
   const int error =
       posix_spawn(&id_, SBCOLLIDE_PROGRAM, &actions, &attributes, pointers(words).data(), pointers(variables).data());
   posix_spawnattr_destroy(&attributes);
@@ -80,15 +77,12 @@ Outcome Process::wait() {
           WIFSIGNALED(status) ? WTERMSIG(status) : 0};
 }
 
-Outcome run(const std::vector<std::string>& arguments, const std::filesystem::path& where,
-            const std::vector<std::string>& environment) {
+Outcome run(const Words& arguments, const std::filesystem::path& where, const Words& environment) {
   return Process(arguments, where, environment).wait();
 }
 
-nlohmann::json document(const std::string& command, std::vector<std::string> arguments, const std::string& err) {
-  arguments.insert(arguments.begin(), command);
-  arguments.emplace_back("--json");
-  const Outcome o = run(arguments);
+nlohmann::json document(const std::string& command, const Words& arguments, const std::string& err) {
+  const Outcome o = run(with({command, "--json"}, arguments));
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_EQ(o.err, err);
   nlohmann::json parsed = nlohmann::json::parse(o.out, nullptr, false);  // trailing text is an error, too
@@ -96,8 +90,8 @@ nlohmann::json document(const std::string& command, std::vector<std::string> arg
   return parsed;
 }
 
-void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& words,
-                    const std::vector<std::string>& environment) {
+void expect_refused(const Words& arguments, const Words& words, const Words& environment) {
+  SCOPED_TRACE(testing::PrintToString(arguments));
   const Outcome o = run(arguments, "/", environment);
   EXPECT_EQ(o.status, 2);
   EXPECT_EQ(o.out, "");

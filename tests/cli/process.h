@@ -14,6 +14,13 @@
 namespace cli::test {
 
 using tests::TemporaryFolder;
+using Words = std::vector<std::string>;
+
+/// Returns both lists, one behind the other.
+inline Words with(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
 
 struct Outcome {
   int status;  // -1: ended by a signal
@@ -26,9 +33,8 @@ struct Outcome {
 /// standard error; empty: files of the process's own.
 class Process {
  public:
-  explicit Process(const std::vector<std::string>& arguments, const std::filesystem::path& where = "/",
-                   const std::vector<std::string>& environment = {}, const std::filesystem::path& out = {},
-                   const std::filesystem::path& err = {});
+  explicit Process(const Words& arguments, const std::filesystem::path& where = "/", const Words& environment = {},
+                   const std::filesystem::path& out = {}, const std::filesystem::path& err = {});
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
@@ -43,20 +49,18 @@ class Process {
 };
 
 /// Runs the program to its end.
-Outcome run(const std::vector<std::string>& arguments, const std::filesystem::path& where = "/",
-            const std::vector<std::string>& environment = {});
+Outcome run(const Words& arguments, const std::filesystem::path& where = "/", const Words& environment = {});
 
 /// Returns what `command arguments... --json` prints. Fails the test unless it is one document, standard error is
 /// `err` and the status is 0.
-nlohmann::json document(const std::string& command, std::vector<std::string> arguments, const std::string& err = {});
-inline nlohmann::json simulate(const std::vector<std::string>& arguments, const std::string& err = {}) {
+nlohmann::json document(const std::string& command, const Words& arguments, const std::string& err = {});
+inline nlohmann::json simulate(const Words& arguments, const std::string& err = {}) {
   return document("simulate", arguments, err);
 }
-inline nlohmann::json detect(const std::vector<std::string>& arguments) { return document("detect", arguments); }
+inline nlohmann::json detect(const Words& arguments) { return document("detect", arguments); }
 
 /// Fails the test unless the program refuses the arguments in one line with these words, and prints nothing else.
-void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& words,
-                    const std::vector<std::string>& environment = {});
+void expect_refused(const Words& arguments, const Words& words, const Words& environment = {});
 
 std::string read_file(const std::filesystem::path& file);
 std::set<std::string> file_names(const std::filesystem::path& folder);

@@ -117,22 +117,5 @@ TEST(ContactReport, ListsASceneOverBudgetAndDoesNotRunIt) {
   EXPECT_EQ(file_names(folder.path()), (std::set<std::string>{"contact.csv", "contact.md"})) << "nothing to plot";
 }
 
-TEST(ContactReport, ShowsThePlotsOnThePage) {
-  const TemporaryFolder folder;
-  const auto scene = folder.write("pair.toml", "gravity = [0, 0, 0]\n[[body]]\n[[body]]\nposition = [3, 3, 0]\n");
-  const auto out = folder.path() / "new" / "out";
-  const Outcome o = run({"report", "contact", "--quick", "--scene", scene, "--threads", "1", "--out", out});
-  EXPECT_EQ(o.status, 0) << o.err;
-  const std::string text = read_file(out / "contact.md");
-  EXPECT_NE(text.find("`sbcollide report contact --scene " + scene.string() + " --quick --threads 1 --out DIR`"),
-            std::string::npos);
-  EXPECT_EQ(text.find("nan"), std::string::npos);
-  for (const std::string& name : file_names(out)) {
-    if (name.ends_with(".svg")) {
-      EXPECT_NE(text.find("](<" + name + ">)"), std::string::npos) << name;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace cli::test

@@ -94,22 +94,6 @@ TEST(MeasureStiffness, FindsThatAMaterialSagsAndSwingsAlikeInFinerMeshes) {
   }
 }
 
-TEST(SolverReportErrors, ComeBeforeAnythingRuns) {
-  const TemporaryFolder folder;
-  const auto empty = folder.write("empty.toml", "name = \"nothing\"\n");
-  const Outcome none = run({"report", "solver", "--quick", "--scene", empty, "--out", folder.path() / "out"});
-  EXPECT_EQ(none.status, 2);
-  EXPECT_NE(none.err.find("no body"), std::string::npos) << none.err;
-  for (const char* appear : {"appear = 5\n", "appear = 500\n", "\n[[body]]\nposition = [3, 3, 0]\nappear = 5\n"}) {
-    const auto late = folder.write("late.toml", std::string("[[body]]\n") + appear);
-    const Outcome o = run({"report", "solver", "--quick", "--scene", late, "--out", folder.path() / "out"});
-    EXPECT_EQ(o.status, 2) << appear;
-    EXPECT_NE(o.err.find("join after the start"), std::string::npos) << o.err;
-  }
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
-  EXPECT_EQ(run({"report", "solver", "--scene", "nowhere", "--out", folder.path()}).status, 2);
-}
-
 /// The reference is coarser than the report's, but for the errors at hand fine enough.
 TEST(SolverScenes, AutoKeepsItsPromise) {
   constexpr double bound = 1e-3;           // R, a tenth of what is promised

@@ -79,36 +79,5 @@ TEST(StabilityReport, TakesASceneAndScalesItsStiffness) {
   EXPECT_EQ(file_names(out), (std::set<std::string>{"stability.csv", "stability.md"})) << "no map of another scene";
 }
 
-/// Two bodies appear high up, one inside the other. Their height and the energy that pushes them apart are their own.
-TEST(StabilityReport, CreditsBodiesThatAppearWithTheirEnergy) {
-  const TemporaryFolder folder;
-  const auto scene = folder.write(
-      "two.toml",
-      "[[material]]\nname = \"m\"\nstructural = {stiffness = 100, damping_ratio = 0.1}\ngas_pressure = "
-      "100\n[ground]\n[[body]]\nmesh = {kind = \"icosphere\", subdivisions = 1, radius = 0.3}\nposition = [0, 0.4, "
-      "0]\n[[body]]\nmesh = {kind = \"icosphere\", subdivisions = 1, radius = 0.3}\nposition = [2, 5, 0]\nappear = "
-      "10\n[[body]]\nmesh = {kind = \"icosphere\", subdivisions = 1, radius = 0.3}\nposition = [2.1, 4.9, "
-      "0.1]\nappear = 11\n");
-  const auto out = folder.path() / "out";
-  const Outcome o = run({"report", "stability", "--quick", "--scene", scene, "--out", out});
-  ASSERT_EQ(o.status, 0) << o.err;
-  auto cells = cells_of(out / "stability.csv");
-  for (const std::string& dt : dts)
-    for (const char* integrator : {"auto", "implicit"})
-      EXPECT_EQ(cells["two " + std::string(integrator) + " " + dt + " 1"]["failures"], "") << integrator << " " << dt;
-  EXPECT_NE(cells["two explicit-euler 0.0333333333 1"]["failures"].find("energy +"), std::string::npos)
-      << "what they gain is not theirs: see stability_cell_test.cpp";
-}
-
-TEST(StabilityReport, RefusesBadInputBeforeAnythingRuns) {
-  const TemporaryFolder folder;
-  const auto empty = folder.write("empty.toml", "name = \"nothing\"\n");
-  const Outcome none = run({"report", "stability", "--scene", empty, "--out", folder.path() / "out"});
-  EXPECT_EQ(none.status, 2);
-  EXPECT_NE(none.err.find("no body"), std::string::npos) << none.err;
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
-  EXPECT_EQ(run({"report", "stability", "--scene", "nowhere", "--out", folder.path()}).status, 2);
-}
-
 }  // namespace
 }  // namespace cli::test

@@ -88,22 +88,19 @@ TEST(Page, FillsTheHolesOfIntroductionsAndLeavesOutEmptyItems) {
   check("stability", report::StabilityResults{}, report::stability_page);
 }
 
-TEST(WarnOfBusyMachine, ComparesProcessorTimeWithTheClock) {
-  EXPECT_EQ(report::warn_of_busy_machine({.wall = 10, .processor = 6.1}),
-            "Times may be off: the program got only 61 % of a core while they were taken.");
-  EXPECT_EQ(report::warn_of_busy_machine({.wall = 10, .processor = 9.1}), "");
-  EXPECT_EQ(report::warn_of_busy_machine({.wall = 10, .processor = 17}), "") << "of two threads";
-  EXPECT_EQ(report::warn_of_busy_machine({}), "") << "nothing was timed";
-}
-
-TEST(Page, KeepsItsWarningsApartToo) {
+TEST(Page, WarnsOfTimesOfABusyMachine) {
+  for (const TimedParts& good : {TimedParts{.wall = 10, .processor = 9.1}, {.wall = 10, .processor = 17}, {}}) {
+    report::Page page({});
+    page.warn_if_busy(good);  // also of two threads, or if nothing was timed
+    EXPECT_EQ(page.markdown(true) + page.warning(), "");
+  }
+  const std::string warning = "Times may be off: the program got only 61 % of a core while they were taken.";
   report::Page page({});
   page.text("# Balls");
-  page.warn("");
-  page.warn("Times may be off.");
+  page.warn_if_busy({.wall = 10, .processor = 6.1});
   page.text("The end.");
-  EXPECT_EQ(page.markdown(true), "# Balls\n\nTimes may be off.\n\nThe end.\n");
-  EXPECT_EQ(page.warnings(), std::vector<std::string>{"Times may be off."});
+  EXPECT_EQ(page.markdown(true), "# Balls\n\n" + warning + "\n\nThe end.\n");
+  EXPECT_EQ(page.warning(), warning);
 }
 
 }  // namespace

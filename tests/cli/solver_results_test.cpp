@@ -22,30 +22,31 @@ std::optional<double> order(const std::vector<double>& errors, bool at_rest = fa
   return c.order(curve, bound);
 }
 
-TEST(SolverCaseOrder, IsTheSlopeOfFallingErrors) {
-  EXPECT_NEAR(order({1.6e-1, 4e-2, 1e-2, 2.5e-3}).value_or(0), 2, 1e-9);
-  EXPECT_NEAR(order({0, 0, 8e-3, 4e-3, 2e-3}).value_or(0), 1, 1e-9);
+TEST(SolverCaseOrder, IsTheMedianSlopeOfTheLongestRowOfFallingErrors) {
+  struct Case {
+    const char* what;
+    std::vector<double> errors;
+    double order;
+  };
+  for (const auto& [what, errors, expected] :
+       std::vector<Case>{{"a straight line", {1.6e-1, 4e-2, 1e-2, 2.5e-3}, 2},
+                         {"after two that blew up", {0, 0, 8e-3, 4e-3, 2e-3}, 1},
+                         {"of two the mean", {1.6e-1, 8e-2, 2e-2}, 1.5},
+                         {"of 1, 2, 3, 1 the mean of the middle two", {1.28e-1, 6.4e-2, 1.6e-2, 2e-3, 1e-3}, 1.5},
+                         {"of two rows the one with more steps", {1.6e-1, 4e-2, 1e-2, 1.1e-2, 5.5e-3, 2.75e-3}, 1},
+                         {"the longer row", {1.6e-1, 4e-2, 1e-2, 2.5e-3, 2.4e-3, 1.2e-3, 6e-4}, 2},
+                         {"not of coarse errors", {5, 1.6e-1, 4e-2, 1e-2}, 2},
+                         {"not of small falls", {9e-4, 7.5e-4, 1e-3, 1.6e-3, 4e-4, 1e-4}, 2},
+                         {"not of rounding", {1.6e-2, 4e-3, 1e-3, 1.1e-3, 7e-4}, 2},
+                         {"of one fall that reaches the uncertainty", {0, 0, 1.6e-4, 1e-5}, 4}})
+    EXPECT_NEAR(order(errors).value_or(0), expected, 1e-9) << what;
 }
 
-TEST(SolverCaseOrder, IsTheMeanOfTheMiddleTwoOfAnEvenNumber) {
-  EXPECT_NEAR(order({1.6e-1, 8e-2, 2e-2}).value_or(0), 1.5, 1e-9);
-  EXPECT_NEAR(order({1.28e-1, 6.4e-2, 1.6e-2, 2e-3, 1e-3}).value_or(0), 1.5, 1e-9) << "1, 2, 3, 1";
-}
-
-TEST(SolverCaseOrder, IsOfTheRowWithTheMostStepsIfRowsAreEquallyLong) {
-  EXPECT_NEAR(order({1.6e-1, 4e-2, 1e-2, 1.1e-2, 5.5e-3, 2.75e-3}).value_or(0), 1, 1e-9);
-  EXPECT_NEAR(order({1.6e-1, 4e-2, 1e-2, 2.5e-3, 2.4e-3, 1.2e-3, 6e-4}).value_or(0), 2, 1e-9) << "a longer one";
-}
-
-TEST(SolverCaseOrder, LeavesOutCoarseErrorsAndRounding) {
-  EXPECT_NEAR(order({5, 1.6e-1, 4e-2, 1e-2}).value_or(0), 2, 1e-9);
-  EXPECT_NEAR(order({9e-4, 7.5e-4, 1e-3, 1.6e-3, 4e-4, 1e-4}).value_or(0), 2, 1e-9);
-  EXPECT_NEAR(order({1.6e-2, 4e-3, 1e-3, 1.1e-3, 7e-4}).value_or(0), 2, 1e-9);
-}
-
-TEST(SolverCaseOrder, NeedsTwoFallsOrOneThatReachesTheUncertainty) {
-  EXPECT_EQ(order({1.1e-4, 5.6e-5, 1.2e-4}), std::nullopt);
-  EXPECT_NEAR(order({0, 0, 1.6e-4, 1e-5}).value_or(0), 4, 1e-9);
+TEST(SolverCaseOrder, IsNothingIfErrorsDoNotFallOrNothingMoves) {
+  for (const std::vector<double>& errors :
+       {std::vector<double>{}, {0, 0}, {1.1e-4, 5.6e-5, 1.2e-4}, {1.9, 1.8, 1.5, 1.4}, {8e-5, 9e-5, 9.5e-5, 1.9e-4}})
+    EXPECT_EQ(order(errors), std::nullopt);
+  EXPECT_EQ(order({1.6e-1, 4e-2, 1e-2, 2.5e-3}, true), std::nullopt);
 }
 
 /// Returns a case in which `auto` and semi-implicit Euler have these errors (R) with their own steps.
@@ -63,14 +64,11 @@ TEST(SolverCasePromise, IsTheBoundOrTwiceTheErrorOfSemiImplicitEuler) {
   EXPECT_FALSE(with_own_errors(0.011, 1e-3).keeps_promise());
   EXPECT_TRUE(with_own_errors(0.04, 0.02).keeps_promise());
   EXPECT_FALSE(with_own_errors(0.041, 0.02).keeps_promise());
-}
-
-TEST(SolverCasePromise, IsNotKeptByWhatBlowsUp) {
   report::SolverCase c = with_own_errors(0, 0);
   c.curves[1].own->blew_up = true;
   EXPECT_DOUBLE_EQ(c.allowed(), 0.01);
   c.curves[0].own->blew_up = true;
-  EXPECT_FALSE(c.keeps_promise());
+  EXPECT_FALSE(c.keeps_promise()) << "it blew up";
 }
 
 TEST(SolverPage, ShowsWhetherThePromiseIsKept) {
@@ -80,14 +78,6 @@ TEST(SolverPage, ShowsWhetherThePromiseIsKept) {
   EXPECT_NE(report::solver_page(r).markdown(false).find("| kept |"), std::string::npos);
   r.cases.push_back(with_own_errors(0.02, 1e-3));
   EXPECT_NE(report::solver_page(r).markdown(false).find("| MISSED |"), std::string::npos);
-}
-
-TEST(SolverCaseOrder, IsNothingIfErrorsDoNotFallOrNothingMoves) {
-  EXPECT_EQ(order({}), std::nullopt);
-  EXPECT_EQ(order({0, 0}), std::nullopt);
-  EXPECT_EQ(order({1.9, 1.8, 1.5, 1.4}), std::nullopt);
-  EXPECT_EQ(order({8e-5, 9e-5, 9.5e-5, 1.9e-4}), std::nullopt);
-  EXPECT_EQ(order({1.6e-1, 4e-2, 1e-2, 2.5e-3}, true), std::nullopt);
 }
 
 /// Returns what the page says about curves that end early. Each has one point, with so many steps.

@@ -5,27 +5,31 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace app::test {
 namespace {
 
-constexpr reference::StabilityLimits limits{.seconds = 1, .radius = 0.5};
+using Sample = reference::StabilitySample;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Returns the figures of sixty frames without faults, after `change` has changed each frame.
-template <class Change>
-reference::StabilityFigures run(Change change, const reference::StabilityLimits& l = limits) {
+reference::StabilityFigures run(void (*change)(Sample&), bool begins_inside = false) {
+  const reference::StabilityLimits limits{.seconds = 1, .radius = 0.5, .begins_inside = begins_inside};
   reference::StabilityFigures f;
   for (int frame = 1; frame <= 60 && !f.diverged(); ++frame) {
-    reference::StabilitySample s{.time = frame / 60.0,
-                                 .frame = frame,
-                                 .excess = 0,
-                                 .scale = 20,
-                                 .speed = 3,
-                                 .reachable_speed = 10,
-                                 .extent = 1,
-                                 .reachable_extent = 4};
+    Sample s{.time = frame / 60.0,
+             .frame = frame,
+             .excess = 0,
+             .scale = 20,
+             .speed = 3,
+             .reachable_speed = 10,
+             .extent = 1,
+             .reachable_extent = 4};
     change(s);
-    f.add(s, l);
+    f.add(s, limits);
   }
   f.reference = reference::ReferenceDeviation{.shape = 0.001, .volume = 0.002, .rest = 1e-4};
   return f;
@@ -37,76 +41,42 @@ std::string fault(const reference::StabilityFigures& f) {
   return all;
 }
 
-template <class Change>
-std::string fault(Change change, const reference::StabilityLimits& l = limits) {
-  return fault(run(change, l));
-}
-
-TEST(StabilityCriteria, PassARunWithoutFaults) {
-  EXPECT_EQ(fault([](reference::StabilitySample&) {}), "");
-}
-
-TEST(StabilityCriteria, FailAndEndARunThatIsNotFinite) {
-  const reference::StabilityFigures f = run([](reference::StabilitySample& s) { s.finite = s.frame < 30; });
-  EXPECT_EQ(fault(f), "not finite;gave up at 0.5 s;");
-  EXPECT_EQ(f.blow_up_time, 0.5);
-}
-
-TEST(StabilityCriteria, FailAFigureThatIsNotANumber) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(fault([&](reference::StabilitySample& s) { s.excess = nan; }), "not finite;gave up at 0.0167 s;");
-  EXPECT_EQ(fault([](reference::StabilitySample& s) { s.speed = s.reachable_speed = 0; }),
-            "not finite;gave up at 0.0167 s;");
-  EXPECT_EQ(fault([&](reference::StabilitySample& s) { s.reachable_extent = nan; }), "not finite;gave up at 0.0167 s;");
-  EXPECT_EQ(fault([&](reference::StabilitySample& s) { s.depth = nan; }), "not finite;gave up at 0.0167 s;");
-  EXPECT_EQ(fault([](reference::StabilitySample& s) { s.excess = 0, s.scale = 0; }), "not finite;gave up at 0.0167 s;");
-}
-
-TEST(StabilityCriteria, AllowAShareOfTheScaleFromNowhere) {
-  EXPECT_EQ(fault([](reference::StabilitySample& s) { s.excess = 0.9; }), "");
-  EXPECT_EQ(fault([](reference::StabilitySample& s) { s.excess = s.frame == 7 ? 1.1 : 0; }), "energy + 0.055;")
-      << "one frame is enough";
-}
-
-TEST(StabilityCriteria, GiveUpARunWithTenTimesTheScaleInExcess) {
-  const reference::StabilityFigures f = run([](reference::StabilitySample& s) { s.excess = s.frame < 12 ? 0 : 300; });
-  EXPECT_EQ(f.blow_up_time, 0.2);
-  EXPECT_EQ(fault(f), "energy + 15;gave up at 0.2 s;") << "it is not compared with the reference";
-}
-
-TEST(StabilityCriteria, FailSpeedsAndBoxesOutOfReach) {
-  EXPECT_EQ(fault([](reference::StabilitySample& s) { s.speed = 9.9, s.extent = 3.9; }), "");
-  EXPECT_EQ(fault([](reference::StabilitySample& s) { s.speed = s.frame == 3 ? 20 : 1; }),
-            "speed 2 of what energy can give;");
-  EXPECT_EQ(fault([](reference::StabilitySample& s) { s.extent = s.frame == 3 ? 6 : 1; }),
-            "box 1.5 of what energy can draw;");
-}
-
-TEST(StabilityCriteria, AllowAHitToGoDeeperThanRest) {
-  EXPECT_EQ(fault([](reference::StabilitySample& s) { s.depth = s.frame == 20 ? 0.049 : 0.009; }), "");
-  EXPECT_EQ(fault([](reference::StabilitySample& s) { s.depth = s.frame == 20 ? 0.06 : 0; }),
-            "0.12 R deep in a solid;");
-  EXPECT_EQ(fault([](reference::StabilitySample& s) { s.depth = s.frame == 55 ? 0.02 : 0; }),
-            "0.04 R deep in a solid in the end;");
-}
-
-TEST(StabilityCriteria, GiveABodyThatBeginsInsideTenFramesToComeOut) {
-  reference::StabilityLimits inside = limits;
-  inside.begins_inside = true;
-  const auto out_after = [](int frames) {
-    return [frames](reference::StabilitySample& s) { s.depth = s.frame <= frames ? 0.2 : 0; };
+TEST(StabilityCriteria, PassWhatIsRightAndFailWhatIsNot) {
+  struct Case {
+    const char* what;
+    void (*change)(Sample&);
+    std::string fault;
+    bool begins_inside = false;
   };
-  EXPECT_EQ(fault(out_after(10), inside), "");
-  EXPECT_EQ(fault(out_after(11), inside), "0.4 R deep in a solid;");
-  EXPECT_EQ(fault(out_after(10)), "0.4 R deep in a solid;") << "a body that begins outside has no time";
-}
-
-TEST(StabilityCriteria, FailABodyThatGoesThroughASolid) {
-  EXPECT_EQ(fault([](reference::StabilitySample& s) { s.passed_through = s.frame > 40; }), "through a solid: 1;");
+  const std::string at_once = "not finite;gave up at 0.0167 s;";
+  for (const auto& [what, change, expected, begins_inside] : std::vector<Case>{
+           {"no fault", [](Sample&) {}, ""},
+           {"not finite", [](Sample& s) { s.finite = s.frame < 30; }, "not finite;gave up at 0.5 s;"},
+           {"an excess that is no number", [](Sample& s) { s.excess = nan; }, at_once},
+           {"a speed of 0 / 0", [](Sample& s) { s.speed = s.reachable_speed = 0; }, at_once},
+           {"an extent that is no number", [](Sample& s) { s.reachable_extent = nan; }, at_once},
+           {"a depth that is no number", [](Sample& s) { s.depth = nan; }, at_once},
+           {"an excess of 0 / 0", [](Sample& s) { s.excess = s.scale = 0; }, at_once},
+           {"a small excess", [](Sample& s) { s.excess = 0.9; }, ""},
+           {"one frame with an excess", [](Sample& s) { s.excess = s.frame == 7 ? 1.1 : 0; }, "energy + 0.055;"},
+           {"ten times the scale, without a comparison with the reference",
+            [](Sample& s) { s.excess = s.frame < 12 ? 0 : 300; }, "energy + 15;gave up at 0.2 s;"},
+           {"within reach", [](Sample& s) { s.speed = 9.9, s.extent = 3.9; }, ""},
+           {"too fast", [](Sample& s) { s.speed = s.frame == 3 ? 20 : 1; }, "speed 2 of what energy can give;"},
+           {"too long", [](Sample& s) { s.extent = s.frame == 3 ? 6 : 1; }, "box 1.5 of what energy can draw;"},
+           {"a hit deeper than at rest", [](Sample& s) { s.depth = s.frame == 20 ? 0.049 : 0.009; }, ""},
+           {"a hit too deep", [](Sample& s) { s.depth = s.frame == 20 ? 0.06 : 0; }, "0.12 R deep in a solid;"},
+           {"too deep at rest", [](Sample& s) { s.depth = s.frame == 55 ? 0.02 : 0; },
+            "0.04 R deep in a solid in the end;"},
+           {"out in ten frames", [](Sample& s) { s.depth = s.frame <= 10 ? 0.2 : 0; }, "", true},
+           {"out later", [](Sample& s) { s.depth = s.frame <= 11 ? 0.2 : 0; }, "0.4 R deep in a solid;", true},
+           {"began outside", [](Sample& s) { s.depth = s.frame <= 10 ? 0.2 : 0; }, "0.4 R deep in a solid;"},
+           {"through a solid", [](Sample& s) { s.passed_through = s.frame > 40; }, "through a solid: 1;"}})
+    EXPECT_EQ(fault(run(change, begins_inside)), expected) << what;
 }
 
 TEST(StabilityCriteria, CompareTheEndWithTheReference) {
-  reference::StabilityFigures f = run([](reference::StabilitySample&) {});
+  reference::StabilityFigures f = run([](Sample&) {});
   f.reference = reference::ReferenceDeviation{.shape = 0.02, .volume = 0.03, .rest = 0.004};
   EXPECT_EQ(fault(f), "shape off by 0.02 R;volume off by 3 %;moves by 0.004 m/s too fast;");
   f.reference.reset();

@@ -15,39 +15,44 @@ namespace fs = std::filesystem;
 /// A command that writes into a folder, and the file that it writes there first.
 struct Writer {
   std::string name;
-  std::vector<std::string> arguments;  // the folder, or the file in it, comes last
+  Words arguments;  // the folder, or the file in it, comes last
   std::string file;
-  bool names_file = false;  // the last argument is the file
+  bool names_file = false;             // the last argument is the file
+  std::string saved = "saved before";  // what is there, which it may replace
 };
 
 std::vector<Writer> writers() {
   const std::string mesh = std::string(SBCOLLIDE_SCENES) + "/../meshes/star.obj";
   std::vector<Writer> list{
       {"objects", {"simulate", "--scene", "A", "--frames", "1", "--obj-every", "1", "--out"}, "rest_0001.obj"},
-      {"contacts", {"detect", mesh, "--tolerance", "0.9", "--contacts"}, "contacts.csv", true}};
-  if (SBCOLLIDE_GRAPHICS)
-    list.push_back(
-        {"picture", {"simulate", "--frames", "1", "--capture", "1", "--size", "64x64", "--out"}, "frame_0001.png"});
+      {"contacts",
+       {"detect", mesh, "--tolerance", "0.9", "--contacts"},
+       "contacts.csv",
+       true,
+       "frame,vertex_a,vertex_b,body_a,body_b,distance\n"}};
+  const Words pictures{"simulate", "--scene", "A", "--frames", "3", "--size", "64x64"};
+  if (SBCOLLIDE_GRAPHICS) {
+    list.push_back({"picture", with(pictures, {"--capture", "1", "--out"}), "frame_0001.png"});
+    list.push_back({"animation", with(pictures, {"--animation"}), "run.webp", true, "RIFF, saved before"});
+  }
   return list;
 }
 
 class Survival : public testing::TestWithParam<Writer> {
  protected:
   Outcome write_to(const fs::path& folder) const {
-    std::vector<std::string> arguments = GetParam().arguments;
-    arguments.push_back(GetParam().names_file ? folder / GetParam().file : folder);
-    return run(arguments);
+    return run(with(GetParam().arguments, {GetParam().names_file ? folder / GetParam().file : folder}));
   }
 };
 
 TEST_P(Survival, ReportsAFullDiskAndChangesNothing) {
   const TemporaryFolder folder;
-  folder.write(GetParam().file, "saved before");
+  folder.write(GetParam().file, GetParam().saved);
   const tests::FullDisk full;
   const Outcome o = write_to(folder.path());
   EXPECT_EQ(o.status, 2) << o.err;
   EXPECT_NE(o.err.find(GetParam().file + ": cannot be written: "), std::string::npos) << o.err;
-  EXPECT_EQ(read_file(folder.path() / GetParam().file), "saved before");
+  EXPECT_EQ(read_file(folder.path() / GetParam().file), GetParam().saved);
   EXPECT_EQ(file_names(folder.path()), std::set<std::string>{GetParam().file}) << "nothing half written is left";
 }
 

@@ -207,7 +207,7 @@ Page contact_page(const ContactResults& results) {
   TimedParts timed;
   for (const ContactCase& c : results.cases)
     for (const ContactTrial& trial : c.trials) timed += trial.timed;
-  page.warn(warn_of_busy_machine(timed));
+  page.warn_if_busy(timed);
   page.add("scenes");
   page.table(overview(results));
   if (const Table table = side_by_side(results); !table.empty()) {

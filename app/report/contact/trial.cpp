@@ -21,8 +21,8 @@ namespace {
 double smallest_closed_radius(const softbody::World& world) {
   double radius = 0;
   for (collide::Index b = 0; b < world.bodies().count(); ++b) {
-    const softbody::BodyModel& p = world.model(b);
-    if (p.mesh.closed && (radius == 0 || p.radius < radius)) radius = p.radius;
+    const softbody::BodyModel& body = world.model(b);
+    if (body.mesh.closed && (radius == 0 || body.radius < radius)) radius = body.radius;
   }
   return radius;
 }

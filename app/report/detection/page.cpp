@@ -239,7 +239,7 @@ Page detection_page(const DetectionResults& results) {
                  fmt::arg("threads", threads), fmt::arg("plural", threads == 1 ? "" : "s"),
                  fmt::arg("repetitions", limits.repetitions), fmt::arg("repeat_ms", limits.repeat_ms),
                  fmt::arg("budget", grouped(limits.budget)));
-  page.warn(warn_of_busy_machine(results.timed));
+  page.warn_if_busy(results.timed);
   add_table_1(page, results);
   page.add("best", fmt::arg("scenes", files > 0 ? "The sequence" : "Scenes"));
   for (const SceneResult& scene : results.scenes) {

@@ -234,7 +234,7 @@ Page solver_page(const SolverResults& results) {
                  fmt::arg("substeps", results.effort.max_substeps),
                  fmt::arg("order_error", SolverCase::max_order_error), fmt::arg("clear_fall", SolverCase::clear_fall),
                  fmt::arg("least_order", -std::log2(SolverCase::clear_fall)));
-  page.warn(warn_of_busy_machine(results.timed));
+  page.warn_if_busy(results.timed);
   add_overview(page, results);
   add_promise(page, results);
   add_stiffness(page, results);

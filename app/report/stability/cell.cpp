@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "app/report/solid_passages.h"
+#include "app/report/sums.h"
 #include "collide/surface/box_tree.h"
 #include "softbody/forces/gas.h"
 #include "softbody/world/energy_watch.h"
@@ -35,7 +35,7 @@ class Run {
         start_world(start_.scene, {.frame_time = frame_time, .integrator = with_steps(integrator, 1)}, particles);
     if (frame_ == 0) {
       passages_.observe(world);
-      while (bodies_ < world.bodies().count()) add_body();
+      bodies_ = world.bodies().count();
       available_ = softbody::measure(world).energy;
     }
     energy_.restart();
@@ -46,7 +46,8 @@ class Run {
 
   void step(World& world) {
     const std::vector<softbody::BodySource>& sources = start_.scene.bodies;  // in the order in which they join
-    while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame()) above_balance_ += add_body().kinetic();
+    while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame())
+      above_balance_ += start_.members[bodies_++].kinetic();
     world.step();
     ++frame_;
     time_ += world.frame_time();
@@ -55,11 +56,12 @@ class Run {
     passages_.observe(world);
     count_excess(world);
     const softbody::Measures m = softbody::measure(world);
+    const double weight = sum_of(present(), &StabilityStart::Member::weight);
     reference::StabilitySample s{.time = time_,
                                  .frame = frame_,
                                  .finite = m.finite,
                                  .excess = excess_,
-                                 .scale = std::max(above_balance_, weight_),
+                                 .scale = std::max(above_balance_, weight),
                                  .speed = m.max_speed,
                                  .depth = m.deepest_penetration,
                                  .passed_through = passages_.count()};
@@ -92,7 +94,10 @@ class Run {
       extents.push_back(extent_of(x));
     }
     const double min_energy = 1e-9 * s.scale;  // what has flown away has lost all to gravity
-    s.reachable_speed = std::sqrt(2 * std::max(available - balance_, min_energy) / lightest_);
+    const auto particle_mass = [](const StabilityStart::Member& m) { return m.model->particle_mass; };
+    const double balance = sum_of(present(), &StabilityStart::Member::balance),
+                 lightest = particle_mass(std::ranges::min(present(), {}, particle_mass));
+    s.reachable_speed = std::sqrt(2 * std::max(available - balance, min_energy) / lightest);
     s.reachable_extent = 1;
     for (std::size_t b = 0; b < extents.size(); ++b) {
       const auto& [length, stiffness] = start_.members[b].chain;
@@ -101,22 +106,12 @@ class Run {
     }
   }
 
-  /// Counts the next body as present and returns it.
-  const StabilityStart::Member& add_body() {
-    const StabilityStart::Member& member = start_.members[bodies_++];
-    balance_ += member.balance();
-    weight_ += member.weight();
-    lightest_ = std::min(lightest_, member.model->particle_mass);
-    return member;
-  }
+  std::span<const StabilityStart::Member> present() const { return std::span(start_.members).first(bodies_); }
 
   const StabilityStart& start_;
   reference::StabilityFigures figures_;
-  double above_balance_;                                       // J, that the present bodies started or joined with
-  BodyId bodies_ = 0;                                          // that are present
-  double balance_ = 0;                                         // J, their springs and gas in balance
-  double weight_ = 0;                                          // J, their m g R
-  double lightest_ = std::numeric_limits<double>::infinity();  // kg, of their particles
+  double above_balance_;  // J, that the present bodies started or joined with
+  BodyId bodies_ = 0;     // that are present
   SolidPassages passages_;
   softbody::EnergyWatch energy_;
   double booked_ = 0;     // J, by the end of the last frame

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <queue>
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
@@ -24,28 +23,28 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Returns how many springs at most join any two particles: twice as many as join one particle and the farthest.
 /// Returns nothing if springs do not join all particles.
-std::optional<int> longest_chain(const softbody::BodyModel& p) {
-  std::vector<std::vector<softbody::Index>> next(p.mesh.vertices.size());
-  for (const softbody::Spring& s : softbody::springs<softbody::StructuralSprings>(p))
-    next[s.i].push_back(s.j), next[s.j].push_back(s.i);
-  std::vector<int> distance(next.size(), -1);
-  std::queue<softbody::Index> open;
-  distance[0] = 0, open.push(0);
-  while (!open.empty()) {
-    const softbody::Index i = open.front();
-    open.pop();
-    for (const softbody::Index j : next[i])
-      if (distance[j] < 0) distance[j] = distance[i] + 1, open.push(j);
+std::optional<int> longest_chain(const softbody::BodyModel& body) {
+  const int none = static_cast<int>(body.mesh.vertices.size());  // more than any chain has
+  std::vector<int> distance(body.mesh.vertices.size(), none);
+  distance[0] = 0;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const softbody::Spring& s : softbody::springs<softbody::StructuralSprings>(body)) {
+      int &i = distance[s.i], &j = distance[s.j];
+      changed = changed || std::abs(i - j) > 1;
+      i = std::min(i, j + 1);
+      j = std::min(j, i + 1);
+    }
   }
-  const auto [min, max] = std::ranges::minmax(distance);
-  return min < 0 ? std::nullopt : std::optional(2 * max);
+  const int max = std::ranges::max(distance);
+  return max == none ? std::nullopt : std::optional(2 * max);
 }
 
-StabilityStart::SpringChain spring_chain_of(const softbody::BodyModel& p) {
-  const auto chain = longest_chain(p);
+StabilityStart::SpringChain spring_chain_of(const softbody::BodyModel& body) {
+  const auto chain = longest_chain(body);
   if (!chain) return {infinite, infinite};
   double longest = 0, softest = infinite;
-  for (const softbody::Spring& s : softbody::springs<softbody::StructuralSprings>(p))
+  for (const softbody::Spring& s : softbody::springs<softbody::StructuralSprings>(body))
     longest = std::max(longest, s.rest), softest = std::min(softest, s.stiffness);
   return {*chain * longest, softest / *chain};
 }
