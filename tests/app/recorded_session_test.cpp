@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
 
 #include "app/session/live/sweep_worker.h"
 #include "app/session/session.h"
@@ -14,23 +12,17 @@
 namespace app {
 namespace {
 
-using namespace std::chrono_literals;
 class RecordedSession : public testing::Test {
  protected:
   static constexpr int frames = 8;
 
-  void advance(int ticks) {
-    for (int i = 0; i < ticks; ++i) session.advance(tick);
-  }
   int frame() const { return session.world().frame(); }
   /// Advances the paused session until `done`; false if that takes too long.
   bool wait(auto done) {
-    for (const auto end = std::chrono::steady_clock::now() + 60s; std::chrono::steady_clock::now() < end;) {
+    return wait_until([&] {
       session.advance(tick);
-      if (done()) return true;
-      std::this_thread::sleep_for(1ms);
-    }
-    return false;
+      return done();
+    });
   }
   std::vector<collide::Contact> true_contacts() const {
     collide::Workers alone(1);
@@ -47,29 +39,29 @@ class RecordedSession : public testing::Test {
 };
 
 TEST_F(RecordedSession, LoopsOrPausesAtTheEndAndBeginsAgain) {
-  advance(frames + 2);
+  run(session, frames + 2);
   EXPECT_EQ(frame(), 2);
   simulation.loop = false;
-  advance(2 * frames);
+  run(session, 2 * frames);
   EXPECT_EQ(frame(), frames - 1);
   EXPECT_TRUE(simulation.clock.paused);
   simulation.clock.paused = false;
-  advance(1);
+  run(session, 1);
   EXPECT_EQ(frame(), 0);
 }
 
 TEST_F(RecordedSession, RunsAsFastAsItIsTold) {
   simulation.clock.speed = 2;
-  advance(3);
+  run(session, 3);
   EXPECT_EQ(frame(), 6);
   simulation.rewind_to(0);
   simulation.clock.paused = false;
   simulation.clock.speed = 0.25;
-  advance(6);
+  run(session, 6);
   EXPECT_EQ(frame(), 1);
   EXPECT_NEAR(simulation.between(), 0.5, 0.01) << "pictures between two frames";
   simulation.clock.slow_motion = true;  // a tenth of that
-  advance(20);
+  run(session, 20);
   EXPECT_EQ(frame(), 2);
 }
 
@@ -79,7 +71,7 @@ TEST_F(RecordedSession, GoesToAnyFrameAndPausesThere) {
   EXPECT_TRUE(simulation.clock.paused);
   EXPECT_TRUE(std::ranges::equal(simulation.before_last_step().shown().x, session.world().positions().x));
   simulation.clock.single_step();
-  advance(1);
+  run(session, 1);
   EXPECT_EQ(frame(), 6);
   EXPECT_TRUE(simulation.clock.paused);
   simulation.rewind_to(1);
@@ -88,7 +80,7 @@ TEST_F(RecordedSession, GoesToAnyFrameAndPausesThere) {
 
 TEST_F(RecordedSession, StaysAtTheLastGoodFrameAndGoesOnBehindABrokenOne) {
   balls->broken = 3;
-  advance(10);
+  run(session, 10);
   EXPECT_EQ(frame(), 2);
   EXPECT_TRUE(simulation.clock.paused);
   EXPECT_TRUE(simulation.notice.is_error());
@@ -106,7 +98,7 @@ TEST_F(RecordedSession, ForgetsReportsOnBodiesThatAreGone) {
   session.bodies.select(RecordedBalls::all - 1);
   const std::uint64_t world = simulation.world_number();
   simulation.clock.paused = false;
-  advance(1);
+  run(session, 1);
   ASSERT_EQ(session.world().bodies().count(), RecordedBalls::few);
   EXPECT_NE(simulation.world_number(), world);
   EXPECT_FALSE(session.bodies.selected());
@@ -134,19 +126,10 @@ TEST_F(RecordedSession, ComparesEveryFrameWithBruteForce) {
 }
 
 TEST_F(RecordedSession, KeepsTheCurvesOfALoopInOrder) {
-  advance(3 * frames + 3);
+  run(session, 3 * frames + 3);
   const TimeSeries& contacts = simulation.history.contacts;
   ASSERT_EQ(contacts.size(), 4u);  // frames 0 .. 3 of this round
   for (std::size_t i = 0; i < contacts.size(); ++i) EXPECT_EQ(contacts.frame(i), int(i));
-}
-
-TEST_F(RecordedSession, ShowsTheHashTableOfTheFrame) {
-  simulation.rewind_to(6);
-  EXPECT_EQ(session.inspector.shown_geometry().buckets, session.world().collision().buckets);
-  EXPECT_FALSE(session.inspector.shown_geometry().boxes.empty());
-  session.settings.set_method("grid-hash");
-  EXPECT_EQ(session.world().method().key, "grid-hash");
-  EXPECT_EQ(session.world().detection().contacts, true_contacts());
 }
 
 TEST_F(RecordedSession, ChecksItsSurfaces) {
@@ -176,7 +159,7 @@ TEST_F(RecordedSession, IsSwept) {
 
 TEST_F(RecordedSession, RunsAheadToAFrame) {
   session.run_ahead.start([](const softbody::BodiesInMotion& world) { return world.frame() == 5; }, 20);
-  advance(20);
+  run(session, 20);
   EXPECT_EQ(frame(), 5);
   EXPECT_TRUE(simulation.clock.paused);
 }
@@ -204,6 +187,8 @@ TEST_F(RecordedSession, TakesBackASettingAndStaysAtItsFrame) {
   const std::string_view before = session.world().method().key;
   simulation.rewind_to(6);
   session.settings.set_method("grid-hash");
+  EXPECT_EQ(session.world().detection().contacts, true_contacts());
+  EXPECT_EQ(session.inspector.shown_geometry().buckets, session.world().collision().buckets);
   simulation.rewind_to(7);
   simulation.undo();
   EXPECT_EQ(session.world().method().key, before);
@@ -231,7 +216,7 @@ TEST_F(RecordedSession, RefusesBodiesAndChangesNothing) {
   EXPECT_TRUE(simulation.notice.is_error());
   EXPECT_EQ(session.world().bodies().count(), RecordedBalls::all);
   simulation.clock.paused = false;
-  advance(1);
+  run(session, 1);
   EXPECT_EQ(frame(), 7);
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 // Small scenes for the demo's tests, in motion from the first frame.
 
+#include <chrono>
 #include <limits>
+#include <thread>
 
 #include "tests/solids.h"
 
@@ -10,6 +12,21 @@ namespace app {
 using namespace tests;
 
 inline constexpr double tick = 1.0001 / 60;  // s, a little more than a frame
+
+/// Lets a session or a simulation go on for so many pictures, one a frame.
+void run(auto& shown, int pictures) {
+  for (int i = 0; i < pictures; ++i) shown.advance(tick);
+}
+
+/// Asks `done` again and again, because a thread works meanwhile. Returns false if it is not true within a minute.
+bool wait_until(const auto& done) {
+  using namespace std::chrono;
+  for (const auto end = steady_clock::now() + minutes(1); steady_clock::now() < end;) {
+    if (done()) return true;
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+  return false;
+}
 
 /// Two bodies side by side in contact, in the air above a solid sphere and the ground, and a dropper.
 inline softbody::Scene touching_pair() {
