@@ -18,10 +18,10 @@ void run(auto& shown, int pictures) {
   for (int i = 0; i < pictures; ++i) shown.advance(tick);
 }
 
-/// Asks `done` again and again, because a thread works meanwhile. Returns false if it is not true within a minute.
+/// Asks `done` again and again, because a thread works meanwhile. Returns false if it is not true within two minutes.
 bool wait_until(const auto& done) {
   using namespace std::chrono;
-  for (const auto end = steady_clock::now() + minutes(1); steady_clock::now() < end;) {
+  for (const auto end = steady_clock::now() + minutes(2); steady_clock::now() < end;) {
     if (done()) return true;
     std::this_thread::sleep_for(milliseconds(1));
   }
