@@ -32,23 +32,6 @@ compare::CompareReport compare_on(const compare::FrameSnapshot& snapshot,
   return *comparison.wait();
 }
 
-/// Returns the true contacts, by an independent double loop.
-std::vector<collide::Contact> true_contacts(const softbody::BodiesInMotion& world) {
-  const collide::Frame f = world.positions();
-  const float tolerance2 = world.collision().tolerance * world.collision().tolerance;
-  const auto body = [&](collide::Index vertex) { return world.bodies().body_of(vertex); };
-  std::vector<collide::Contact> contacts;
-  for (collide::Index a = 0; a < f.x.size(); ++a) {
-    for (collide::Index b = a + 1; b < f.x.size(); ++b) {
-      if (!(collide::squared_distance(f.x[a], f.y[a], f.z[a], f.x[b], f.y[b], f.z[b]) < tolerance2)) continue;
-      const collide::Index first = f.bodies->first[body(a)];
-      const bool excluded = body(a) == body(b) && f.bodies->shape[body(a)]->excludes(a - first, b - first, tolerance2);
-      if (!excluded) contacts.push_back({a, b});
-    }
-  }
-  return contacts;
-}
-
 softbody::World world_with(std::string_view method, float cell) {
   softbody::Scene scene = touching_pair();
   scene.method = method;
@@ -77,9 +60,7 @@ TEST(Comparison, ReportsWhatTheDetectorsFind) {
   EXPECT_EQ(report.id, 1u);
   ASSERT_EQ(report.rows.size(), collide::method_table().size());
   for (const collide::Method& method : collide::method_table()) {
-    collide::Workers alone(1);
-    collide::Result expected;
-    method.make()->detect(world.positions(), world.collision(), alone, expected);
+    const collide::Result expected = detected(method, world.positions(), world.collision());
     const compare::CompareRow& measured = row(report, method.key);
     ASSERT_TRUE(measured.scored) << method.key;
     EXPECT_EQ(measured.contacts, expected.contacts.size()) << method.key;

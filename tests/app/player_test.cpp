@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "tests/app/recorded_bodies.h"
+#include "tests/app/scenes.h"
 
 namespace app {
 namespace {
@@ -22,10 +23,7 @@ class PlayerTest : public testing::Test {
     EXPECT_TRUE(std::ranges::equal(at.x, recorded->x) && std::ranges::equal(at.y, recorded->y) &&
                 std::ranges::equal(at.z, recorded->z))
         << number;
-    collide::Workers alone(1);
-    collide::Result expected;
-    collide::find_method("brute-force")->make()->detect(at, player.collision(), alone, expected);
-    EXPECT_EQ(player.detection().contacts, expected.contacts) << number;
+    EXPECT_EQ(player.detection().contacts, true_contacts(player)) << number;
   }
 
   std::shared_ptr<RecordedBalls> balls = std::make_shared<RecordedBalls>(8);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "app/session/live/sweep_worker.h"
 #include "app/session/session.h"
 #include "tests/app/recorded_bodies.h"
 #include "tests/app/scenes.h"
@@ -24,15 +23,6 @@ class RecordedSession : public testing::Test {
       return done();
     });
   }
-  std::vector<collide::Contact> true_contacts() const {
-    collide::Workers alone(1);
-    collide::Result result;
-    collide::find_method("brute-force")
-        ->make()
-        ->detect(session.world().positions(), session.world().collision(), alone, result);
-    return result.contacts;
-  }
-
   std::shared_ptr<RecordedBalls> balls = std::make_shared<RecordedBalls>(frames);
   Session session{opened(balls), {}, 1};
   session::Simulation& simulation = session.simulation;
@@ -85,7 +75,7 @@ TEST_F(RecordedSession, StaysAtTheLastGoodFrameAndGoesOnBehindABrokenOne) {
   EXPECT_TRUE(simulation.clock.paused);
   EXPECT_TRUE(simulation.notice.is_error());
   EXPECT_EQ(simulation.notice.text(), "frame 3 is broken");
-  EXPECT_EQ(session.world().detection().contacts, true_contacts());
+  EXPECT_EQ(session.world().detection().contacts, true_contacts(session.world()));
   simulation.rewind_to(3);
   EXPECT_EQ(frame(), 2);
   simulation.rewind_to(4);
@@ -114,7 +104,7 @@ TEST_F(RecordedSession, ComparesEveryFrameWithBruteForce) {
     ASSERT_TRUE(wait([&] { return session.comparison.report().id == simulation.revision(); })) << number;
     const compare::CompareReport& report = session.comparison.report();
     EXPECT_EQ(report.frame, number);
-    EXPECT_EQ(report.true_contacts, true_contacts().size());
+    EXPECT_EQ(report.true_contacts, true_contacts(session.world()).size());
     for (std::size_t method = 0; method < report.rows.size(); ++method) {
       if (collide::method_table()[method].exact) {
         EXPECT_EQ(report.rows[method].recall, 1.0) << method;
@@ -140,23 +130,6 @@ TEST_F(RecordedSession, ChecksItsSurfaces) {
   EXPECT_EQ(session.surfaces.report().figures.overlapping_pairs, 0u);
 }
 
-TEST_F(RecordedSession, IsSwept) {
-  simulation.rewind_to(6);
-  session::SweepWorker worker(compare::SweepLimits{.repetitions = 1});
-  worker.start(session.world(), compare::all_methods());
-  session::SweepState state;
-  ASSERT_TRUE(wait([&] {
-    if (auto news = worker.take()) state = *news;
-    return state.frame == 6 && !state.running;
-  }));
-  EXPECT_EQ(state.stop_reason, "");
-  EXPECT_EQ(state.report.true_contacts, true_contacts().size());
-  const auto in_use = [&](const compare::SweepRow& row) {
-    return row.configuration.settings == session.world().collision();
-  };
-  EXPECT_TRUE(std::ranges::any_of(state.report.rows, in_use)) << "the automatic cell size is the world's";
-}
-
 TEST_F(RecordedSession, RunsAheadToAFrame) {
   session.run_ahead.start([](const softbody::BodiesInMotion& world) { return world.frame() == 5; }, 20);
   run(session, 20);
@@ -172,7 +145,7 @@ TEST_F(RecordedSession, IsResetAndComesBackByUndo) {
   EXPECT_EQ(session.world().method().key, "grid-hash");
   simulation.undo();
   EXPECT_EQ(frame(), 6);
-  EXPECT_EQ(session.world().detection().contacts, true_contacts());
+  EXPECT_EQ(session.world().detection().contacts, true_contacts(session.world()));
   const softbody::Scene pair = touching_pair();
   session.scenes.enter(session::make_window_world(pair, {}, 1), pair, "pair");
   EXPECT_TRUE(session.simulated());
@@ -187,13 +160,13 @@ TEST_F(RecordedSession, TakesBackASettingAndStaysAtItsFrame) {
   const std::string_view before = session.world().method().key;
   simulation.rewind_to(6);
   session.settings.set_method("grid-hash");
-  EXPECT_EQ(session.world().detection().contacts, true_contacts());
+  EXPECT_EQ(session.world().detection().contacts, true_contacts(session.world()));
   EXPECT_EQ(session.inspector.shown_geometry().buckets, session.world().collision().buckets);
   simulation.rewind_to(7);
   simulation.undo();
   EXPECT_EQ(session.world().method().key, before);
   EXPECT_EQ(frame(), 7);
-  EXPECT_EQ(session.world().detection().contacts, true_contacts());
+  EXPECT_EQ(session.world().detection().contacts, true_contacts(session.world()));
   simulation.redo();
   EXPECT_EQ(session.world().method().key, "grid-hash");
 }

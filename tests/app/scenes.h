@@ -5,6 +5,7 @@
 #include <limits>
 #include <thread>
 
+#include "collide/methods.h"
 #include "tests/solids.h"
 
 namespace app {
@@ -26,6 +27,20 @@ bool wait_until(const auto& done) {
     std::this_thread::sleep_for(milliseconds(1));
   }
   return false;
+}
+
+/// Returns what a new detector of a method finds in a frame.
+inline collide::Result detected(const collide::Method& method, const collide::Frame& frame,
+                                const collide::Settings& settings) {
+  collide::Workers alone(1);
+  collide::Result result;
+  method.make()->detect(frame, settings, alone, result);
+  return result;
+}
+
+/// Returns the contacts that brute force finds in the present frame of a world.
+std::vector<collide::Contact> true_contacts(const auto& world) {
+  return detected(*collide::find_method(collide::reference_method), world.positions(), world.collision()).contacts;
 }
 
 /// Two bodies side by side in contact, in the air above a solid sphere and the ground, and a dropper.

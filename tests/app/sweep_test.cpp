@@ -77,8 +77,7 @@ TEST(Sweep, ReportsWhatNewDetectorsFind) {
   for (std::size_t i = 0; i < configurations.size(); ++i) {
     const compare::Configuration& c = configurations[i];
     const collide::Method& method = collide::method_table()[c.method];
-    collide::Result expected;
-    method.make()->detect(pair_world().positions(), c.settings, alone(), expected);
+    const collide::Result expected = detected(method, pair_world().positions(), c.settings);
     const compare::SweepRow& row = report.rows[i];
     ASSERT_TRUE(row.checked) << method.key;
     EXPECT_EQ(row.not_run, "");
