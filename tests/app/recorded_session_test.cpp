@@ -96,25 +96,6 @@ TEST_F(RecordedSession, ForgetsReportsOnBodiesThatAreGone) {
       << "nothing moved from the last frame to the first";
 }
 
-TEST_F(RecordedSession, ComparesEveryFrameWithBruteForce) {
-  session.comparison.choice.on = true;
-  bool touched = false;
-  for (int number = 0; number < frames; ++number) {
-    simulation.rewind_to(number);
-    ASSERT_TRUE(wait([&] { return session.comparison.report().id == simulation.revision(); })) << number;
-    const compare::CompareReport& report = session.comparison.report();
-    EXPECT_EQ(report.frame, number);
-    EXPECT_EQ(report.true_contacts, true_contacts(session.world()).size());
-    for (std::size_t method = 0; method < report.rows.size(); ++method) {
-      if (collide::method_table()[method].exact) {
-        EXPECT_EQ(report.rows[method].recall, 1.0) << method;
-      }
-    }
-    touched = touched || report.true_contacts > 0;
-  }
-  EXPECT_TRUE(touched);
-}
-
 TEST_F(RecordedSession, KeepsTheCurvesOfALoopInOrder) {
   run(session, 3 * frames + 3);
   const TimeSeries& contacts = simulation.history.contacts;

@@ -82,12 +82,16 @@ TEST(SceneCommands, QuoteNamesForAShell) {
   EXPECT_EQ(session::shell_word(""), "''");
 }
 
-TEST(SceneCommands, ReproduceASavedScene) {
+TEST(SceneCommands, ReproduceASceneSavedWithTheSettingsInUse) {
   const TemporaryFolder folder;
   Session session(touching_pair(), {}, 1);
   const auto file = folder.path() / "it's saved.toml";
   const softbody::View view = changed({}).view;
-  session.settings.set_method("multi-level-sb");
+  session.simulation.change_scene("Settings", [](softbody::Scene& s) {
+    s = changed(s);
+    s.solids[0].enabled = false;
+  });
+  ASSERT_EQ(session.simulation.notice.text(), "");
   ASSERT_EQ(session.scenes.save(file, view), "");
   EXPECT_EQ(session.simulation.loaded.file.name(), file.string());
   softbody::Scene used = session.world().scene();
@@ -96,6 +100,8 @@ TEST(SceneCommands, ReproduceASavedScene) {
   softbody::Scene made = cli::open(parse(session::demo_command(session.simulation.loaded.file.name(), used, {}))).scene;
   made.key = used.key;
   EXPECT_TRUE(made == used);
+  EXPECT_EQ(made.method, changed({}).method);
+  EXPECT_FALSE(made.solids[0].enabled);
 }
 
 TEST(SceneCommands, ReproduceWhatOptionsCanMake) {
@@ -108,29 +114,6 @@ TEST(SceneCommands, ReproduceWhatOptionsCanMake) {
   used = touching_pair();
   used.bodies.pop_back();
   EXPECT_FALSE(session::options_make(used, named));
-}
-
-TEST(SaveScene, WritesTheSettingsInUse) {
-  const TemporaryFolder folder;
-  Session session(touching_pair(), {}, 1);
-  session.settings.set_method("multi-level-sb");
-  const collide::Settings settings{
-      .tolerance = 0.07f, .self_collision = false, .levels = 6, .buckets = 101, .cell_size = glm::vec3(0.4f)};
-  std::vector<softbody::Solid> solids = session.world().scene().solids;
-  solids[0].enabled = false;
-  session.simulation.change_scene("Settings", [&](softbody::Scene& s) {
-    s.collision = settings;
-    s.contact_surface = softbody::ContactSurface::surfaces;
-    s.solids = solids;
-  });
-  ASSERT_EQ(session.scenes.save(folder.path() / "a.toml", {.distance = 3}), "");
-  const softbody::Scene saved = softbody::load_scene(folder.path() / "a.toml");
-  EXPECT_EQ(saved.method, "multi-level-sb");
-  EXPECT_EQ(saved.contact_surface, softbody::ContactSurface::surfaces);
-  EXPECT_TRUE(saved.collision == settings);
-  EXPECT_TRUE(saved.solids == solids) << "also that which is not enabled";
-  EXPECT_EQ(saved.view.distance, 3);
-  EXPECT_EQ(saved.bodies.size(), 2u);
 }
 
 TEST(SaveScene, WritesAddedBodiesWithTheirFrames) {
