@@ -47,23 +47,19 @@ fs::path absolute_folder(const std::string& folder) {
 }  // namespace
 
 std::string curves_csv(const Simulation& simulation, const LiveComparison& comparison) {
-  const std::vector<Curve> curves = curves_of(simulation, comparison);
-  // A frame may have several values, if the world was paused or went back. The last one counts.
-  std::map<int, std::vector<std::optional<float>>> rows;
-  for (std::size_t c = 0; c < curves.size(); ++c)
-    for (std::size_t i = 0; i < curves[c].series.size(); ++i) {
-      auto& row = rows[curves[c].series.frame(i)];
-      row.resize(curves.size());
-      row[c] = curves[c].series[i];
-    }
   std::vector<std::string> columns{"frame"};
-  for (const Curve& curve : curves) columns.emplace_back(curve.name);
-  Table table(columns);
-  for (const auto& [frame, values] : rows) {
-    TableRow row{{"frame", frame}};
-    for (std::size_t c = 0; c < curves.size(); ++c) row.push_back({columns[c + 1], values[c]});
-    table.add(row);
+  std::map<int, TableRow> rows;
+  for (const auto& [name, series] : curves_of(simulation, comparison)) {
+    columns.push_back(name);
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      TableRow& row = rows.try_emplace(series.frame(i), TableRow{{"frame", series.frame(i)}}).first->second;
+      // A frame may have several values, if the world was paused or went back. The last one counts.
+      if (row.back().column == name) row.pop_back();
+      row.push_back({name, series[i]});
+    }
   }
+  Table table(std::move(columns));
+  for (const auto& [frame, row] : rows) table.add(row);
   return table.csv();
 }
 

@@ -58,7 +58,7 @@ void Session::exchange() {
   const int rests = late || simulation.step_ms() > 500 * world().frame_time() ? 10 : 2;
   comparison.exchange(world(), simulation.revision(), simulation.world_number(), rests);
   surfaces.exchange(world(), simulation.before_last_step().simulated(), simulation.revision(), rests);
-  if (auto state = sweep_worker.take()) sweep_ = std::move(*state);
+  sweep_worker.update();
   // With its first report of another world the comparison has let go of the one before; all others did so earlier.
   if (has_left_world_ && comparison.report().id != 0) {
     return_freed_memory();

@@ -59,8 +59,7 @@ class Session : private SimulationObserver {
   /// settings change the one that is shown, which must be simulated. Nothing: there is none.
   void choose_ghost(const std::optional<softbody::IntegratorChoice>& choice);
   const Ghost& ghost() const { return ghost_; }
-  /// The latest of sweep_worker.
-  const SweepState& sweep() const { return sweep_; }
+  const SweepState& sweep() const { return sweep_worker.state(); }
 
  private:
   double stepped() override;
@@ -73,7 +72,6 @@ class Session : private SimulationObserver {
   void notify(const std::string& problem);
 
   Ghost ghost_;
-  SweepState sweep_;
   bool has_left_world_ = false;  // whose memory is not yet given back
 };
 

@@ -114,13 +114,11 @@ float Simulation::between() const {
   return world().all_at_rest() ? 1.0f : static_cast<float>(clock.fraction(world().frame_time()));
 }
 
-const std::string& Simulation::caption() const {
-  static const std::string none;
-  const std::string* text = &none;
-  if (!as_scripted_) return none;
+std::string Simulation::caption() const {
+  std::string text;
   for (const softbody::Caption& caption : world().scene().captions)
-    if (caption.frame <= world().frame()) text = &caption.text;
-  return *text;
+    if (as_scripted_ && caption.frame <= world().frame()) text = caption.text;
+  return text;
 }
 
 /// Returns false, with a notice, if `action` throws. What a world refuses changes nothing; all else (too little memory

@@ -84,7 +84,7 @@ class Simulation {
   float between() const;
   compare::DrawnMeshes drawn() const { return {world(), before_last_step_, between()}; }
   /// The scene's sentence for this moment. Empty if there is none, or the user changed bodies.
-  const std::string& caption() const;
+  std::string caption() const;
   /// Changes whenever positions or contacts may have changed: not with steps of a world at rest.
   std::uint64_t revision() const { return revision_; }
   /// Returns true if steps would change nothing but the number of the frame: all bodies have been at rest for as long

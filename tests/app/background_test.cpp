@@ -38,7 +38,7 @@ class BackgroundTest : public testing::TestWithParam<Runs> {
 };
 INSTANTIATE_TEST_SUITE_P(Runs, BackgroundTest, testing::Values(Runs::on_thread, Runs::in_slices));
 
-TEST_P(BackgroundTest, AnswersEachQuestionOnce) {
+TEST_P(BackgroundTest, AnswersEachQuestionOnceAndInTheirOrder) {
   EXPECT_TRUE(count.ready(0));
   EXPECT_FALSE(count.has_work());
   EXPECT_FALSE(count.wait()) << "there is no question";
@@ -54,13 +54,8 @@ TEST_P(BackgroundTest, AnswersEachQuestionOnce) {
     EXPECT_FALSE(count.has_work());
     EXPECT_TRUE(count.ready(0));
   }
-}
-
-TEST_P(BackgroundTest, AnswersWaitingQuestionsInTheirOrder) {
   for (const int question : {5, 3, 4}) count.offer(question);
-  const auto answer = count.wait();
-  ASSERT_TRUE(answer);
-  EXPECT_EQ(answer->question, 4) << "the latest";
+  EXPECT_EQ(count.wait()->question, 4) << "the last of those that waited";
   EXPECT_EQ(count.waiting(), 0u);
 }
 
@@ -104,7 +99,7 @@ TEST_P(BackgroundTest, CanBeDestroyedWhileItWorks) {
   }
 }
 
-TEST(Background, DoesOnePartInAnEmptySlice) {
+TEST(Background, DoesOnePartInAnEmptySliceAndAllInALongOne) {
   Background<Count> count(Runs::in_slices, 0);
   count.offer(2);
   for (int i = 1; i <= 2; ++i) {
@@ -118,15 +113,8 @@ TEST(Background, DoesOnePartInAnEmptySlice) {
   ASSERT_TRUE(answer);
   EXPECT_TRUE(answer->whole);
   EXPECT_FALSE(count.take({}));
-}
-
-TEST(Background, DoesAllPartsInALongSlice) {
-  Background<Count> count(Runs::in_slices, 0);
   for (const int question : {5, 3}) count.offer(question);
-  const auto answer = count.take(Background<Count>::Clock::duration::max() / 4);
-  ASSERT_TRUE(answer);
-  EXPECT_TRUE(answer->whole);
-  EXPECT_EQ(answer->question, 3);
+  EXPECT_EQ(count.take(Background<Count>::Clock::duration::max() / 4)->question, 3) << "all parts in a long slice";
 }
 
 }  // namespace

@@ -11,20 +11,15 @@ namespace app {
 namespace {
 
 std::uint64_t tests_of(const softbody::BodiesInMotion& world, std::string_view method) {
-  collide::Workers alone(1);
-  collide::Result result;
-  collide::find_method(method)->make()->detect(world.positions(), world.collision(), alone, result);
-  return result.counters.pair_tests;
+  return detected(*collide::find_method(method), world.positions(), world.collision()).counters.pair_tests;
 }
 
 TEST(CostModel, IsExactForMethodsWithoutAHashTable) {
   softbody::World world(touching_pair(), {});
-  collide::Settings settings = world.collision();
   for (const bool self : {true, false}) {
-    settings.self_collision = self;
-    softbody::change(world, [&](softbody::Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
+    softbody::change(world, [self](softbody::Scene& s) { s.collision.self_collision = self; });
     compare::CostModel cost_model;
-    cost_model.begin(world.positions(), settings, 1);
+    cost_model.begin(world.positions(), world.collision(), 1);
     for (const char* key : {"brute-force", "bounding-box"}) {
       EXPECT_EQ(cost_model.of(compare::method_index(key)).pair_tests, tests_of(world, key)) << key << self;
     }
@@ -61,12 +56,9 @@ TEST(CostModel, LetsSearchesByPlaceRunWhereEachBodyIsLarge) {
   EXPECT_GT(cost_model.of(compare::method_index("bounding-box")).cost(), compare::Comparison::default_budget);
   for (const collide::Method& method : collide::method_table()) {
     if (method.group != collide::MethodGroup::sorted && method.group != collide::MethodGroup::trees) continue;
-    collide::Workers alone(1);
-    collide::Result result;
-    method.make()->detect(frame, settings, alone, result);
     const std::uint64_t predicted = cost_model.of(compare::method_index(method.key)).cost();
     EXPECT_LT(predicted, compare::Comparison::default_budget / 100) << method.key;
-    EXPECT_GT(4 * predicted, result.counters.pair_tests) << method.key;
+    EXPECT_GT(4 * predicted, detected(method, frame, settings).counters.pair_tests) << method.key;
   }
   settings.tolerance = 10;  // then all pairs are nearby
   cost_model.begin(frame, settings, 1);

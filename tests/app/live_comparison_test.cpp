@@ -2,17 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <thread>
-
 #include "softbody/world/world.h"
 #include "tests/app/scenes.h"
 #include "tests/support/change.h"
 
 namespace app {
 namespace {
-
-using namespace std::chrono_literals;
 
 /// A comparison beside a world that stands still.
 struct Rig {
@@ -22,18 +17,16 @@ struct Rig {
 
   Rig() { comparison.restart(world, revision); }
 
-  void change(auto setting) {
-    setting(world);
+  void change(auto edit) {
+    softbody::change(world, edit);
     comparison.detection_changed(world, ++revision);
   }
   /// Exchanges until `done`; false if that takes too long.
   bool wait(auto done) {
-    for (const auto end = std::chrono::steady_clock::now() + 60s; std::chrono::steady_clock::now() < end;) {
+    return wait_until([&] {
       comparison.exchange(world, revision, 0, 2);
-      if (done()) return true;
-      std::this_thread::sleep_for(1ms);
-    }
-    return false;
+      return done();
+    });
   }
   bool wait_for_recall() {
     return wait([this] { return comparison.report().id == revision; });
@@ -46,16 +39,12 @@ TEST(LiveComparison, MeasuresTheRecallOfAWorldThatStandsStillAfterEveryChange) {
   ASSERT_TRUE(rig.wait_for_recall());
   EXPECT_EQ(rig.comparison.driver_row()->recall, 1.0);
   EXPECT_EQ(rig.comparison.recall().size(), 1u);
-  rig.change([](softbody::World& world) {
-    softbody::change(world, [&](softbody::Scene& s) { s.method = "multi-level-sb"; });
-  });
+  rig.change([](softbody::Scene& s) { s.method = "multi-level-sb"; });
   EXPECT_EQ(rig.comparison.driver_row(), nullptr) << "what is known of another method says nothing of this one";
   EXPECT_EQ(rig.comparison.recall().size(), 0u);
-  rig.change([](softbody::World& world) {
-    collide::Settings settings = world.collision();
-    settings.cell_size = glm::vec3(0.13f);
-    settings.buckets = 1'000'003;
-    softbody::change(world, [&](softbody::Scene& s) { s.collision = settings; });
+  rig.change([](softbody::Scene& s) {
+    s.collision.cell_size = glm::vec3(0.13f);
+    s.collision.buckets = 1'000'003;
   });
   ASSERT_TRUE(rig.wait_for_recall());
   EXPECT_LT(rig.comparison.driver_row()->recall, 1.0);
@@ -71,14 +60,9 @@ TEST(LiveComparison, TimesAllMethodsAgainAndAgainWhileAskedTo) {
   const TimeSeries& times = rig.comparison.method_ms()[compare::method_index("grid-hash")];
   ASSERT_TRUE(rig.wait([&] { return times.size() >= 3; }));
   EXPECT_GT(times.median(15), 0.0f);
-  rig.change(
-      [](softbody::World& world) { softbody::change(world, [&](softbody::Scene& s) { s.method = "bounding-box"; }); });
+  rig.change([](softbody::Scene& s) { s.method = "bounding-box"; });
   EXPECT_GE(times.size(), 3u) << "another driver changes no times";
-  rig.change([](softbody::World& world) {
-    collide::Settings settings = world.collision();
-    settings.levels = 5;
-    softbody::change(world, [&](softbody::Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
-  });
+  rig.change([](softbody::Scene& s) { s.collision.levels = 5; });
   EXPECT_EQ(times.size(), 0u) << "other settings, other times";
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "tests/app/recorded_bodies.h"
+#include "tests/app/scenes.h"
 
 namespace app {
 namespace {
@@ -22,17 +23,14 @@ class PlayerTest : public testing::Test {
     EXPECT_TRUE(std::ranges::equal(at.x, recorded->x) && std::ranges::equal(at.y, recorded->y) &&
                 std::ranges::equal(at.z, recorded->z))
         << number;
-    collide::Workers alone(1);
-    collide::Result expected;
-    collide::find_method("brute-force")->make()->detect(at, player.collision(), alone, expected);
-    EXPECT_EQ(player.detection().contacts, expected.contacts) << number;
+    EXPECT_EQ(player.detection().contacts, true_contacts(player)) << number;
   }
 
   std::shared_ptr<RecordedBalls> balls = std::make_shared<RecordedBalls>(8);
   session::Player player{balls, opened(balls).scene, 1};
 };
 
-TEST_F(PlayerTest, ShowsFrameAfterFrameAndBeginsAgain) {
+TEST_F(PlayerTest, ShowsFrameAfterFrameOrAnyFrame) {
   expect_frame(0);
   bool touched = false;
   for (int i = 1; i < 20; ++i) {
@@ -42,9 +40,6 @@ TEST_F(PlayerTest, ShowsFrameAfterFrameAndBeginsAgain) {
   }
   EXPECT_TRUE(touched);
   EXPECT_NEAR(player.last_step().time, 19.0 / 60, 1e-9) << "time goes on";
-}
-
-TEST_F(PlayerTest, ShowsAnyFrame) {
   for (const int frame : {5, 2, 7, 0, 4}) {
     player.show(frame);
     expect_frame(frame);
@@ -67,8 +62,6 @@ TEST_F(PlayerTest, StaysAtItsFrameIfTheNextCannotBeRead) {
   expect_frame(2);
   EXPECT_THROW(player.show(3), softbody::SceneError);
   expect_frame(2);
-  player.show(4);
-  expect_frame(4);
 }
 
 TEST_F(PlayerTest, HasTheCellSizeOfItsFirstFrameWhateverItShows) {

@@ -3,6 +3,7 @@
 
 #include "app/window/preferences.h"
 #include "tests/app/scenes.h"
+#include "tests/full_disk.h"
 #include "tests/temporary_folder.h"
 
 namespace app {
@@ -71,16 +72,12 @@ TEST(Preferences, OpenLessAtTheFirstStartWhereSpaceIsShort) {
   EXPECT_FALSE(usual.hash_table);
 }
 
-TEST(PreferencesFile, KnowsTheFirstStart) {
-  const TemporaryFolder folder;
-  EXPECT_TRUE(window::PreferencesFile(folder.path() / "preferences.toml").is_new());
-  EXPECT_FALSE(window::PreferencesFile(folder.write("preferences.toml", "error_time = true\n")).is_new());
-}
-
 TEST(PreferencesFile, IgnoresUnknownKeys) {
   const TemporaryFolder folder;
+  EXPECT_TRUE(window::PreferencesFile(folder.path() / "preferences.toml").is_new());
   window::PreferencesFile preferences(folder.write(
       "preferences.toml", "width = 500\ncolour = \"red\"\n[show]\nghosts = true\n[methods]\noracle = true\n"));
+  EXPECT_FALSE(preferences.is_new());
   EXPECT_EQ(preferences.stored().size.x, 500);
   EXPECT_EQ(preferences.store(preferences.stored(), 0), "");
 }
@@ -90,6 +87,14 @@ TEST(PreferencesFile, ReportsOnceThatItCannotBeWritten) {
   window::PreferencesFile preferences(folder.write("in the way", "") / "preferences.toml");
   EXPECT_NE(preferences.store(changed(), 0, true).find("cannot be kept"), std::string::npos);
   EXPECT_EQ(preferences.store(changed(), 10, true), "");
+  const auto file = folder.write("preferences.toml", "panel = false\n");
+  window::PreferencesFile kept(file);
+  {
+    const tests::FullDisk full(16);  // bytes
+    EXPECT_NE(kept.store(changed(), 0, true).find("cannot be written"), std::string::npos);
+  }
+  const window::Preferences after = window::PreferencesFile(file).stored();
+  EXPECT_TRUE(!after.shown.panel && after.slow_factor == window::Preferences().slow_factor) << "as they were";
 }
 
 TEST(Preferences, AreReadFromTheWindowAndAppliedToIt) {

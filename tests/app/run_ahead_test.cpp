@@ -8,10 +8,6 @@
 namespace app {
 namespace {
 
-void advance(Session& session, int frames) {
-  for (int i = 0; i < frames; ++i) session.advance(tick);
-}
-
 TEST(RunAhead, StopsAtTheFrameThatItLooksFor) {
   const auto to_frame = [](int frame) {
     return [frame](const softbody::BodiesInMotion& world) { return world.frame() >= frame; };
@@ -22,7 +18,7 @@ TEST(RunAhead, StopsAtTheFrameThatItLooksFor) {
   EXPECT_FALSE(session.run_ahead.active()) << "this frame";
   EXPECT_TRUE(session.simulation.clock.paused);
   session.run_ahead.start(to_frame(40), 1);
-  advance(session, 100);
+  run(session, 100);
   EXPECT_FALSE(session.run_ahead.active());
   EXPECT_TRUE(session.simulation.clock.paused);
   EXPECT_EQ(session.simulation.world().frame(), 40);
@@ -36,15 +32,15 @@ TEST(RunAhead, EndsWhereItFindsNothing) {
   const auto never = [](const softbody::BodiesInMotion&) { return false; };
   Session session(touching_pair(), {}, 1);
   session.run_ahead.start(never, 0.5);
-  advance(session, 100);
+  run(session, 100);
   EXPECT_TRUE(session.simulation.clock.paused) << "out of time";
   EXPECT_NEAR(session.simulation.world().frame(), 30, 1);
   session.run_ahead.start(never, 0.5);
   session.simulation.clock.paused = true;
   EXPECT_FALSE(session.run_ahead.active()) << "paused";
-  advance(session, 1);
+  run(session, 1);
   session.simulation.clock.paused = false;
-  advance(session, 2);
+  run(session, 2);
   EXPECT_FALSE(session.run_ahead.active()) << "goes on as usual";
   EXPECT_NEAR(session.simulation.world().frame(), 32, 1);
   session.run_ahead.start(never, 0.5);

@@ -8,6 +8,7 @@
 #include "app/files/inputs.h"
 #include "app/session/session.h"
 #include "tests/app/scenes.h"
+#include "tests/full_disk.h"
 #include "tests/temporary_folder.h"
 
 namespace app {
@@ -81,12 +82,16 @@ TEST(SceneCommands, QuoteNamesForAShell) {
   EXPECT_EQ(session::shell_word(""), "''");
 }
 
-TEST(SceneCommands, ReproduceASavedScene) {
+TEST(SceneCommands, ReproduceASceneSavedWithTheSettingsInUse) {
   const TemporaryFolder folder;
   Session session(touching_pair(), {}, 1);
   const auto file = folder.path() / "it's saved.toml";
   const softbody::View view = changed({}).view;
-  session.settings.set_method("multi-level-sb");
+  session.simulation.change_scene("Settings", [](softbody::Scene& s) {
+    s = changed(s);
+    s.solids[0].enabled = false;
+  });
+  ASSERT_EQ(session.simulation.notice.text(), "");
   ASSERT_EQ(session.scenes.save(file, view), "");
   EXPECT_EQ(session.simulation.loaded.file.name(), file.string());
   softbody::Scene used = session.world().scene();
@@ -95,6 +100,8 @@ TEST(SceneCommands, ReproduceASavedScene) {
   softbody::Scene made = cli::open(parse(session::demo_command(session.simulation.loaded.file.name(), used, {}))).scene;
   made.key = used.key;
   EXPECT_TRUE(made == used);
+  EXPECT_EQ(made.method, changed({}).method);
+  EXPECT_FALSE(made.solids[0].enabled);
 }
 
 TEST(SceneCommands, ReproduceWhatOptionsCanMake) {
@@ -107,29 +114,6 @@ TEST(SceneCommands, ReproduceWhatOptionsCanMake) {
   used = touching_pair();
   used.bodies.pop_back();
   EXPECT_FALSE(session::options_make(used, named));
-}
-
-TEST(SaveScene, WritesTheSettingsInUse) {
-  const TemporaryFolder folder;
-  Session session(touching_pair(), {}, 1);
-  session.settings.set_method("multi-level-sb");
-  session.simulation.change_scene("Contact",
-                                  [&](softbody::Scene& s) { s.contact_surface = softbody::ContactSurface::surfaces; });
-  collide::Settings settings = session.world().collision();
-  settings = {.tolerance = 0.07f, .self_collision = false, .levels = 6, .buckets = 101, .cell_size = glm::vec3(0.4f)};
-  std::vector<softbody::Solid> solids = session.world().scene().solids;
-  solids[0].enabled = false;
-  session.settings.set_solid(0, solids[0]);
-  session.simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
-  ASSERT_EQ(session.scenes.save(folder.path() / "a.toml", {.distance = 3}), "");
-  const softbody::Scene saved = softbody::load_scene(folder.path() / "a.toml");
-  EXPECT_EQ(saved.method, "multi-level-sb");
-  EXPECT_EQ(saved.contact_surface, softbody::ContactSurface::surfaces);
-  EXPECT_TRUE(saved.collision == settings);
-  EXPECT_TRUE(saved.collision.cell_size);
-  EXPECT_TRUE(saved.solids == solids) << "also that which is not enabled";
-  EXPECT_EQ(saved.view.distance, 3);
-  EXPECT_EQ(saved.bodies.size(), 2u);
 }
 
 TEST(SaveScene, WritesAddedBodiesWithTheirFrames) {
@@ -162,21 +146,22 @@ TEST(SaveScene, WritesAddedBodiesWithTheirFrames) {
   EXPECT_EQ(session.scenes.with_added_bodies().bodies.size(), begin);
 }
 
-TEST(Session, KeepsTheIntegratorAtAReset) {
-  Session session(touching_pair(), {}, 1);
-  session.settings.set_integrator({"xpbd", 7});
-  session.simulation.reset();
-  EXPECT_EQ(session.simulated()->integrator_choice(), (softbody::IntegratorChoice{"xpbd", 7}));
-}
-
 TEST(SaveScene, ReportsErrorsAndWritesNothing) {
   const TemporaryFolder folder;
   Session session(touching_pair(), {}, 1);
-  EXPECT_NE(session.scenes.save(folder.path() / "a.txt", {}).find(".toml"), std::string::npos);
-  const std::string problem = session.scenes.save(folder.path() / "none" / "a.toml", {});
-  EXPECT_NE(problem.find("cannot be written"), std::string::npos) << problem;
+  const auto expect_problem = [&](const std::filesystem::path& file, const std::string& says) {
+    const std::string problem = session.scenes.save(file, {});
+    EXPECT_NE(problem.find(says), std::string::npos) << problem;
+    EXPECT_EQ(session.simulation.loaded.file.name(), "pair");
+  };
+  expect_problem(folder.path() / "a.txt", ".toml");
+  expect_problem(folder.path() / "none" / "a.toml", "cannot be written");
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
-  EXPECT_EQ(session.simulation.loaded.file.name(), "pair");
+  const auto file = folder.write("a.toml", "saved before");
+  const tests::FullDisk full(16);  // bytes
+  expect_problem(file, "a.toml: cannot be written: File too large");
+  EXPECT_EQ(std::filesystem::file_size(file), std::string_view("saved before").size());
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
   EXPECT_FALSE(session.simulation.clock.paused);
 }
 

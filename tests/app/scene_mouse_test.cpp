@@ -12,7 +12,6 @@
 #include "app/window/scene_mouse.h"
 #include "softbody/model/body_model.h"
 #include "tests/app/hands.h"
-#include "tests/support/change.h"
 #include "tests/support/world_test_access.h"
 
 namespace app {
@@ -31,7 +30,7 @@ glm::vec2 pixel_of(const engine::Camera& camera, const glm::vec3& point) {
   return glm::vec2(*camera.project(point, size));
 }
 
-/// The first triangle that the ray hits, found by Cramer's rule in double.
+/// The first triangle that a ray hits.
 struct Nearest {
   double distance = std::numeric_limits<double>::infinity();
   softbody::BodyId body = 0;
@@ -83,15 +82,12 @@ TEST(Pick, FindsWhatBruteForceFinds) {
 }
 
 TEST(Pick, IgnoresBodiesBehindASolid) {
-  softbody::Scene scene = without_solids();
-  softbody::World bare(scene, {});
   const engine::Ray ray{{-0.51f, 3.03f, 10}, {0, 0, -1}};
-  ASSERT_TRUE(render::pick(ray, bare, {.now = bare.positions()}));
+  softbody::Scene scene = without_solids();
   for (const double z : {5.0, -5.0}) {
-    softbody::Scene solids;
-    add_solid(solids, {softbody::SolidSphere{.centre = {-0.5, 3, z}, .radius = 1}});
-    softbody::change(bare, [&](softbody::Scene& s) { s.solids = solids.solids; });
-    EXPECT_EQ(render::pick(ray, bare, {.now = bare.positions()}).has_value(), z < 0);
+    scene.solids = {{softbody::SolidSphere{.centre = {-0.5, 3, z}, .radius = 1}}};
+    const softbody::World world(scene, {});
+    EXPECT_EQ(render::pick(ray, world, {.now = world.positions()}).has_value(), z < 0);
   }
 }
 
@@ -125,6 +121,13 @@ class SceneMouseTest : public testing::Test {
   void button(std::size_t which, bool down) {
     input.down[which] = down;
     frame();
+  }
+  /// Moves the mouse with a button pressed, and waits for the camera.
+  void drag(const glm::vec2& way, std::size_t which = 0) {
+    button(which, true);
+    move(input.at + way);
+    button(which, false);
+    camera.finish_glide();
   }
   glm::vec2 body_pixel(softbody::BodyId id) { return pixel_of(camera, glm::vec3(centre(session.world(), id))); }
 
@@ -198,9 +201,7 @@ TEST_F(SceneMouseTest, ChangesNothingByAClickOnABody) {
   session.simulation.undo();
   ASSERT_TRUE(session.simulation.can_redo());
   move(body_pixel(1));
-  button(0, true);
-  move(input.at + glm::vec2(2, 1));
-  button(0, false);
+  drag({2, 1});
   EXPECT_EQ(session.bodies.selected(), 1u);
   EXPECT_FALSE(session.simulation.can_undo());
   EXPECT_TRUE(session.simulation.can_redo());
@@ -266,9 +267,7 @@ TEST_F(SolidDrag, MovesEachKindOfSolidInThePlaneThatFacesTheCamera) {
 TEST_F(SolidDrag, ChangesNothingByAClick) {
   session.bodies.select(0);
   move(pixel_of(camera, middles[0]));
-  button(0, true);
-  move(input.at + glm::vec2(2, 1));
-  button(0, false);
+  drag({2, 1});
   EXPECT_EQ(ui.solid, 0u);
   EXPECT_EQ(place(0), glm::dvec3(-1.5, 1.5, 0));
   EXPECT_FALSE(session.simulation.can_undo());
@@ -282,10 +281,7 @@ TEST_F(SolidDrag, LeavesTheGroundAndSolidsThatAreSwitchedOff) {
     const std::vector<softbody::Solid> before = session.world().scene().solids;
     const bool could_undo = session.simulation.can_undo();
     const float azimuth = camera.orbit().azimuth;
-    button(0, true);
-    move(input.at + glm::vec2(60, 0));
-    button(0, false);
-    camera.finish_glide();
+    drag({60, 0});
     EXPECT_NE(camera.orbit().azimuth, azimuth);
     EXPECT_TRUE(session.world().scene().solids == before);
     EXPECT_EQ(session.simulation.can_undo(), could_undo);
@@ -331,15 +327,11 @@ TEST_F(SceneMouseTest, OrbitsByADragOfTheBackgroundAndDeselectsByAClick) {
   move({5, 5});
   EXPECT_FALSE(mouse.can_drag());
   const float azimuth = camera.orbit().azimuth;
-  button(0, true);
-  move({205, 5});
-  button(0, false);
-  camera.finish_glide();
+  drag({200, 0});
   EXPECT_GT(std::abs(camera.orbit().azimuth - azimuth), 0.1f);
   EXPECT_EQ(session.bodies.selected(), 0u);  // that was a drag
   move({5, 5});
-  button(0, true);
-  button(0, false);
+  drag({0, 0});
   EXPECT_FALSE(session.bodies.selected());
 }
 
@@ -390,9 +382,7 @@ TEST_F(SceneMouseTest, FocusesOnADoubleClickedBody) {
   session.simulation.clock.paused = true;
   move(body_pixel(1));
   input.double_click = true;
-  button(0, true);
-  button(0, false);
-  camera.finish_glide();
+  drag({0, 0});
   EXPECT_LT(glm::distance(glm::dvec3(camera.orbit().target), centre(session.world(), 1)), 0.05);
   EXPECT_LT(camera.orbit().distance, 5);
   EXPECT_FALSE(session.simulated()->grabbed());
@@ -401,18 +391,13 @@ TEST_F(SceneMouseTest, FocusesOnADoubleClickedBody) {
 TEST_F(SceneMouseTest, PansByTheOtherButtonsAndIgnoresThePanelsMouse) {
   move(body_pixel(0));
   const glm::vec3 target = camera.orbit().target;
-  button(1, true);
-  move(input.at + glm::vec2(50, 0));
-  button(1, false);
-  camera.finish_glide();
+  drag({50, 0}, 1);
   EXPECT_GT(glm::distance(camera.orbit().target, target), 0.05f);
   const engine::Orbit before = camera.orbit();
   input.over_scene = false;
   input.wheel = 3;
   move(body_pixel(0));
-  button(0, true);
-  move(input.at + glm::vec2(50, 0));
-  camera.finish_glide();
+  drag({50, 0});
   EXPECT_EQ(camera.orbit().distance, before.distance);
   EXPECT_EQ(camera.orbit().azimuth, before.azimuth);
   EXPECT_FALSE(session.bodies.selected());

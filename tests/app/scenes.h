@@ -1,8 +1,11 @@
 #pragma once
 // Small scenes for the demo's tests, in motion from the first frame.
 
+#include <chrono>
 #include <limits>
+#include <thread>
 
+#include "collide/methods.h"
 #include "tests/solids.h"
 
 namespace app {
@@ -10,6 +13,35 @@ namespace app {
 using namespace tests;
 
 inline constexpr double tick = 1.0001 / 60;  // s, a little more than a frame
+
+/// Lets a session or a simulation go on for so many pictures, one a frame.
+void run(auto& shown, int pictures) {
+  for (int i = 0; i < pictures; ++i) shown.advance(tick);
+}
+
+/// Asks `done` again and again, because a thread works meanwhile. Returns false if it is not true within two minutes.
+bool wait_until(const auto& done) {
+  using namespace std::chrono;
+  for (const auto end = steady_clock::now() + minutes(2); steady_clock::now() < end;) {
+    if (done()) return true;
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+  return false;
+}
+
+/// Returns what a new detector of a method finds in a frame.
+inline collide::Result detected(const collide::Method& method, const collide::Frame& frame,
+                                const collide::Settings& settings) {
+  collide::Workers alone(1);
+  collide::Result result;
+  method.make()->detect(frame, settings, alone, result);
+  return result;
+}
+
+/// Returns the contacts that brute force finds in the present frame of a world.
+std::vector<collide::Contact> true_contacts(const auto& world) {
+  return detected(*collide::find_method(collide::reference_method), world.positions(), world.collision()).contacts;
+}
 
 /// Two bodies side by side in contact, in the air above a solid sphere and the ground, and a dropper.
 inline softbody::Scene touching_pair() {

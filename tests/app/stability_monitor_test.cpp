@@ -11,22 +11,31 @@
 namespace app {
 namespace {
 
-/// A world that is monitored for ten frames, and a change that makes it blow up in the next one.
+/// A world that is monitored.
 struct Monitored {
-  softbody::World world = [] {
-    softbody::Scene scene = touching_pair();
-    scene.materials[0][softbody::StructuralSprings::stiffness] = 1e5;
-    return softbody::World(scene, {});
-  }();
+  softbody::World world;
   session::StabilityMonitor monitor;
 
-  Monitored() {
-    for (int i = 0; i < 10; ++i) step();
+  Monitored(const softbody::Scene& scene, const softbody::IntegratorChoice& integrator)
+      : world(scene, {.integrator = integrator}) {}
+  void step(int frames = 1) {
+    for (int i = 0; i < frames; ++i) {
+      monitor.before_step(world);
+      world.step();
+      monitor.after_step(world, true);
+    }
   }
-  void step() {
-    monitor.before_step(world);
-    world.step();
-    monitor.after_step(world, true);
+  const session::StepMargin& margin() const { return monitor.margin(); }
+  const char* light() const { return ui::status_light(margin()).name; }
+};
+
+/// A world after ten frames, and a change that makes it blow up in the next one.
+struct Stiff : Monitored {
+  Stiff() : Monitored(scene(), {}) { step(10); }
+  static softbody::Scene scene() {
+    softbody::Scene scene = touching_pair();
+    scene.materials[0][softbody::StructuralSprings::stiffness] = 1e5;
+    return scene;
   }
   void blow_up() {
     ASSERT_FALSE(monitor.blow_up());
@@ -40,13 +49,13 @@ struct Monitored {
 };
 
 TEST(StabilityMonitor, OffersTheFrameBeforeAChangeThatBlewUpAtOnce) {
-  Monitored w;
+  Stiff w;
   w.blow_up();
   EXPECT_EQ(w.monitor.last_good_frame(), 10);
 }
 
 TEST(StabilityMonitor, OffersNoGoodFrameOfTheFuture) {
-  Monitored w;
+  Stiff w;
   w.world.restore(w.monitor.past().snapshots().front());
   w.monitor.went_back(w.world);
   const int now = w.world.frame();
@@ -55,7 +64,7 @@ TEST(StabilityMonitor, OffersNoGoodFrameOfTheFuture) {
 }
 
 TEST(StabilityMonitor, ReportsASecondBlowUpAfterARecovery) {
-  Monitored w;
+  Stiff w;
   w.blow_up();
   w.monitor.dismiss_blow_up();
   const int bad_frame = w.world.frame();
@@ -76,99 +85,83 @@ TEST(StabilityMonitor, ReportsASecondBlowUpAfterARecovery) {
 TEST(StabilityMonitor, KeepsALargeWorldInTheFramesInWhichItWasMeasured) {
   softbody::Scene scene = touching_pair();
   scene.bodies[0].mesh.subdivisions = 5;  // 10,242 vertices
-  softbody::World world(scene, {});
-  session::StabilityMonitor monitor;
-  for (int i = 0; i < 11; ++i) {
-    monitor.before_step(world);
-    world.step();
-    monitor.after_step(world, true);
-  }
-  EXPECT_EQ(monitor.history().total.size(), 5u);
-  EXPECT_EQ(monitor.last_good_frame(), 10);
-  for (const softbody::Snapshot& kept : monitor.past().snapshots()) EXPECT_EQ(kept.frame % 2, 0);
+  Monitored w(scene, {});
+  w.step(11);
+  EXPECT_EQ(w.monitor.history().total.size(), 5u);
+  EXPECT_EQ(w.monitor.last_good_frame(), 10);
+  for (const softbody::Snapshot& kept : w.monitor.past().snapshots()) EXPECT_EQ(kept.frame % 2, 0);
 }
 
-TEST(StepLight, IsGreenAmberAndRed) {
-  EXPECT_STREQ(ui::status_light(session::StepMargin{}).name, "Green");
-  EXPECT_STREQ(ui::status_light(session::StepMargin{10, 10, 0.1, 0.1, 0.2}).name, "Green");
-  EXPECT_STREQ(ui::status_light(session::StepMargin{9, 10, 0.1, 0.1, 0.2}).name, "Amber");
-  EXPECT_STREQ(ui::status_light(session::StepMargin{8, 10, 0.1, 0.1, 0.2}).name, "Amber");
-  EXPECT_STREQ(ui::status_light(session::StepMargin{8, 10, 0.1, 0.1, 0.1}).name, "Red");
-  EXPECT_STREQ(ui::status_light(session::StepMargin{7, 10, 0.1, 0.1, 0.2}).name, "Red");
-  EXPECT_STREQ(
-      ui::status_light(session::StepMargin{4000, 9000, 1e-6, 1e-6, 0.2, session::StepMargin::Bound::stable, 0.4}).name,
-      "Amber");
+TEST(StepLight, ComparesTheStepsTakenWithTheBoundAndItsReserve) {
+  using session::StepMargin;
+  using Bound = StepMargin::Bound;
+  struct Row {
+    StepMargin margin;
+    std::string_view light;
+  };
+  for (const auto& [margin, light] :
+       {Row{StepMargin{}, "Green"}, Row{StepMargin{10, 10, 0.1, 0.1, 0.2}, "Green"},
+        Row{StepMargin{9, 10, 0.1, 0.1, 0.2}, "Amber"}, Row{StepMargin{8, 10, 0.1, 0.1, 0.2}, "Amber"},
+        Row{StepMargin{8, 10, 0.1, 0.1, 0.1}, "Red"}, Row{StepMargin{7, 10, 0.1, 0.1, 0.2}, "Red"},
+        Row{StepMargin{4000, 9000, 1e-6, 1e-6, 0.2, Bound::stable, 0.4}, "Amber"},
+        Row{StepMargin{1, 10, 0.1, 0.01, 0.2, Bound::unconditional}, "Amber"},
+        Row{StepMargin{10, 10, 0.1, 0.1, 0.2, Bound::unconditional}, "Green"},
+        Row{StepMargin{10, 10, 0.1, 0.1, 0.2, Bound::by_damping}, "Amber"},
+        Row{StepMargin{7, 10, 0.1, 0.1, 0.2, Bound::by_damping}, "Red"}})
+    EXPECT_EQ(ui::status_light(margin).name, light) << margin.taken << " of " << margin.needed << ", " << margin.reserve;
 }
 
 TEST(StepMargin, HasTheSimulatedShareOfAFrame) {
-  softbody::World world(touching_pair(), {.integrator = {"semi-implicit-euler"}});
-  session::StabilityMonitor monitor;
-  const auto step = [&] {
-    monitor.before_step(world);
-    world.step();
-    monitor.after_step(world, false);
-  };
-  step();
-  EXPECT_EQ(monitor.margin().share, 1);
+  Monitored w(touching_pair(), {"semi-implicit-euler"});
+  w.step();
+  EXPECT_EQ(w.margin().share, 1);
   std::vector<softbody::Particle> particles;
-  for (softbody::Index i = 0; i < world.model(0).mesh.vertices.size(); ++i) particles.push_back(world.particle(0, i));
+  for (softbody::Index i = 0; i < w.world.model(0).mesh.vertices.size(); ++i)
+    particles.push_back(w.world.particle(0, i));
   particles[0].velocity.y += 1e6;
-  world.set_particles(0, particles);
-  step();
-  EXPECT_GT(monitor.margin().share, 0);
-  EXPECT_LT(monitor.margin().share, 1);
-  EXPECT_NEAR(monitor.margin().substep * monitor.margin().taken, monitor.margin().share * world.frame_time(), 1e-12);
+  w.world.set_particles(0, particles);
+  w.step();
+  EXPECT_GT(w.margin().share, 0);
+  EXPECT_LT(w.margin().share, 1);
+  EXPECT_NEAR(w.margin().substep * w.margin().taken, w.margin().share * w.world.frame_time(), 1e-12);
 }
 
-TEST(StepLight, DependsOnTheKindOfBound) {
+TEST(StepMargin, HasTheKindOfBoundOfTheIntegrator) {
   using Bound = session::StepMargin::Bound;
-  EXPECT_STREQ(ui::status_light(session::StepMargin{1, 10, 0.1, 0.01, 0.2, Bound::unconditional}).name, "Amber");
-  EXPECT_STREQ(ui::status_light(session::StepMargin{10, 10, 0.1, 0.1, 0.2, Bound::unconditional}).name, "Green");
-  EXPECT_STREQ(ui::status_light(session::StepMargin{10, 10, 0.1, 0.1, 0.2, Bound::by_damping}).name, "Amber");
-  EXPECT_STREQ(ui::status_light(session::StepMargin{7, 10, 0.1, 0.1, 0.2, Bound::by_damping}).name, "Red");
   for (const softbody::Integrator& integrator : softbody::integrators()) {
-    softbody::World world(touching_pair(), {.integrator = {std::string(integrator.key), 1}});
-    session::StabilityMonitor monitor;
-    monitor.before_step(world);
-    world.step();
-    monitor.after_step(world, true);
-    const std::string_view used = world.last_step().integrator->key;
+    Monitored w(touching_pair(), {std::string(integrator.key), 1});
+    w.step();
+    const std::string_view used = w.world.last_step().integrator->key;
     const Bound expected = used == "implicit" || used == "xpbd" ? Bound::unconditional
                            : used == "explicit-euler"           ? Bound::by_damping
                                                                 : Bound::stable;
-    EXPECT_EQ(monitor.margin().kind, expected) << integrator.key;
+    EXPECT_EQ(w.margin().kind, expected) << integrator.key;
   }
 }
 
-TEST(StepLight, ComparesTheStepWithTheBound) {
+TEST(StepMargin, HasTheStepsTakenAndNeeded) {
   for (const std::optional<int> substeps : {std::optional<int>(), std::optional(1)}) {
-    softbody::World world(touching_pair(), {.integrator = {"semi-implicit-euler", substeps}});
-    session::StabilityMonitor monitor;
-    monitor.before_step(world);
-    world.step();
-    monitor.after_step(world, true);
-    const int needed = world.last_step().needed;
+    Monitored w(touching_pair(), {"semi-implicit-euler", substeps});
+    w.step();
+    const int needed = w.world.last_step().needed;
     ASSERT_GT(needed, 1);
-    EXPECT_EQ(monitor.margin().needed, needed);
-    EXPECT_GE(monitor.margin().taken, substeps.value_or(needed));
-    EXPECT_STREQ(ui::status_light(monitor.margin()).name, substeps ? "Red" : "Green");
-    EXPECT_DOUBLE_EQ(monitor.margin().substep, world.frame_time() / monitor.margin().taken);
-    EXPECT_EQ(monitor.history().total.size(), 1u);
+    EXPECT_EQ(w.margin().needed, needed);
+    EXPECT_GE(w.margin().taken, substeps.value_or(needed));
+    EXPECT_STREQ(w.light(), substeps ? "Red" : "Green");
+    EXPECT_DOUBLE_EQ(w.margin().substep, w.world.frame_time() / w.margin().taken);
+    EXPECT_EQ(w.monitor.history().total.size(), 1u);
   }
 }
 
 TEST(StepMargin, IsZeroWhileAllBodiesSleep) {
   softbody::Scene scene = touching_pair();
   scene.sleep = {.speed = 1e3, .frames = 1};
-  softbody::World world(scene, {});
-  world.step();
-  ASSERT_TRUE(world.all_at_rest());
-  session::StabilityMonitor monitor;
-  monitor.before_step(world);
-  world.step();
-  monitor.after_step(world, true);
-  EXPECT_EQ(monitor.margin().taken, 0);
-  EXPECT_EQ(monitor.margin().needed, 0);
+  Monitored w(scene, {});
+  w.step();
+  ASSERT_TRUE(w.world.all_at_rest());
+  w.step();
+  EXPECT_EQ(w.margin().taken, 0);
+  EXPECT_EQ(w.margin().needed, 0);
 }
 
 }  // namespace

@@ -23,33 +23,6 @@ const softbody::Snapshot& snapshot_of(const session::KeptWorld& kept) {
 
 int next_frame(const session::UndoHistory& history, Way way) { return snapshot_of(history.next(way)).frame; }
 
-TEST(UndoHistory, GoesBothWays) {
-  session::UndoHistory history;
-  for (int frame = 0; frame < 10; ++frame) history.push(kept(frame));
-  EXPECT_TRUE(history.empty(Way::forward));
-  for (int frame = 9; frame >= 0; --frame) {
-    EXPECT_EQ(next_frame(history, Way::back), frame);
-    history.turn(Way::back, kept(frame + 1));
-    EXPECT_EQ(next_frame(history, Way::forward), frame + 1);
-  }
-  EXPECT_TRUE(history.empty(Way::back));
-  EXPECT_EQ(history.count(), 10u) << "both ways together";
-}
-
-TEST(UndoHistory, ForgetsWhatCouldBeRedoneAtANewChange) {
-  session::UndoHistory history;
-  for (int frame = 0; frame < 3; ++frame) history.push(kept(frame));
-  history.turn(Way::back, kept(3));
-  history.turn(Way::back, kept(2));
-  history.turn(Way::forward, kept(1));
-  EXPECT_EQ(next_frame(history, Way::back), 1);
-  EXPECT_EQ(next_frame(history, Way::forward), 3);
-  history.push(kept(2));
-  EXPECT_TRUE(history.empty(Way::forward));
-  EXPECT_EQ(next_frame(history, Way::back), 2);
-  EXPECT_EQ(history.count(), 3u);
-}
-
 TEST(UndoHistory, KeepsWithinABoundOfMemoryButNeverForgetsTheLast) {
   const std::size_t one = snapshot_of(kept(0)).bytes();
   session::UndoHistory three(7 * one / 2), none(one / 2);

@@ -51,6 +51,7 @@ start() {
   pids+=("$demo")
   until_true "the window" has_window
   sleep 1
+  xdotool windowfocus "$window" 2>/dev/null
 }
 has_window() {
   kill -0 "$demo" 2>/dev/null || fail "the program ended before it had a window"
@@ -64,30 +65,32 @@ press() {
   xdotool keyup "$1"
   sleep 0.1
 }
+# The window's queue keeps keys and clicks, with their places, for as many frames as they need.
+keys() { xdotool key --delay 50 "$@"; }
 click() {
   xdotool mousemove "$1" "$2"
-  sleep 0.3
-  xdotool mousedown "$3"
-  sleep 0.3
-  xdotool mouseup "$3"
+  sleep 0.1
+  xdotool click 1
   sleep 0.1
 }
 has_ended() { ! kill -0 "$demo" 2>/dev/null; }
-expect_clean_end() {
+# Ends the program by the key Q after what is named.
+quit() {
+  press q
   until_true "the end of the program after $1" has_ended
   wait "$demo"
   local status=$?
   [ $status -eq 0 ] || fail "exit status $status after $1"
-  [ ! -s "$work/err" ] || fail "output on standard error"
+  [ ! -s "$work/err" ] || fail "output on standard error after $1"
 }
 has_size() { [ "$(xdotool getwindowgeometry --shell "$window" | grep -E 'WIDTH|HEIGHT' | tr '\n' ' ')" = "$1" ]; }
 
 start
-xdotool windowfocus "$window" 2>/dev/null
-for key in d 1 2 3 4 5 6 m m m m m m space n s s space bracketleft bracketright t t v v e e F1 Escape h h c shift+d b Delete r ctrl+z ctrl+y r; do press $key; done
-click 30 369 1            # a checkbox of the panel
-click 700 400 1           # the scene
-sleep 1                   # now the first body is above the middle of the scene
+keys d 1 2 3 4 5 6 m m m m m m space n s s space bracketleft bracketright t t v v e e F1 Escape h h c shift+d b
+keys Delete r ctrl+z ctrl+y r
+click 30 369              # a checkbox of the panel
+click 700 400             # the scene
+sleep 2                   # now the first body is above the middle of the scene
 xdotool mousemove 800 160; sleep 0.3; xdotool mousedown 1; sleep 0.3
 for _ in $(seq 10); do xdotool mousemove_relative 15 10; sleep 0.05; done
 xdotool mouseup 1
@@ -105,8 +108,7 @@ xdotool windowmap "$window"
 until_true "the window shows again" has_window
 kill -0 "$demo" 2>/dev/null || fail "the program died"
 xdotool windowfocus "$window" 2>/dev/null
-press q
-expect_clean_end "the key Q"
+quit "keys and a mouse"
 
 # A mesh named by keyboard is loaded, the saved scene and the picture exist, and the window keeps its size.
 folder=$work/a\ \ folder
@@ -127,26 +129,24 @@ open_only() {
 }
 open_only Files
 start
-xdotool windowfocus "$window" 2>/dev/null
 # Types into the field of the file to open, faster than slow frames: no key may be lost or be taken for a shortcut.
 xdotool mousemove 150 "$field"; sleep 0.3
 xdotool click 1 type --delay 20 mesh.obj
 xdotool key Return
 sleep 1
-click 150 "$save" 1  # the field of the scene to save
+click 150 "$save"  # the field of the scene to save
 xdotool keydown ctrl; press a; xdotool keyup ctrl
 xdotool type --delay 300 kept.toml
 press Return
 until_true "the saved scene" test -s kept.toml
 grep -q 'path = "mesh.obj"' kept.toml || fail "the mesh is not in the saved scene"
-click 1100 400 1  # the scene: keys are shortcuts again
+click 1100 400  # the scene: keys are shortcuts again
 press p
 until_true "the picture" test -s picture_0001.png
 xdotool windowsize "$window" 1100 700
 until_true "the size" has_size "WIDTH=1100 HEIGHT=700 "
 sleep 0.5
-press q
-expect_clean_end "the key Q, the second time"
+quit "a mesh named by keyboard"
 grep -q '^width = 1100$' "$preferences" || fail "the window's size was not kept"
 
 # Keyboard layouts, changed while the program runs. Keys are given by keycodes: by name, xdotool would look for a key of
@@ -158,7 +158,6 @@ press_with() {
 }
 open_only Files
 start
-xdotool windowfocus "$window" 2>/dev/null
 setxkbmap fr
 press 47            # m: the next method
 press 58            # a comma: nothing
@@ -173,7 +172,7 @@ press 28            # that of T: the hash table is hidden
 press_with 50 40    # that of D, with Shift: twenty bodies
 press_with 37 52    # that of Z, with Ctrl: undoes them
 setxkbmap fr
-click 150 "$save" 1  # the field of the scene to save
+click 150 "$save"  # the field of the scene to save
 press End
 press_with 37 24    # Ctrl+A, the key of Q on a US keyboard: the next text replaces all
 setxkbmap us
@@ -181,9 +180,8 @@ sleep 0.5  # a slow machine needs time for the change
 xdotool type --delay 100 keys.toml
 press Return
 until_true "the scene of other keyboards" test -s keys.toml
-click 1100 400 1
-press q
-expect_clean_end "the key Q, after other keyboards"
+click 1100 400
+quit "other keyboards"
 kept() { grep -qx "$2" "$1" || fail "$2 was not kept: a key of another keyboard was taken for something else"; }
 for line in 'method = "aabb-tree"' 'contact_surface = "vertex-vertex"' 'levels = 2'; do kept keys.toml "$line"; done
 for line in 'body-boxes = true' 'touches = false' 'below = "none"' 'hash_table = false'; do
@@ -196,22 +194,19 @@ printf '#!/bin/sh\nfor last; do :; done\ncat >"$last"\n' >"$work/bin/ffmpeg"
 chmod +x "$work/bin/ffmpeg"
 open_only "Export"
 PATH=$work/bin:$PATH start
-click 270 $((field + 58)) 1
+click 270 $((field + 58))
 sleep 1
-click 270 $((field + 58)) 1
+click 270 $((field + 58))
 until_true "the video" test -s video_0001.mp4
-click 1100 400 1
-press q
-expect_clean_end "the key Q, the third time"
+click 1100 400
+quit "a video"
 
 # Recorded frames play. The keys of what needs a solver do nothing but say so.
 for frame in 1 2 3; do sed "s/^v 0 0 0/v 0 0 -0.$frame/" mesh.obj >"frame_$frame.obj"; done
 start --play frame_1.obj frame_2.obj frame_3.obj
-xdotool windowfocus "$window" 2>/dev/null
-for key in d b Delete f 1 2 4 5 6 8 9 m v e space n s r ctrl+z g Escape w; do press $key; done
-click 700 400 1
-press q
-expect_clean_end "the key Q, after recorded frames"
+keys d b Delete f 1 2 4 5 6 8 9 m v e space n s r ctrl+z g Escape w
+click 700 400
+quit "recorded frames"
 
 # The driver is reset: a new context shows the same world, with the bodies added before.
 contexts=$work/contexts
@@ -220,22 +215,20 @@ export ASAN_OPTIONS="$ASAN_OPTIONS:verify_asan_link_order=0"
 rm -f scene.toml
 open_only Files
 LOST_CONTEXT_LOG=$contexts LD_PRELOAD=$lost_context start --mesh mesh.obj --view 0,1,0,2,0,0
-xdotool windowfocus "$window" 2>/dev/null
 press d
 until_true "another context after a reset of the driver" has_another_context
 xdotool windowfocus "$window" 2>/dev/null
 sleep 1
-click 290 "$save" 1  # Save
+click 290 "$save"  # Save
 until_true "the scene after a reset of the driver" test -s scene.toml
 [ "$(grep -c '^\[\[body\]\]' scene.toml)" -gt "$(grep -c '^\[\[body\]\]' "$sources/assets/scenes/drop.toml")" ] ||
   fail "the dropped body was lost with the context"
 grep -q 'path = "mesh.obj"' scene.toml || fail "the mesh of the command line is not in the scene"
 awk '$1 == "distance" && $3 > 2.5 {far = 1} END {exit !far}' scene.toml || fail "the camera does not show the mesh"
-click 1100 400 1
+click 1100 400
 press p
 until_true "a picture after a reset of the driver" test -s picture_0002.png
-press q
-expect_clean_end "the key Q, after a reset of the driver"
+quit "a reset of the driver"
 
 # The driver is reset again at once: the program ends and says why.
 LOST_CONTEXT_AGAIN=1 LOST_CONTEXT_LOG=$contexts LD_PRELOAD=$lost_context "$program" >"$work/out" 2>"$work/err"

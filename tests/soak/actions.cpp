@@ -18,8 +18,6 @@ void method(DemoRig& demo, Dice& dice) {
   demo.session.settings.set_method(collide::method_table()[dice.pick(collide::method_table().size())].key);
 }
 
-void contact_surface(DemoRig& demo, Dice&) { demo.session.settings.next_contact_surface(); }
-
 /// The substeps may be far too few: then the bodies explode, and the demo must say so. Implicit substeps are fewer, as
 /// each is a solve.
 void integrator(DemoRig& demo, Dice& dice) {
@@ -28,8 +26,6 @@ void integrator(DemoRig& demo, Dice& dice) {
   const int substeps = 1 << dice.pick(one.implicit ? 3 : 6);
   demo.session.settings.set_integrator({std::string(one.key), dice.heads() ? std::nullopt : std::optional(substeps)});
 }
-
-void automatic_integrator(DemoRig& demo, Dice&) { demo.session.settings.set_integrator({}); }
 
 /// Returns an end of the range every other time, else a value in between.
 template <class T>
@@ -132,9 +128,6 @@ void scene(DemoRig& demo, Dice& dice) {
   demo.session.scenes.choose(small[dice.pick(small.size())].key);
 }
 
-void reset(DemoRig& demo, Dice&) { demo.session.simulation.reset(); }
-void undo(DemoRig& demo, Dice&) { demo.session.simulation.undo(); }
-void redo(DemoRig& demo, Dice&) { demo.session.simulation.redo(); }
 void restore_settings(DemoRig& demo, Dice&) {
   demo.session.settings.restore_detection();
   demo.session.settings.restore_world();
@@ -146,10 +139,6 @@ void rewind(DemoRig& demo, Dice& dice) {
   demo.session.simulation.rewind_to(past[dice.pick(past.size())].frame);
   demo.session.simulation.clock.paused = false;
 }
-
-void save(DemoRig& demo, Dice&) { demo.session.scenes.save(demo.ui.save_as, demo.ui.view); }
-void picture(DemoRig& demo, Dice&) { demo.session.exporter.picture_requested = true; }
-void curves(DemoRig& demo, Dice&) { demo.session.exporter.write_curves(); }
 
 /// Imports a tetrahedron of any size; every other file is broken.
 void import_mesh(DemoRig& demo, Dice& dice) {
@@ -177,30 +166,31 @@ void view(DemoRig& demo, Dice& dice) {
   demo.restart_camera();
 }
 
-constexpr std::array table{Action{"method", method},
-                           Action{"contact surface", contact_surface},
-                           Action{"integrator", integrator},
-                           Action{"automatic integrator", automatic_integrator},
-                           Action{"detection", detection},
-                           Action{"drop", drop},
-                           Action{"throw", throw_body},
-                           Action{"remove", remove},
-                           Action{"mouse", mouse},
-                           Action{"gravity", gravity},
-                           Action{"material", material},
-                           Action{"solids", solids},
-                           Action{"scene", scene},
-                           Action{"reset", reset},
-                           Action{"undo", undo},
-                           Action{"redo", redo},
-                           Action{"as the scene has it", restore_settings},
-                           Action{"rewind", rewind},
-                           Action{"save", save},
-                           Action{"picture", picture},
-                           Action{"curves", curves},
-                           Action{"import", import_mesh},
-                           Action{"resize", resize},
-                           Action{"view", view}};
+constexpr std::array table{
+    Action{"method", method},
+    Action{"contact surface", [](DemoRig& demo, Dice&) { demo.session.settings.next_contact_surface(); }},
+    Action{"integrator", integrator},
+    Action{"automatic integrator", [](DemoRig& demo, Dice&) { demo.session.settings.set_integrator({}); }},
+    Action{"detection", detection},
+    Action{"drop", drop},
+    Action{"throw", throw_body},
+    Action{"remove", remove},
+    Action{"mouse", mouse},
+    Action{"gravity", gravity},
+    Action{"material", material},
+    Action{"solids", solids},
+    Action{"scene", scene},
+    Action{"reset", [](DemoRig& demo, Dice&) { demo.session.simulation.reset(); }},
+    Action{"undo", [](DemoRig& demo, Dice&) { demo.session.simulation.undo(); }},
+    Action{"redo", [](DemoRig& demo, Dice&) { demo.session.simulation.redo(); }},
+    Action{"as the scene has it", restore_settings},
+    Action{"rewind", rewind},
+    Action{"save", [](DemoRig& demo, Dice&) { demo.session.scenes.save(demo.ui.save_as, demo.ui.view); }},
+    Action{"picture", [](DemoRig& demo, Dice&) { demo.session.exporter.picture_requested = true; }},
+    Action{"curves", [](DemoRig& demo, Dice&) { demo.session.exporter.write_curves(); }},
+    Action{"import", import_mesh},
+    Action{"resize", resize},
+    Action{"view", view}};
 
 }  // namespace
 

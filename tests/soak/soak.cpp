@@ -70,9 +70,12 @@ class Soak {
   }
 
   const std::string& last_action() const { return last_action_; }
-  int explosions() const { return explosions_; }
-  int explosions_by_itself() const { return explosions_by_itself_; }
-  int shortened_seconds() const { return shortened_seconds_; }
+  void print_summary() const {
+    std::printf(
+        "nothing found; %d times there was more energy or speed than there could be, each time reported as a blow-up, "
+        "%d of them in steps that the program chose; %d seconds ended early, with %.2g units of work\n",
+        explosions_, explosions_by_itself_, shortened_seconds_, max_second_work);
+  }
 
  private:
   const softbody::StepController& steps() const {
@@ -85,21 +88,6 @@ class Soak {
         "of processor time; %s\n",
         scene.c_str(), seconds, static_cast<unsigned long long>(frames_), work_, 1e6 * solve_ms_ / spent_,
         static_cast<unsigned long long>(pair_tests_), slowest_, describe(resources()).c_str());
-    std::fflush(stdout);
-  }
-
-  /// Prints what is needed to look into a slow frame.
-  void print_slow_frame(double seconds) const {
-    const softbody::World& world = *demo_.session.simulated();
-    const softbody::StepReport& p = world.last_step();
-    const softbody::SurfaceContact& surface = softbody::WorldTestAccess::solver(world).surface_contact();
-    std::printf(
-        "%-10s frame %llu: %.2f s of processor time after \"%s\"; %u bodies, %u vertices, %d substeps of %s, %.5f s "
-        "simulated, %.0f ms to detect, %.0f ms to solve, with surface contact of %.3g a search and %.3g a substep\n",
-        world.scene().key.c_str(), static_cast<unsigned long long>(frames_), seconds, last_action_.c_str(),
-        world.bodies().count(), world.bodies().vertex_count(), p.substeps,
-        std::string(world.last_step().integrator->key).c_str(), p.seconds, p.detect_ms, p.solve_ms,
-        double(surface.candidates().search().work()), surface.work_of_substep());
     std::fflush(stdout);
   }
 
@@ -135,7 +123,9 @@ class Soak {
     const double took = double(std::clock() - before) / CLOCKS_PER_SEC;
     ++frames_;
     const softbody::World& world = *session.simulated();
-    if (took > std::max(slowest_, slow_seconds)) print_slow_frame(took);
+    if (took > std::max(slowest_, slow_seconds))
+      std::printf("%-10s frame %llu: %.2f s of processor time after \"%s\"\n", world.scene().key.c_str(),
+                  static_cast<unsigned long long>(frames_), took, last_action_.c_str());
     slowest_ = std::max(slowest_, took);
     const double budget = softbody::window_budget.of(world.bodies().vertex_count());
     if (!steps().fixed()) work_ = std::max(work_, steps().spent() / budget);
@@ -222,11 +212,7 @@ int run(int seconds, std::vector<std::string> scenes) {
       return 1;
     }
   }
-  std::printf(
-      "nothing found; %d times there was more energy or speed than there could be, each time reported as a blow-up, %d "
-      "of them "
-      "in steps that the program chose; %d seconds ended early, with %.2g units of work\n",
-      soak.explosions(), soak.explosions_by_itself(), soak.shortened_seconds(), max_second_work);
+  soak.print_summary();
   return 0;
 }
 

@@ -27,26 +27,20 @@ std::optional<SweepState> SweepTask::advance(const Question& question, Backgroun
 }
 
 void SweepWorker::start(const softbody::BodiesInMotion& world, const compare::MethodSet& methods) {
-  if (running_) return;
-  SweepState state{
-      .scene = world.scene().name, .frame = world.frame(), .running = true, .stop_reason = {}, .report = {}};
-  sweep_.publish(state);
+  if (state_.running) return;
+  state_ = {.scene = world.scene().name, .frame = world.frame(), .running = true, .stop_reason = {}, .report = {}};
   try {
     compare::FrameCopy frame;
     frame.copy(world.positions());
-    sweep_.offer({state, std::move(frame), compare::sweep_configurations(world, methods)});
-    running_ = true;
+    sweep_.offer({state_, std::move(frame), compare::sweep_configurations(world, methods)});
   } catch (const std::exception& error) {  // too little memory for the copy
-    state.running = false;
-    state.stop_reason = error.what();
-    sweep_.publish(std::move(state));
+    state_.running = false;
+    state_.stop_reason = error.what();
   }
 }
 
-std::optional<SweepState> SweepWorker::take() {
-  std::optional<SweepState> news = sweep_.take();
-  if (news) running_ = news->running;
-  return news;
+void SweepWorker::update() {
+  if (std::optional<SweepState> news = sweep_.take()) state_ = std::move(*news);
 }
 
 }  // namespace app::session

@@ -52,12 +52,14 @@ class SweepWorker {
   /// Ends the sweep after the current step. The results so far stay.
   void cancel() { sweep_.cancel(); }
   /// Returns true if the sweep is cancelled and its current step still runs.
-  bool cancelling() const { return running_ && sweep_.cancelled(); }
-  /// Returns the state if it has changed since the last call.
-  std::optional<SweepState> take();
+  bool cancelling() const { return state_.running && sweep_.cancelled(); }
+  /// Takes over how far the sweep has got.
+  void update();
+  /// Returns the latest sweep, as update() found it.
+  const SweepState& state() const { return state_; }
 
  private:
-  bool running_ = false;  // as last reported by take()
+  SweepState state_;
   Background<SweepTask> sweep_;
 };
 
