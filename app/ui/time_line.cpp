@@ -59,8 +59,7 @@ void draw_past(Widgets& w, const Session& session) {
                            "it did unless you change something. {} snapshots, {:.1f} of at most {} MiB: dense in the "
                            "recent past, sparse further back.",
                            past.snapshots().size(), static_cast<double>(past.bytes()) / (1 << 20),
-                           session::Rewind::max_bytes >> 20)
-                   .c_str()))
+                           session::Rewind::max_bytes >> 20)))
     w.ask([to = past.snapshots()[static_cast<std::size_t>(place)].frame](Session& s) { s.simulation.rewind_to(to); });
   ImGui::EndDisabled();
 }

@@ -60,8 +60,7 @@ void draw_selected(Widgets& w, const Session& session, softbody::BodyId id) {
   w.register_item("Selected body",
                   fmt::format("The body that was clicked last, simulated by {} particles. Bodies and vertices count "
                               "from 0.",
-                              grouped(particles))
-                      .c_str());
+                              grouped(particles)));
   const std::string volume = volume_text(world, id);
   if (!simulated) return w.figure("Volume", volume, "Of the volume in the first frame with this body.");
   const double speed =

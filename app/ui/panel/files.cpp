@@ -69,8 +69,7 @@ void draw_mesh_settings(Widgets& w, const session::Import& import) {
   const bool automatic = import.resolution == 0;
   if (w.checkbox("Auto###Auto resolution", automatic,
                  fmt::format("A mesh of more than {} vertices is simulated by {} particles; its vertices follow them.",
-                             grouped(softbody::max_simulated_vertices), grouped(softbody::default_resolution))
-                     .c_str()))
+                             grouped(softbody::max_simulated_vertices), grouped(softbody::default_resolution))))
     w.ask([automatic](Session& s) { s.import.resolution = automatic ? softbody::default_resolution : 0; });
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
@@ -124,7 +123,7 @@ void draw_save(Widgets& w, const Session& session, const UiState& ui, bool saved
 void draw_copy_button(Widgets& w, const char* name, const std::string& command, const char* purpose, float width) {
   constexpr std::size_t max_shown = 600;  // each frame that is played has a name
   const std::string shown = command.size() > max_shown ? command.substr(0, max_shown) + " ..." : command;
-  if (!w.button(name, shown.c_str(), width)) return;
+  if (!w.button(name, shown, width)) return;
   ImGui::SetClipboardText(command.c_str());
   w.ask([purpose](Session& s) { s.simulation.notice.tell(std::string("Copied: the command that ") + purpose); });
 }
@@ -162,11 +161,10 @@ void draw_picture_size(Widgets& w, const session::Exporter& exporter) {
   };
   w.row_label("Size", w.px(narrow_column));
   ImGui::BeginDisabled(exporter.with_panel || exporter.recording() || exporter.finishing());
-  if (w.begin_combo("Picture size", exporter.with_panel ? "As the window" : name_of(exporter.size).c_str(),
+  if (w.begin_combo("Picture size", exporter.with_panel ? "As the window" : name_of(exporter.size),
                     "Of pictures and videos of the scene without the panel. They show what the camera shows now.")) {
     for (std::size_t size = 0; size <= Exporter::own; ++size)
-      if (w.combo_item(name_of(size).c_str(), size == exporter.size, nullptr))
-        w.ask([size](Session& s) { s.exporter.size = size; });
+      if (w.combo_item(name_of(size), size == exporter.size)) w.ask([size](Session& s) { s.exporter.size = size; });
     ImGui::EndCombo();
   }
   if (exporter.size == Exporter::own && !exporter.with_panel) {
@@ -188,13 +186,11 @@ void draw_recording(Widgets& w, const session::Exporter& exporter) {
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - w.px(file_button_width) - gap);
   ImGui::BeginDisabled(exporter.recording() || exporter.finishing());
-  const auto text = [](std::string_view part) { return std::string(part); };
   const session::RecordingKind& now = session::recording_kinds[exporter.kind];
-  if (w.begin_combo("Kind of recording", text(now.name).c_str(), text(now.tooltip).c_str())) {
+  if (w.begin_combo("Kind of recording", now.name, now.tooltip)) {
     for (std::size_t i = 0; i < session::recording_kinds.size(); ++i) {
       const session::RecordingKind& kind = session::recording_kinds[i];
-      if (w.combo_item(text(kind.name).c_str(), i == exporter.kind, text(kind.tooltip).c_str()))
-        w.ask([i](Session& s) { s.exporter.kind = i; });
+      if (w.combo_item(kind.name, i == exporter.kind, kind.tooltip)) w.ask([i](Session& s) { s.exporter.kind = i; });
     }
     ImGui::EndCombo();
   }
@@ -214,7 +210,7 @@ void draw_message(Widgets& w, const session::Exporter& exporter) {
   if (exporter.failed()) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
   w.text_line(exporter.message());
   if (exporter.failed()) ImGui::PopStyleColor();
-  w.register_item("Message", exporter.message().empty() ? nullptr : exporter.message().c_str());
+  w.register_item("Message", exporter.message());
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ void draw_skipped(Widgets& w, const Session& session) {
   w.register_item("Skipped", "Work that this frame did not need. A proof shows that no contact is lost.");
   for (std::size_t kind = 0; kind < collide::skip_kinds.size(); ++kind) {
     const std::string label = "  " + std::string(collide::skip_kinds[kind].text);
-    w.figure(label.c_str(), grouped(session.world().detection().skipped[kind]), skip_tooltips[kind]);
+    w.figure(label, grouped(session.world().detection().skipped[kind]), skip_tooltips[kind]);
   }
 }
 
@@ -112,8 +112,7 @@ void draw_pair_tests(Widgets& w, const Session& session) {
       fmt::format("{}, {} %", ratio(counters.pair_tests, vertices), ratio(100 * counters.pair_tests, all)),
       fmt::format("Pair tests per vertex ({} vertices) and as a share of all {} pairs. §3 claims a constant number "
                   "per vertex at best, and all pairs at worst.",
-                  grouped(vertices), grouped(all))
-          .c_str());
+                  grouped(vertices), grouped(all)));
 }
 
 void draw_hashes(Widgets& w, const Session& session) {

@@ -24,7 +24,7 @@ struct Column {
 };
 
 constexpr std::array<Column, column_count> columns{{
-    {"Method", 220, false, nullptr},
+    {"Method", 220, false, ""},
     {"Time", 112, true,
      "Time to find all contacts from scratch on one core: median of the last 15 measurements (§3). While the frame "
      "stays the same, caches are warm. The panel's Detect is one search as the program runs."},
@@ -76,7 +76,7 @@ class Grid {
                                         ImGui::GetColorU32(pale ? ImGuiCol_TextDisabled : ImGuiCol_Text), text.c_str());
   }
   /// Adds an invisible item over the column's cell, for a tooltip.
-  void cell(Widgets& w, ColumnIndex i, const char* label, const char* tooltip) const {
+  void cell(Widgets& w, ColumnIndex i, std::string_view label, std::string_view tooltip) const {
     ImGui::SetCursorScreenPos({left_[i], top_});
     ImGui::Dummy({right_[i] - left_[i], height_});
     w.register_item(label, tooltip);
@@ -118,7 +118,7 @@ struct Row {
 void draw_misses_switch(Widgets& w, const Session& session, const UiState& ui, const Grid& grid, const Row& row) {
   ImGui::SetCursorScreenPos({grid.right(misses) - grid.height(), grid.top()});
   const bool shown = ui.overlays.missed && session.comparison.choice.misses_of == row.index;
-  if (w.radio(row.label("Misses of").c_str(), shown, "Shows the contacts that this method misses in the scene."))
+  if (w.radio(row.label("Misses of"), shown, "Shows the contacts that this method misses in the scene."))
     w.ask([method = row.index](Session& s, UiState& state) {
       s.comparison.choice.misses_of = method;
       state.overlays.missed = true;
@@ -135,7 +135,7 @@ void draw_name(Widgets& w, const Grid& grid, const Row& row) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(row.scored() ? ImGuiCol_Text : ImGuiCol_TextDisabled));
   const bool clicked = ImGui::Selectable(text.c_str(), false, 0, {grid.right(name) - left, 0});
   ImGui::PopStyleColor();
-  if (w.register_item(clicked, text.c_str(), tooltip.c_str()))
+  if (w.register_item(clicked, text, tooltip))
     w.ask([&key = row.method.key](Session& s) { s.settings.set_method(key); });
 }
 
@@ -175,7 +175,7 @@ void draw_score(Widgets& w, const Grid& grid, const Row& row) {
     grid.text(precision, fmt::format("{:.4f}", rounded_down(found.precision)));
   }
   const std::string tip = std::string(light.sentence) + " Missed: " + grouped(found.missed.size()) + ".";
-  grid.cell(w, recall, row.label("Recall of").c_str(), tip.c_str());
+  grid.cell(w, recall, row.label("Recall of"), tip);
 }
 
 /// Draws why the row has no score, beside its time if there is one.
@@ -207,7 +207,7 @@ void draw_row(Widgets& w, const Session& session, const UiState& ui, Grid& grid,
   const TimeSeries& times = session.comparison.method_ms()[row.index];
   if (times.size() > 0) {
     ImGui::SetCursorScreenPos({grid.left(plot), grid.text_top()});
-    w.sparkline(row.label("Times of").c_str(), times, {0, scale.axis_end}, compare::style(row.method).colour,
+    w.sparkline(row.label("Times of"), times, {0, scale.axis_end}, compare::style(row.method).colour,
                 {"Time of the method on a frame.", "ms"}, grid.right(plot) - grid.left(plot));
   }
   draw_misses_switch(w, session, ui, grid, row);
@@ -219,7 +219,7 @@ void draw_header(Widgets& w, const Session& session, Grid& grid) {
   for (std::size_t i = time; i < column_count; ++i) {
     const auto at = static_cast<ColumnIndex>(i);
     grid.text(at, columns[i].label, true);
-    grid.cell(w, at, (std::string("Column ") + columns[i].label).c_str(), columns[i].tooltip);
+    grid.cell(w, at, std::string("Column ") + columns[i].label, columns[i].tooltip);
   }
   ImGui::SetCursorScreenPos({grid.left(name), grid.top()});
   if (w.button("x###Close compare", "Closes the comparison (V).", grid.height()))

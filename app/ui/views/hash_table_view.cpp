@@ -84,8 +84,8 @@ void HashTableView::draw_squares(Widgets& w, const Session& session, float width
         s.inspector.select_bucket(to);
       });
   }
-  w.register_item("Buckets of the table", nullptr);
-  if (under) w.show_tooltip(tooltip.c_str());
+  w.register_item("Buckets of the table");
+  if (under) w.show_tooltip(tooltip);
 }
 
 void HashTableView::draw_legend(Widgets& w) const {

@@ -42,7 +42,7 @@ void draw_method(Widgets& w, const session::LiveComparison& comparison, std::siz
   if (misses) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::contact_missed_colour));
   w.right_text(text);
   if (misses) ImGui::PopStyleColor();
-  w.register_item(fmt::format("Story of {}", its.name).c_str(), its.summary.c_str());
+  w.register_item(fmt::format("Story of {}", its.name), its.summary);
 }
 
 const char* reason(collide::Coverage coverage) {

@@ -108,7 +108,7 @@ void draw_legend_entry(Widgets& w, const std::string& text, const char* tip, flo
   if (ImGui::GetItemRectMax().x + w.px(gap) + width <= end) ImGui::SameLine(0, w.px(gap));
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::Dummy({width, line});
-  w.register_item(fmt::format("Legend {}", text).c_str(), tip);
+  w.register_item(fmt::format("Legend {}", text), tip);
   draw_sample(ImVec2(at.x + 0.5f * line, at.y + 0.5f * line));
   ImGui::GetWindowDrawList()->AddText({at.x + line + inner, at.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
 }
@@ -124,7 +124,7 @@ void draw_progress(Widgets& w, const session::SweepState& state, float width) {
   w.register_item("Sweep progress",
                   state.stop_reason.empty()
                       ? "Checks the contacts of each setting first, then times all settings up to five times."
-                      : state.stop_reason.c_str());
+                      : state.stop_reason);
 }
 
 void draw_button(Widgets& w, const Session& session) {
@@ -155,7 +155,7 @@ void draw_controls(Widgets& w, const Session& session) {
   ImGui::SameLine();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().FramePadding.y);
   w.text_line(count_text(session.sweep()));
-  w.register_item("Sweep counts", not_run_text(session.sweep().report).c_str());
+  w.register_item("Sweep counts", not_run_text(session.sweep().report));
 }
 
 }  // namespace
@@ -207,7 +207,7 @@ void SweepView::draw_plot(Widgets& w, const Session& session, float height) {
   const ImVec2 size{ImGui::GetContentRegionAvail().x, height};
   const bool clicked = ImGui::InvisibleButton("##scatter", size);
   const bool hovered = ImGui::IsItemHovered();
-  w.register_item("Scatter", nullptr);
+  w.register_item("Scatter");
   SweepPlot::Emphasis emphasis{.method = hovered_method_, .row = {}};
   for (const SweepPlot::Point& point : plot_.points())
     if (in_use(session.sweep().report.rows[point.row], session.world())) emphasis.row = point.row;
@@ -215,7 +215,7 @@ void SweepView::draw_plot(Widgets& w, const Session& session, float height) {
   const SweepPlot::Point* under = hovered ? plot_.hit_test(w, ImGui::GetIO().MousePos) : nullptr;
   if (!under) return;
   const compare::SweepRow& row = session.sweep().report.rows[under->row];
-  w.show_tooltip(point_tooltip(row).c_str());
+  w.show_tooltip(point_tooltip(row));
   if (clicked) w.ask([c = row.configuration](Session& s) { apply(c, s); });
 }
 
@@ -234,7 +234,7 @@ void SweepView::draw(Widgets& w, const Session& session, const ScreenRect& area)
   draw_plot(w, session, ImGui::GetContentRegionAvail().y - ImGui::GetTextLineHeight() - style.ItemSpacing.y);
   w.text_line(footer(session.sweep()));
   const std::string& why = session.sweep().report.reference_note;
-  w.register_item("Sweep footing", why.empty() ? "The frame of the sweep." : why.c_str());
+  w.register_item("Sweep footing", why.empty() ? "The frame of the sweep." : why);
   end_dock();
 }
 

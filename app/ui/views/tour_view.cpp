@@ -9,7 +9,7 @@ namespace {
 
 void draw_figure(Widgets& w, const TourFigure& figure) {
   if (figure.colour) w.swatch(*figure.colour);
-  w.figure(figure.label.c_str(), figure.value, figure.tooltip.c_str());
+  w.figure(figure.label, figure.value, figure.tooltip);
 }
 
 /// Draws the eight corners to choose from; `shown` is one of context.f.corners, or a corner of another box.
@@ -23,8 +23,8 @@ void draw_corners(Widgets& w, const TourContext& context, const HashedCorner& sh
     const bool chosen = &context.f.corners[i] == &shown;
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
     const std::string number = std::to_string(i + 1);
-    if (w.button(fmt::format("{}###Corner {}", number, number).c_str(),
-                 "Shows the hash of this corner point of the box.", width))
+    if (w.button(fmt::format("{}###Corner {}", number, number), "Shows the hash of this corner point of the box.",
+                 width))
       w.ask([i](UiState& ui) { ui.tour.choose_corner(i); });
     if (chosen) ImGui::PopStyleColor();
   }
@@ -53,7 +53,7 @@ void draw_lack(Widgets& w, const Session& session, const Tour& tour) {
     text += " This did not change in 20 seconds of simulated time.";
   w.wrapped_text("Tour lack", text);
   ImGui::BeginDisabled(at_rest);
-  if (w.button(fmt::format("{}###Run ahead", goal.button).c_str(),
+  if (w.button(fmt::format("{}###Run ahead", goal.button),
                "Lets the world run, several frames per picture, and pauses it there. It gives up after 20 seconds of "
                "simulated time."))
     w.ask([](Session& s, UiState& ui) { ui.tour.run_ahead(s); });

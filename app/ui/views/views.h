@@ -22,8 +22,8 @@ void draw_import_report(Widgets& widgets, const session::Import& import, const S
 
 /// Draws the list of all methods in their groups as a combo with this label and preview. A click on a name lets the
 /// method drive. A check box shows or hides a method, a group or all methods.
-void draw_method_choice(Widgets& w, const Session& session, const char* label, const char* preview,
-                        const char* tooltip);
+void draw_method_choice(Widgets& w, const Session& session, std::string_view label, std::string_view preview,
+                        std::string_view tooltip);
 /// The same, to choose what a view shows. The preview says how many methods are shown.
 void draw_shown_methods(Widgets& w, const Session& session);
 

@@ -15,7 +15,7 @@
 
 namespace app::ui {
 
-void Widgets::register_number(const char* label, const char* tooltip) {
+void Widgets::register_number(std::string_view label, std::string_view tooltip) {
   // In an open field ImGui selects a word at a double-click. Newer versions end a word at the decimal point.
   if (ImGuiInputTextState* field = ImGui::GetInputTextState(ImGui::GetActiveID());
       field && ImGui::IsItemActive() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
@@ -23,7 +23,7 @@ void Widgets::register_number(const char* label, const char* tooltip) {
     field->SelectedAllMouseLock = true;  // until the button is up
   }
   constexpr const char* how = "Drag it sideways, or double-click it to type a value.";
-  register_item(label, tooltip ? fmt::format("{}\n{}", tooltip, how).c_str() : how);
+  register_item(label, fmt::format("{}\n{}", tooltip, how));
 }
 
 namespace {
@@ -75,7 +75,7 @@ constexpr ImGuiDataType imgui_type = std::is_same_v<Value, float> ? ImGuiDataTyp
                                      : std::is_signed_v<Value>    ? ImGuiDataType_S32
                                                                   : ImGuiDataType_U32;
 
-std::string id_of(const char* label) { return fmt::format("##{}", label); }
+std::string id_of(std::string_view label) { return fmt::format("##{}", label); }
 
 /// Returns the value as a field for typing shows it: without what stands round the number in `format`.
 template <class Value>
@@ -131,7 +131,7 @@ bool Widgets::drag_or_type(const Number<Value>& n, const Show& show) {
 }
 
 template <class Value>
-bool Widgets::slide(const Number<Value>& n, bool logarithmic, const char* shown_format, const char* tooltip) {
+bool Widgets::slide(const Number<Value>& n, bool logarithmic, const char* shown_format, std::string_view tooltip) {
   const Value now = n.value;
   const bool double_clicked = opens_field() && input_.pressed == n.label;
   if (double_clicked) n.value = static_cast<Value>(input_.value_before);
@@ -161,17 +161,18 @@ bool Widgets::slide(const Number<Value>& n, bool logarithmic, const char* shown_
   return changed || n.value != now;
 }
 
-bool Widgets::slider(const char* label, int& value, int min, int max, const char* format, const char* tooltip) {
+bool Widgets::slider(std::string_view label, int& value, int min, int max, const char* format,
+                     std::string_view tooltip) {
   return slide<int>({label, value, min, max, format}, false, format, tooltip);
 }
 
-bool Widgets::slider(const char* label, float& value, float min, float max, const char* format, const char* tooltip,
-                     bool logarithmic) {
+bool Widgets::slider(std::string_view label, float& value, float min, float max, const char* format,
+                     std::string_view tooltip, bool logarithmic) {
   return slide<float>({label, value, min, max, format}, logarithmic, format, tooltip);
 }
 
-bool Widgets::slider(const char* label, double& value, double min, double max, const char* format, const char* tooltip,
-                     bool logarithmic) {
+bool Widgets::slider(std::string_view label, double& value, double min, double max, const char* format,
+                     std::string_view tooltip, bool logarithmic) {
   auto shown = static_cast<float>(value);
   const bool changed =
       slider(label, shown, static_cast<float>(min), static_cast<float>(max), format, tooltip, logarithmic);
@@ -179,13 +180,13 @@ bool Widgets::slider(const char* label, double& value, double min, double max, c
   return changed;
 }
 
-bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
-                     const char* tooltip) {
+bool Widgets::slider(std::string_view label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
+                     std::string_view tooltip) {
   assert(min > 0);
   return slide<std::uint32_t>({label, value, min, max, "%u"}, true, "", tooltip);
 }
 
-bool Widgets::drag(const char* label, glm::dvec3& value, float min, float max, const char* tooltip) {
+bool Widgets::drag(std::string_view label, glm::dvec3& value, float min, float max, std::string_view tooltip) {
   constexpr float metres_per_pixel = 0.01f;
   bool changed = false;
   ImGui::BeginGroup();
@@ -194,7 +195,7 @@ bool Widgets::drag(const char* label, glm::dvec3& value, float min, float max, c
     if (axis > 0) ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     const std::string name = fmt::format("{}, {}", label, "xyz"[axis]);
     auto shown = static_cast<float>(value[axis]);
-    const Number<float> number{name.c_str(), shown, min, max, "%.2f"};
+    const Number<float> number{name, shown, min, max, "%.2f"};
     if (drag_or_type(number, [&](const char* id) {
           return ImGui::DragFloat(id, &shown, metres_per_pixel, min, max, number.format, clamped);
         })) {
@@ -208,8 +209,8 @@ bool Widgets::drag(const char* label, glm::dvec3& value, float min, float max, c
   return changed;
 }
 
-bool Widgets::number_field(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
-                           const char* tooltip) {
+bool Widgets::number_field(std::string_view label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
+                           std::string_view tooltip) {
   value = std::clamp(value, min, max);
   return register_item(type<std::uint32_t>({label, value, min, max, "%u"}), label, tooltip);
 }
