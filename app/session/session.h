@@ -70,7 +70,7 @@ class Session : private SimulationObserver {
 
   void add_picture(double seconds);
   void exchange();
-  void notify(const std::string& problem);
+  void lead_ghost(const std::function<void()>& action);
 
   Ghost ghost_;
   SweepState sweep_;
