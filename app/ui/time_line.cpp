@@ -26,11 +26,10 @@ std::string state_text(const Session& session) {
 void draw_frames(Widgets& w, const session::Player& player) {
   int frame = player.frame();
   const int last = player.recording()->frame_count() - 1;
-  ImGui::BeginDisabled(last == 0);
+  const Disabled off(last == 0);
   if (w.slider("Time line", frame, 0, last, fmt::format("frame %d of {}", grouped(std::uint64_t(last))).c_str(),
                "Drag it to any frame; frames count from 0. It pauses there."))
     w.ask([frame](Session& s) { s.simulation.rewind_to(frame); });
-  ImGui::EndDisabled();
 }
 
 /// Draws how fast the frames that are played follow each other, and whether they begin again.
@@ -50,7 +49,7 @@ void draw_speed(Widgets& w, const Session& session) {
 void draw_past(Widgets& w, const Session& session) {
   const auto& past = session.simulation.stability().past();
   const int frame = session.world().frame();
-  ImGui::BeginDisabled(past.snapshots().empty());
+  const Disabled off(past.snapshots().empty());
   int place = past.snapshots().empty() ? 0 : static_cast<int>(past.at(frame));
   const int last = past.snapshots().empty() ? 0 : static_cast<int>(past.snapshots().size()) - 1;
   const std::string shown = fmt::format("frame {}, {:.2f} s", frame, session.world().last_step().time);
@@ -61,7 +60,6 @@ void draw_past(Widgets& w, const Session& session) {
                            past.snapshots().size(), static_cast<double>(past.bytes()) / (1 << 20),
                            session::Rewind::max_bytes >> 20)))
     w.ask([to = past.snapshots()[static_cast<std::size_t>(place)].frame](Session& s) { s.simulation.rewind_to(to); });
-  ImGui::EndDisabled();
 }
 
 void draw_state_text(Widgets& w, const Session& session) {

@@ -73,14 +73,13 @@ void draw_mesh_settings(Widgets& w, const session::Import& import) {
     w.ask([automatic](Session& s) { s.import.resolution = automatic ? softbody::default_resolution : 0; });
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  ImGui::BeginDisabled(automatic);
+  const Disabled off(automatic);
   int resolution = static_cast<int>(automatic ? softbody::default_resolution : import.resolution);
   if (w.slider(
           "Particles of meshes", resolution, static_cast<int>(softbody::min_resolution), max_resolution, "%d",
           "How many particles simulate the next mesh if it has more vertices. More of them follow finer folds, and "
           "take longer."))
     w.ask([resolution](Session& s) { s.import.resolution = static_cast<std::size_t>(resolution); });
-  ImGui::EndDisabled();
 }
 
 void save(Session& session, UiState& ui) {
@@ -130,7 +129,7 @@ void draw_copy_button(Widgets& w, const char* name, const std::string& command, 
 
 void draw_command(Widgets& w, const Session& session, const softbody::Scene& used, bool saved) {
   w.row_label("Command", w.px(narrow_column));
-  ImGui::BeginDisabled(!saved);
+  const Disabled off(!saved);
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
   const auto draw_copy = [&](const char* name, const std::string& command, const char* purpose) {
     constexpr const char* unsaved = "The scene was changed: save it, so that a command can name it.";
@@ -150,7 +149,6 @@ void draw_command(Widgets& w, const Session& session, const softbody::Scene& use
               session::simulate_command(name, used, world.integrator_choice(), world.frame() + (just_added ? 1 : 0)),
               "makes this picture");
   }
-  ImGui::EndDisabled();
 }
 
 /// Draws the choice of the pictures' size.
@@ -160,7 +158,7 @@ void draw_picture_size(Widgets& w, const session::Exporter& exporter) {
     return std::string(size == Exporter::own ? "Own size" : Exporter::sizes[size].name);
   };
   w.row_label("Size", w.px(narrow_column));
-  ImGui::BeginDisabled(exporter.with_panel || exporter.recording() || exporter.finishing());
+  const Disabled off(exporter.with_panel || exporter.recording() || exporter.finishing());
   if (w.begin_combo("Picture size", exporter.with_panel ? "As the window" : name_of(exporter.size),
                     "Of pictures and videos of the scene without the panel. They show what the camera shows now.")) {
     for (std::size_t size = 0; size <= Exporter::own; ++size)
@@ -178,7 +176,6 @@ void draw_picture_size(Widgets& w, const session::Exporter& exporter) {
     w.number_field("Picture height", size.y, Exporter::min_side, Exporter::max_side, "In pixels.");
     if (size != exporter.own_size) w.ask([size](Session& s) { s.exporter.own_size = size; });
   }
-  ImGui::EndDisabled();
 }
 
 void draw_recording(Widgets& w, const session::Exporter& exporter) {
@@ -196,13 +193,11 @@ void draw_recording(Widgets& w, const session::Exporter& exporter) {
   }
   ImGui::EndDisabled();
   ImGui::SameLine(0, gap);
-  ImGui::BeginDisabled(exporter.finishing());
   if (w.button(exporter.recording() ? "Stop###Record" : "Start###Record",
                "Every frame of the world from now on, until it is stopped. The world waits for the recording, so that "
                "no frame is lost.",
-               w.px(file_button_width)))
+               w.px(file_button_width), !exporter.finishing()))
     w.ask([](Session& s) { s.exporter.toggle_recording(); });
-  ImGui::EndDisabled();
 }
 
 /// Draws the message, or an empty line, so that nothing moves.

@@ -46,27 +46,23 @@ void draw_time_controls(Widgets& w, const Session& session) {
   if (w.button("Reset", "Restarts the scene with the present settings and without added bodies (R).", width))
     w.ask([](Session& s) { s.simulation.reset(); });
   ImGui::SameLine();
-  ImGui::BeginDisabled(!session.simulation.can_undo());
-  if (w.button("Undo", "Undoes the last reset, choice of scene, change of bodies, or drag of a solid (Ctrl+Z).", width))
+  if (w.button("Undo", "Undoes the last reset, choice of scene, change of bodies, or drag of a solid (Ctrl+Z).", width,
+               session.simulation.can_undo()))
     w.ask([](Session& s) { s.simulation.undo(); });
-  ImGui::EndDisabled();
   ImGui::SameLine();
-  ImGui::BeginDisabled(!session.simulation.can_redo());
-  if (w.button("Redo", "Brings back what the last undo took away (Ctrl+Y).", width))
+  if (w.button("Redo", "Brings back what the last undo took away (Ctrl+Y).", width, session.simulation.can_redo()))
     w.ask([](Session& s) { s.simulation.redo(); });
-  ImGui::EndDisabled();
 
   if (w.checkbox("Slow motion", session.simulation.clock.slow_motion, "Runs the simulation slower than real time (S)."))
     w.ask([](Session& s) { s.simulation.clock.slow_motion = !s.simulation.clock.slow_motion; });
   ImGui::SameLine(w.px(label_column + 20));
   ImGui::SetNextItemWidth(-FLT_MIN);
-  ImGui::BeginDisabled(!session.simulation.clock.slow_motion);
+  const Disabled off(!session.simulation.clock.slow_motion);
   double percent = 100 * session.simulation.clock.slow_factor;
   if (w.slider("Slow motion speed", percent, 100 * session::SimulationClock::min_slow_factor,
                100 * session::SimulationClock::max_slow_factor, "%.0f %% of real time", "The speed of slow motion.",
                true))
     w.ask([factor = percent / 100](Session& s) { s.simulation.clock.slow_factor = factor; });
-  ImGui::EndDisabled();
 }
 
 void draw_overlays(Widgets& w, const Session& session, const UiState& ui) {

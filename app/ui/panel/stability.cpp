@@ -36,13 +36,12 @@ bool draw_integrator_choice(Widgets& w, const char* name, softbody::IntegratorCh
   if (w.checkbox(fmt::format("Fixed substeps###{}Fixed substeps", name), fixed,
                  "Takes a fixed number of steps per frame. If they are too few, explicit integrators blow up."))
     choice.substeps = fixed ? std::nullopt : std::optional(std::max(1, proposed));
-  ImGui::BeginDisabled(!choice.substeps);
+  const Disabled off(!choice.substeps);
   w.row_label("Substeps", w.px(label_column));
   int substeps = choice.substeps.value_or(std::max(1, proposed));
   if (w.slider(fmt::format("{}Substeps", name), substeps, 1, std::max(100, substeps), "%d per frame",
                "Steps of the integrator in each frame. Fewer are faster but less stable."))
     choice.substeps = substeps;
-  ImGui::EndDisabled();
   return choice != before;
 }
 

@@ -169,13 +169,12 @@ struct ValueWidgets {
     if (changed) value = value ? std::nullopt : std::optional(now);
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::BeginDisabled(!value);
+    const Disabled off(!value);
     float side = std::max({now.x, now.y, now.z});
     if (slide(key, side, of_lengths(key.slider, 5, 50))) {
       value = glm::vec3(side);
       changed = true;
     }
-    ImGui::EndDisabled();
     return changed;
   }
 
@@ -206,10 +205,8 @@ void draw_values(Widgets& w, const Session& session, const UiState& ui, bool of_
   const ValueWidgets widgets{w, session, needed};
   softbody::for_each_value(session.world().scene(), [&](const softbody::Key& key, auto value) {
     if (!key.slider.text || softbody::is_of_detection(key) != of_detection) return;
-    ImGui::BeginDisabled(!widgets.uses(key));
-    const bool changed = widgets.draw(key, value);
-    ImGui::EndDisabled();
-    if (changed)
+    const Disabled off(!widgets.uses(key));
+    if (widgets.draw(key, value))
       w.ask([&key, value](Session& s) {
         s.simulation.change_scene(key.slider.text,
                                   [&](softbody::Scene& scene) { softbody::set_value(scene, key, value); });

@@ -138,11 +138,9 @@ void draw_button(Widgets& w, const Session& session) {
     return;
   }
   const bool cancelling = session.sweep_worker.cancelling();
-  ImGui::BeginDisabled(cancelling);
   if (w.button(cancelling ? "Cancelling###Sweep" : "Cancel###Sweep", "Ends the sweep and keeps its results so far.",
-               width))
+               width, !cancelling))
     w.ask([](Session& s) { s.sweep_worker.cancel(); });
-  ImGui::EndDisabled();
 }
 
 void draw_controls(Widgets& w, const Session& session) {

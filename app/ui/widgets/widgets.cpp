@@ -135,7 +135,8 @@ void Widgets::show_tooltip(std::string_view text) const {
   ImGui::PopStyleVar();
 }
 
-bool Widgets::button(std::string_view label, std::string_view tooltip, float width) {
+bool Widgets::button(std::string_view label, std::string_view tooltip, float width, bool enabled) {
+  const Disabled off(!enabled);
   return register_item(ImGui::Button(std::string(label).c_str(), {width, 0}), label, tooltip);
 }
 

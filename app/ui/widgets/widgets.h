@@ -40,6 +40,12 @@ inline bool overlap(const ScreenRect& a, const ScreenRect& b) {
   return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y;
 }
 
+/// Greys out, while it lives, the items that are drawn, and keeps the mouse from them: if `off`.
+struct Disabled {
+  explicit Disabled(bool off) { ImGui::BeginDisabled(off); }
+  ~Disabled() { ImGui::EndDisabled(); }
+};
+
 /// What the mouse does, where tooltips may stand, and what is typed into a field, from frame to frame.
 struct InputState {
   static constexpr float tooltip_delay = 0.4f;  // s
@@ -110,7 +116,7 @@ class Widgets {
   /// Converts design pixels to ImGui units.
   float px(float design) const { return design * scale_; }
 
-  bool button(std::string_view label, std::string_view tooltip, float width = 0);
+  bool button(std::string_view label, std::string_view tooltip, float width = 0, bool enabled = true);
   bool radio(std::string_view label, bool active, std::string_view tooltip);
   /// Returns true if the value should be the other one.
   bool checkbox(std::string_view label, bool value, std::string_view tooltip);
