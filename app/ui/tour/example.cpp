@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/compare/compare.h"
-#include "app/compare/cost_model.h"
+#include "app/session/window_work.h"
 #include "app/ui/tour/body_subset.h"
 #include "collide/core/body_boxes.h"
 #include "collide/methods.h"
@@ -200,12 +200,6 @@ void add_boxes(const softbody::BodiesInMotion& world, TourExample& example) {
     example.aliased_corner = find_aliased_corner(example, settings);
 }
 
-std::uint64_t estimate_pair_tests(const softbody::BodiesInMotion& world) {
-  compare::CostModel cost_model;
-  cost_model.begin(world.positions(), world.collision(), 0);
-  return cost_model.of(compare::method_index(collide::paper_method)).pair_tests;
-}
-
 }  // namespace
 
 ExampleFinder::ExampleFinder()
@@ -264,7 +258,8 @@ std::optional<TourExample> ExampleFinder::find(const softbody::BodiesInMotion& w
 }
 
 FrameWork ExampleFinder::count_work(const softbody::BodiesInMotion& world, std::size_t boxes) {
-  const std::uint64_t estimate = estimate_pair_tests(world);
+  const collide::Method& paper = *collide::find_method(collide::paper_method);
+  const std::uint64_t estimate = session::window_work(world, paper, world.collision()).pair_tests;
   FrameWork work{.bodies = world.bodies().count(),
                  .vertices = world.bodies().vertex_count(),
                  .boxes = boxes,
