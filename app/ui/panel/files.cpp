@@ -118,22 +118,18 @@ void draw_save(Widgets& w, const Session& session, const UiState& ui, bool saved
   draw_save_question(w, ui);
 }
 
-/// Draws a button that copies a command to the clipboard. `purpose`: what the command does.
-void draw_copy_button(Widgets& w, const char* name, const std::string& command, const char* purpose, float width) {
-  constexpr std::size_t max_shown = 600;  // each frame that is played has a name
-  const std::string shown = command.size() > max_shown ? command.substr(0, max_shown) + " ..." : command;
-  if (!w.button(name, shown, width)) return;
-  ImGui::SetClipboardText(command.c_str());
-  w.ask([purpose](Session& s) { s.simulation.notice.tell(std::string("Copied: the command that ") + purpose); });
-}
-
 void draw_command(Widgets& w, const Session& session, const softbody::Scene& used, bool saved) {
   w.row_label("Command", w.px(narrow_column));
   const Disabled off(!saved);
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+  // Draws a button that copies a command to the clipboard. `purpose`: what the command does.
   const auto draw_copy = [&](const char* name, const std::string& command, const char* purpose) {
     constexpr const char* unsaved = "The scene was changed: save it, so that a command can name it.";
-    draw_copy_button(w, name, saved ? command : unsaved, purpose, width);
+    constexpr std::size_t max_shown = 600;  // each frame that is played has a name
+    const std::string shown = command.size() > max_shown ? command.substr(0, max_shown) + " ..." : command;
+    if (!w.button(name, saved ? shown : unsaved, width)) return;
+    ImGui::SetClipboardText(command.c_str());
+    w.ask([purpose](Session& s) { s.simulation.notice.tell(std::string("Copied: the command that ") + purpose); });
   };
   if (const session::Player* player = session.simulation.player()) {
     draw_copy("Copy", session::play_command(*player->recording(), used), "opens this scene");
