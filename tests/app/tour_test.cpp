@@ -8,7 +8,6 @@
 
 #include "app/render/palette.h"
 #include "app/ui/shortcuts.h"
-#include "app/ui/tour/body_subset.h"
 #include "app/ui/tour/paper_boxes.h"
 #include "app/ui/tour/steps.h"
 #include "app/window/preferences.h"
@@ -574,15 +573,6 @@ TEST(MissedContacts, AreThoseThatTheDetectorMisses) {
     }
   }
   EXPECT_GT(missed, 0u);
-}
-
-TEST(BodySubset, HasTheWorldsPositionsAndIndices) {
-  Session session(touching_pair(), {}, 1);
-  const collide::Frame all = session.world().positions();
-  const ui::BodySubset second(session.world(), 1, 1);
-  ASSERT_EQ(second.frame().x.size(), all.bodies->size(1));
-  EXPECT_EQ(second.frame().x[5], all.x[all.bodies->first[1] + 5]);
-  EXPECT_EQ(second.to_world({3, 4}).b, all.bodies->first[1] + 4);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "app/ui/tour/example.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -10,8 +11,8 @@
 #include <glm/geometric.hpp>
 
 #include "app/compare/compare.h"
+#include "app/compare/positions.h"
 #include "app/session/window_work.h"
-#include "app/ui/tour/body_subset.h"
 #include "collide/core/body_boxes.h"
 #include "collide/methods.h"
 #include "softbody/world/measures.h"
@@ -118,13 +119,19 @@ std::optional<Contact> closest_of(const softbody::BodiesInMotion& world, const s
 /// Returns the closest vertices of two different bodies, by doubling the tolerance until there are contacts.
 std::optional<Contact> closest_between(const softbody::BodiesInMotion& world, const Pair& pair,
                                        collide::Detector& exact, collide::Workers& workers) {
-  const BodySubset subset(world, pair.a, pair.b);
+  assert(pair.a < pair.b);
+  const collide::Frame all = world.positions();
+  compare::FrameCopy both;
+  for (const BodyId body : {pair.a, pair.b}) both.add(all, body);
   collide::Settings settings = world.collision();
   settings.self_collision = false;
   constexpr int max_doublings = 20;
   for (int i = 0; i < max_doublings; ++i) {
-    std::vector<Contact> near = detect(exact, subset.frame(), settings, workers).contacts;
-    for (Contact& contact : near) contact = subset.to_world(contact);
+    std::vector<Contact> near = detect(exact, both.view(), settings, workers).contacts;
+    for (Contact& contact : near) {
+      contact.a += all.bodies->first[pair.a];
+      contact.b += all.bodies->first[pair.b] - both.bodies.first[1];
+    }
     if (!near.empty()) return closest_of(world, near);
     settings.tolerance *= 2;
   }
