@@ -57,10 +57,7 @@ struct ValueWidgets {
   bool slide(const softbody::Key& key, Value& value, const softbody::Slider& s, const std::string& more = "") const {
     const std::string tooltip = std::string(key.summary) + more;
     const auto least = static_cast<Value>(s.least), most = static_cast<Value>(s.most);
-    if constexpr (std::is_integral_v<Value>)
-      return w.slider(s.text, value, least, most, s.format, tooltip);
-    else
-      return w.slider(s.text, value, least, most, s.format, tooltip, s.logarithmic);
+    return w.slider(s.text, value, least, most, s.format, tooltip, s.logarithmic);
   }
   /// Returns the slider of a length, which goes `below` and `above` the scene's tolerance.
   softbody::Slider of_lengths(softbody::Slider s, float below, float above) const {
@@ -123,7 +120,7 @@ struct ValueWidgets {
     const float arrow = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
     const float field_width = w.px(84);
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - arrow - field_width - 2 * gap);
-    bool changed = w.slider("Buckets", value, 1, collide::max_buckets, key.summary);
+    bool changed = w.slider("Buckets", value, 1, collide::max_buckets, "", key.summary, true);
     ImGui::SameLine(0, gap);
     ImGui::SetNextItemWidth(field_width);
     changed |= w.number_field("Number of buckets", value, 1, collide::max_buckets, key.summary);

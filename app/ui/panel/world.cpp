@@ -96,7 +96,7 @@ struct ShapeWidgets {
   }
   void operator()(const char*, softbody::solid::Height h) {
     w.row_label("Height", w.px(label_column));
-    w.slider("Ground height", h.value, -3, 3, "%.2f m", "Height of the ground.", false);
+    w.slider("Ground height", h.value, -3, 3, "%.2f m", "Height of the ground.");
   }
   void operator()(const char*, softbody::solid::HalfSize s) {
     glm::dvec3 size = 2.0 * s.value;
@@ -125,13 +125,12 @@ void draw_solids(Widgets& w, const Session& session, const UiState& ui) {
   ImGui::BeginDisabled(!solid.enabled);
   solid.values(ShapeWidgets{w});
   w.row_label("Friction", w.px(label_column));
-  w.slider("Solid friction", solid.friction, 0, 2, "%.2f", "Coefficient of friction.", false);
+  w.slider("Solid friction", solid.friction, 0, 2, "%.2f", "Coefficient of friction.");
   w.row_label("Restitution", w.px(label_column));
   w.slider(
       "Solid restitution", solid.restitution, 0, 1, "%.2f",
       "Bounce of bodies off the solid. At 0 contact keeps the energy that it takes in an impact, at 1 it gives all "
-      "back.",
-      false);
+      "back.");
   ImGui::EndDisabled();
   if (solid != solids[index]) w.ask([index, solid](Session& s) { s.settings.set_solid(index, solid); });
 }

@@ -131,45 +131,41 @@ bool Widgets::drag_or_type(const Number<Value>& n, const Show& show) {
 }
 
 template <class Value>
-bool Widgets::slide(const Number<Value>& n, bool logarithmic, const char* shown_format, std::string_view tooltip) {
-  const Value now = n.value;
-  const bool double_clicked = opens_field() && input_.pressed == n.label;
-  if (double_clicked) n.value = static_cast<Value>(input_.value_before);
+bool Widgets::slider(std::string_view label, Value& value, std::type_identity_t<Value> min,
+                     std::type_identity_t<Value> max, const char* format, std::string_view tooltip, bool logarithmic) {
+  assert(min > 0 || !logarithmic || !std::is_integral_v<Value>);
+  const Number<Value> n{label, value, min, max, *format ? format : "%u"};
+  const Value now = value;
+  const bool double_clicked = opens_field() && input_.pressed == label;
+  if (double_clicked) value = static_cast<Value>(input_.value_before);
   const bool changed = [&] {
     const HiddenGrab hide;
     const OpenByDoubleClick opens;
     return drag_or_type(n, [&](const char* id) {
-      return ImGui::SliderScalar(id, imgui_type<Value>, &n.value, &n.min, &n.max,
-                                 double_clicked ? n.format : shown_format,
+      return ImGui::SliderScalar(id, imgui_type<Value>, &value, &min, &max, double_clicked ? n.format : format,
                                  clamped | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
     });
   }();
   if (double_clicked) {
-    if (!ImGui::IsItemActive()) n.value = now;  // the second click missed the slider
+    if (!ImGui::IsItemActive()) value = now;  // the second click missed the slider
     input_.pressed.clear();
   } else if (ImGui::IsItemActivated()) {
-    input_.pressed = n.label;
+    input_.pressed = label;
     input_.value_before = static_cast<double>(now);
   }
-  const auto min = static_cast<double>(n.min), max = static_cast<double>(n.max);
+  const auto first = static_cast<double>(min), last = static_cast<double>(max);
   // A logarithmic slider from 0 begins at the smallest number that ImGui shows.
-  const double begin = logarithmic ? std::max(min, std::pow(0.1, ImParseFormatPrecision(n.format, 3))) : min;
-  const double steps = std::is_integral_v<Value> && !logarithmic ? max - min : 0;
-  draw_grab(relative_position(static_cast<double>(n.value), begin, max, logarithmic), static_cast<float>(steps),
+  const double begin = logarithmic ? std::max(first, std::pow(0.1, ImParseFormatPrecision(n.format, 3))) : first;
+  const double steps = std::is_integral_v<Value> && !logarithmic ? last - first : 0;
+  draw_grab(relative_position(static_cast<double>(value), begin, last, logarithmic), static_cast<float>(steps),
             px(slider_bar));
-  register_number(n.label, tooltip);
-  return changed || n.value != now;
+  register_number(label, tooltip);
+  return changed || value != now;
 }
-
-bool Widgets::slider(std::string_view label, int& value, int min, int max, const char* format,
-                     std::string_view tooltip) {
-  return slide<int>({label, value, min, max, format}, false, format, tooltip);
-}
-
-bool Widgets::slider(std::string_view label, float& value, float min, float max, const char* format,
-                     std::string_view tooltip, bool logarithmic) {
-  return slide<float>({label, value, min, max, format}, logarithmic, format, tooltip);
-}
+template bool Widgets::slider(std::string_view, int&, int, int, const char*, std::string_view, bool);
+template bool Widgets::slider(std::string_view, float&, float, float, const char*, std::string_view, bool);
+template bool Widgets::slider(std::string_view, std::uint32_t&, std::uint32_t, std::uint32_t, const char*,
+                              std::string_view, bool);
 
 bool Widgets::slider(std::string_view label, double& value, double min, double max, const char* format,
                      std::string_view tooltip, bool logarithmic) {
@@ -178,12 +174,6 @@ bool Widgets::slider(std::string_view label, double& value, double min, double m
       slider(label, shown, static_cast<float>(min), static_cast<float>(max), format, tooltip, logarithmic);
   if (changed) value = static_cast<double>(shown);
   return changed;
-}
-
-bool Widgets::slider(std::string_view label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
-                     std::string_view tooltip) {
-  assert(min > 0);
-  return slide<std::uint32_t>({label, value, min, max, "%u"}, true, "", tooltip);
 }
 
 bool Widgets::drag(std::string_view label, glm::dvec3& value, float min, float max, std::string_view tooltip) {

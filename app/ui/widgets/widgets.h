@@ -124,15 +124,13 @@ class Widgets {
   bool closable_heading(std::string_view label, std::string_view tooltip);
   /// Draws the heading of a section that folds. True if it is open.
   bool section(std::string_view label, bool open_at_first);
-  /// A double-click on a slider opens a field for typing.
-  bool slider(std::string_view label, int& value, int min, int max, const char* format, std::string_view tooltip);
-  bool slider(std::string_view label, float& value, float min, float max, const char* format, std::string_view tooltip,
-              bool logarithmic);
+  /// A slider for an int, a float, a std::uint32_t or a double. A double-click opens a field for typing. With an empty
+  /// `format` only the field shows the value. A logarithmic one for whole numbers: min > 0.
+  template <class Value>
+  bool slider(std::string_view label, Value& value, std::type_identity_t<Value> min, std::type_identity_t<Value> max,
+              const char* format, std::string_view tooltip, bool logarithmic = false);
   bool slider(std::string_view label, double& value, double min, double max, const char* format,
-              std::string_view tooltip, bool logarithmic);
-  /// A logarithmic slider for whole numbers; min > 0.
-  bool slider(std::string_view label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
-              std::string_view tooltip);
+              std::string_view tooltip, bool logarithmic = false);
   /// Three numbers within the limits, each to drag or to type.
   bool drag(std::string_view label, glm::dvec3& value, float min, float max, std::string_view tooltip);
   /// A field for typing a number within the limits.
@@ -207,9 +205,6 @@ class Widgets {
   /// which drops what it cannot read, draws type().
   template <class Value, class Show>
   bool drag_or_type(const Number<Value>& number, const Show& show);
-  /// Draws a slider by drag_or_type(). shown_format: of the value, while the user is not about to type.
-  template <class Value>
-  bool slide(const Number<Value>& number, bool logarithmic, const char* shown_format, std::string_view tooltip);
 
   float scale_, usual_alpha_;
   InputState& input_;
