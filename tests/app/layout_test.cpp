@@ -192,24 +192,6 @@ TEST(Layout, KeepsLegendsWithinTheirArea) {
   }
 }
 
-TEST(Layout, FitsTheTourIntoSmallWindows) {
-  PanelRig rig;
-  for (const glm::ivec2 size : {glm::ivec2(640, 480), glm::ivec2(500, 400), glm::ivec2(1280, 720)}) {
-    rig.resize(size.x, size.y);
-    rig.ui.tour.start(rig.session, rig.ui.overlays);
-    rig.frames(3);
-    for (const char* label : {"Back", "Next", "Close tour"}) {
-      const ui::WidgetRecorder::Widget button = rig.widget(label);
-      EXPECT_LE(button.max.x, static_cast<float>(size.x)) << label;
-      EXPECT_LE(button.max.y, static_cast<float>(size.y)) << label;
-    }
-    const ui::ScreenRect scene = rig.interface.scene_area();
-    EXPECT_GT(scene.max.x - scene.min.x, 200);
-    EXPECT_GT(scene.max.y - scene.min.y, 150);
-    rig.ui.tour.close(rig.session, rig.ui.overlays);
-  }
-}
-
 TEST(Layout, LeavesTheMiddleOfTheSceneFreeWithAllPartsShown) {
   for (const glm::ivec2 size : {glm::ivec2(1280, 720), glm::ivec2(1600, 1000)}) {
     PanelRig rig;
