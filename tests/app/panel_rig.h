@@ -102,6 +102,7 @@ class PanelRig {
           << was.label << " moved";
     }
   }
+  ui::ScreenRect area(std::string_view label) const { return {widget(label).min, widget(label).max}; }
   /// Returns the middle of a widget.
   ImVec2 middle(std::string_view label) const {
     const auto [name, min, max, enabled] = widget(label);
