@@ -1,10 +1,10 @@
 // The views of the hash table and of a bucket.
 
-#include "app/ui/views/hash_table_view.h"
+#include "app/ui/views/views.h"
 
 #include <algorithm>
 
-#include "app/ui/views/views.h"
+#include "app/ui/widgets/bucket_grid.h"
 #include "tests/app/panel_rig.h"
 #include "tests/bucket_loads.h"
 
@@ -15,21 +15,24 @@ collide::BucketLoad fullest_bucket(const Session& session) {
   return *std::ranges::max_element(session.inspector.shown_geometry().loads, {}, &collide::BucketLoad::load);
 }
 
-void click_square(PanelRig& rig, std::uint32_t square) {
-  const ui::HashTableView& view = rig.interface.hash_table_view();
-  const ui::BucketGrid& grid = view.grid();
-  rig.click_at(view.grid_origin().x + (static_cast<float>(square % grid.columns) + 0.5f) * grid.side,
-               view.grid_origin().y + (static_cast<float>(square / grid.columns) + 0.5f) * grid.side);
+ui::BucketGrid grid_of(const PanelRig& rig) {
+  const auto [min, max] = rig.area("Buckets of the table");
+  const std::uint32_t buckets = rig.session.world().collision().buckets;
+  return ui::BucketGrid::fit(buckets, max.x - min.x, max.y - min.y, ui::min_square);
 }
 
-TEST(TableFigures, CountBoxesAndUsedBucketsAndTheLongestOne) {
+void click_square(PanelRig& rig, std::uint32_t square) {
+  const ImVec2 origin = rig.area("Buckets of the table").min;
+  const ui::BucketGrid grid = grid_of(rig);
+  rig.click_at(origin.x + (static_cast<float>(square % grid.columns) + 0.5f) * grid.side,
+               origin.y + (static_cast<float>(square / grid.columns) + 0.5f) * grid.side);
+}
+
+TEST(LongestBucket, HasTheLargestLoad) {
   collide::DebugGeometry debug;
-  debug.boxes.resize(3);
-  debug.loads = {{.bucket = 4, .load = 2}, {.bucket = 9, .load = 7}};
-  const ui::TableFigures figures = ui::table_figures(debug);
-  EXPECT_EQ(figures.boxes, 3u);
-  EXPECT_EQ(figures.buckets_used, 2u);
-  EXPECT_EQ(figures.longest, 7u);
+  EXPECT_EQ(ui::longest_bucket(debug), 0u);
+  debug.loads = {{.bucket = 4, .load = 2}, {.bucket = 9, .load = 7}, {.bucket = 11, .load = 3}};
+  EXPECT_EQ(ui::longest_bucket(debug), 7u);
 }
 
 TEST(BucketView, GroupsEntriesByCellsAndSelectsACell) {
@@ -94,7 +97,7 @@ TEST(BucketView, AbbreviatesListsOfBodies) {
   EXPECT_EQ(text({0, 1, 3, 4}), "bodies 1, 4 and 2 more");
 }
 
-TEST(HashTableView, SelectsTheClickedBucketAndDeselectsItAtASecondClick) {
+TEST(DrawHashTable, SelectsTheClickedBucketAndDeselectsItAtASecondClick) {
   PanelRig rig;
   click_square(rig, 345);
   EXPECT_EQ(rig.session.inspector.selected_bucket(), 345u);
@@ -102,12 +105,12 @@ TEST(HashTableView, SelectsTheClickedBucketAndDeselectsItAtASecondClick) {
   EXPECT_FALSE(rig.session.inspector.selected_bucket());
 }
 
-TEST(HashTableView, SelectsTheFullestBucketOfTheClickedSquare) {
+TEST(DrawHashTable, SelectsTheFullestBucketOfTheClickedSquare) {
   PanelRig rig;
   rig.change([](softbody::Scene& scene) { scene.collision.buckets = 1'000'003; });
   rig.session.simulation.clock.paused = true;
   rig.frames(2);
-  const std::uint32_t per_square = rig.interface.hash_table_view().grid().per_square;
+  const std::uint32_t per_square = grid_of(rig).per_square;
   ASSERT_GT(per_square, 1u);
   const collide::BucketLoad fullest = fullest_bucket(rig.session);
   click_square(rig, fullest.bucket / per_square);

@@ -7,8 +7,7 @@
 
 #include "app/render/palette.h"
 #include "app/ui/panel/panel.h"
-#include "app/ui/views/hash_table_view.h"
-#include "app/ui/views/status.h"
+#include "app/ui/views/views.h"
 #include "softbody/world/measures.h"
 
 namespace app::ui {
@@ -131,14 +130,14 @@ void draw_hashes(Widgets& w, const Session& session) {
 /// Draws the figures of the table that the hash table's view shows.
 void draw_table(Widgets& w, const Session& session) {
   const collide::DebugGeometry& geometry = session.inspector.shown_geometry();
-  const TableFigures figures = table_figures(geometry);
   const auto text = [&](std::size_t count, bool known) { return known ? grouped(count) : std::string("-"); };
   const bool known = geometry.buckets > 0;
   ImGui::TextDisabled("Table of %s", shown_method_text(session).c_str());
   w.register_item("Table", "The hash table of this method (§2.2). The view of the hash table (T) shows the same one.");
-  w.figure("  boxes", text(figures.boxes, known && figures.boxes > 0), "Boxes with at least one vertex (§2.1).");
-  w.figure("  buckets used", text(figures.buckets_used, known), "Buckets with at least one entry (§2.2).");
-  w.figure("  longest bucket", text(figures.longest, known), "Entries of the fullest bucket (§2.2).");
+  const std::size_t boxes = geometry.boxes.size();
+  w.figure("  boxes", text(boxes, known && boxes > 0), "Boxes with at least one vertex (§2.1).");
+  w.figure("  buckets used", text(geometry.loads.size(), known), "Buckets with at least one entry (§2.2).");
+  w.figure("  longest bucket", text(longest_bucket(geometry), known), "Entries of the fullest bucket (§2.2).");
 }
 
 }  // namespace
