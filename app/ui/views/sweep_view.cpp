@@ -39,18 +39,14 @@ std::string point_tooltip(const compare::SweepRow& row) {
 
 /// Lists what was not run and why, at most max_reasons of them.
 std::string not_run_text(const compare::SweepReport& report) {
-  std::string text;
-  std::size_t listed = 0, more = 0;
-  for (const compare::SweepRow& row : report.rows) {
-    if (was_run(row)) continue;
-    if (listed == max_reasons) {
-      ++more;
-      continue;
-    }
-    text += fmt::format("{}{}: {}", listed++ ? "\n" : "", configuration_text(row.configuration), row.not_run);
-  }
-  if (more) text += fmt::format("\nand {} more.", grouped(more));
-  return text.empty() ? "All settings fit the budget." : text;
+  std::vector<std::string> reasons;
+  for (const compare::SweepRow& row : report.rows)
+    if (!was_run(row)) reasons.push_back(configuration_text(row.configuration) + ": " + row.not_run);
+  if (reasons.empty()) return "All settings fit the budget.";
+  const std::size_t all = reasons.size();
+  if (all > max_reasons) reasons.resize(max_reasons);
+  const std::string text = joined(reasons, "\n");
+  return all > max_reasons ? text + fmt::format("\nand {} more.", grouped(all - max_reasons)) : text;
 }
 
 bool in_use(const compare::SweepRow& row, const softbody::BodiesInMotion& world) {
@@ -156,16 +152,10 @@ void draw_controls(Widgets& w, const Session& session) {
   w.register_item("Sweep counts", not_run_text(session.sweep().report));
 }
 
-}  // namespace
-
-float SweepView::preferred_height(std::size_t methods, float window) {
-  const float lanes = 9 * static_cast<float>(methods);  // and lines of the legend
-  return std::clamp(0.44f * window + lanes, min_height, 370 + lanes);
-}
-
-void SweepView::draw_legend(Widgets& w, const compare::MethodSet& shown) {
+/// Draws the legend of these methods. Returns the one under the mouse.
+std::optional<std::size_t> draw_legend(Widgets& w, const compare::MethodSet& shown) {
   constexpr float gap = 12, group_gap = 28, new_line = 1e4f;
-  hovered_method_.reset();
+  std::optional<std::size_t> hovered;
   std::optional<collide::MethodGroup> group;  // of the entry before
   bool levels = false;
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, w.px(3)});
@@ -178,7 +168,7 @@ void SweepView::draw_legend(Widgets& w, const compare::MethodSet& shown) {
                       : group == method.group ? gap
                                               : group_gap,
                       [&](ImVec2 at) { draw_marker(at, w.px(5), style.marker, to_imgui(style.colour), w.px(1.8f)); });
-    if (ImGui::IsItemHovered()) hovered_method_ = m;
+    if (ImGui::IsItemHovered()) hovered = m;
     group = method.group;
     levels |= method.uses_levels;
   }
@@ -198,18 +188,26 @@ void SweepView::draw_legend(Widgets& w, const compare::MethodSet& shown) {
   draw_legend_entry(w, "in use", "The method and settings that drive the bodies now.", gap,
                     [&](ImVec2 at) { SweepPlot::draw_ring(w, at); });
   ImGui::PopStyleVar();
+  return hovered;
 }
 
-void SweepView::draw_plot(Widgets& w, const Session& session, float height) {
+}  // namespace
+
+float SweepView::preferred_height(std::size_t methods, float window) {
+  const float lanes = 9 * static_cast<float>(methods);  // and lines of the legend
+  return std::clamp(0.44f * window + lanes, min_height, 370 + lanes);
+}
+
+void SweepView::draw_plot(Widgets& w, const Session& session, float height, std::optional<std::size_t> method) {
   const ImVec2 min = ImGui::GetCursorScreenPos();
   const ImVec2 size{ImGui::GetContentRegionAvail().x, height};
   const bool clicked = ImGui::InvisibleButton("##scatter", size);
   const bool hovered = ImGui::IsItemHovered();
   w.register_item("Scatter");
-  SweepPlot::Emphasis emphasis{.method = hovered_method_, .row = {}};
+  std::optional<std::size_t> used;
   for (const SweepPlot::Point& point : plot_.points())
-    if (in_use(session.sweep().report.rows[point.row], session.world())) emphasis.row = point.row;
-  plot_.draw(w, min, {min.x + size.x, min.y + size.y}, emphasis);
+    if (in_use(session.sweep().report.rows[point.row], session.world())) used = point.row;
+  plot_.draw(w, {min, {min.x + size.x, min.y + size.y}}, method, used);
   const SweepPlot::Point* under = hovered ? plot_.hit_test(w, ImGui::GetIO().MousePos) : nullptr;
   if (!under) return;
   const compare::SweepRow& row = session.sweep().report.rows[under->row];
@@ -227,9 +225,9 @@ void SweepView::draw(Widgets& w, const Session& session, const ScreenRect& area)
   draw_controls(w, session);
   const compare::MethodSet shown = session.comparison.shown_methods();
   plot_.set(session.sweep().report, shown);
-  draw_legend(w, shown);
-  const ImGuiStyle& style = ImGui::GetStyle();
-  draw_plot(w, session, ImGui::GetContentRegionAvail().y - ImGui::GetTextLineHeight() - style.ItemSpacing.y);
+  const std::optional<std::size_t> hovered = draw_legend(w, shown);
+  const float footing = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
+  draw_plot(w, session, ImGui::GetContentRegionAvail().y - footing, hovered);
   w.text_line(footer(session.sweep()));
   const std::string& why = session.sweep().report.reference_note;
   w.register_item("Sweep footing", why.empty() ? "The frame of the sweep." : why);
