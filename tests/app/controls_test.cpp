@@ -94,20 +94,6 @@ TEST(BodyControls, AskForASelectionBeforeTheyDelete) {
   EXPECT_FALSE(bodies.selected());
 }
 
-TEST(BodyControls, PullOnlyWhatIsGrabbed) {
-  session::Simulation simulation(touching_pair(), 1);
-  session::BodyControls bodies(simulation);
-  simulation.pull_to({0, 9, 0});
-  EXPECT_FALSE(simulation.simulated()->grabbed());
-  simulation.grab({.body = 1, .target = {0, 4, 0}});
-  simulation.pull_to({0, 9, 0});
-  ASSERT_TRUE(simulation.simulated()->grabbed());
-  EXPECT_EQ(simulation.simulated()->grabbed()->body, 1u);
-  EXPECT_EQ(simulation.simulated()->grabbed()->target, glm::dvec3(0, 9, 0));
-  simulation.release();
-  EXPECT_FALSE(simulation.simulated()->grabbed());
-}
-
 TEST(SettingControls, SayWhatTheWorldRefusesAndChangeNothing) {
   softbody::Scene scene = touching_pair();
   scene.bodies[0].mesh.subdivisions = 4;  // too large for implicit steps

@@ -1,7 +1,8 @@
 // The panel's sections for files, used by mouse and keyboard.
 
 #include <algorithm>
-#include <fstream>
+#include <filesystem>
+#include <map>
 
 #include "softbody/model/body_model.h"
 #include "softbody/scene/scene.h"
@@ -75,19 +76,29 @@ TEST(ImportReport, ListsEveryFileBelowTheStatus) {
   EXPECT_GT(first->min.y, status_end) << "a long report scrolls";
 }
 
-TEST(FilesPanel, SavesAndReplacesAScene) {
+TEST(FilesPanel, SavesASceneAndAsksBeforeItReplacesAFile) {
   const TemporaryFolder folder;
-  const std::string file = (folder.path() / "saved.toml").string();
+  const std::string file = folder.write("mine.toml", "# mine\n").string();
+  const auto method = [&] { return softbody::load_scene(file).method; };
   PanelRig rig;
   open_only(rig, "Files");
   rig.session.settings.set_method("grid-hash");
   rig.type("Scene file", file);
-  rig.click("Save");
+  for (const char* answer : {"Cancel", "Replace"}) {
+    rig.click("Save");
+    rig.frames(2);
+    EXPECT_EQ(std::filesystem::file_size(file), 7u) << "as it was";
+    EXPECT_TRUE(rig.shows("Save question"));
+    rig.click(answer);
+    rig.frames(2);
+    EXPECT_FALSE(rig.shows("Save question"));
+  }
   EXPECT_EQ(rig.session.simulation.notice.text(), "Scene saved: " + file);
-  EXPECT_EQ(softbody::load_scene(file).method, "grid-hash");
+  EXPECT_EQ(method(), "grid-hash");
+  EXPECT_EQ(rig.session.simulation.loaded.file.name(), file);
   rig.session.settings.set_method("brute-force");
   rig.click("Save");
-  EXPECT_EQ(softbody::load_scene(file).method, "brute-force");
+  EXPECT_EQ(method(), "brute-force") << "without a question: it is the scene's own file";
   rig.type("Scene file", "/none/x.toml");
   rig.click("Save");
   rig.frames(2);
@@ -95,34 +106,7 @@ TEST(FilesPanel, SavesAndReplacesAScene) {
   EXPECT_GE(rig.widget("Save problem").min.y, rig.widget("Scene file").max.y) << "below its field";
   rig.type("Scene file", file);
   rig.frames(2);
-  EXPECT_FALSE(rig.recorder.find("Save problem")) << "another file";
-}
-
-TEST(FilesPanel, AsksBeforeItReplacesAFile) {
-  const TemporaryFolder folder;
-  const auto other = folder.write("other.toml", "# mine\n");
-  const auto text = [&] {
-    std::ifstream in(other);
-    return std::string(std::istreambuf_iterator<char>(in), {});
-  };
-  PanelRig rig;
-  open_only(rig, "Files");
-  rig.type("Scene file", other.string());
-  rig.click("Save");
-  rig.frames(2);
-  EXPECT_EQ(text(), "# mine\n");
-  EXPECT_TRUE(rig.recorder.find("Save question"));
-  rig.click("Cancel");
-  rig.frames(2);
-  EXPECT_FALSE(rig.recorder.find("Save question"));
-  EXPECT_EQ(text(), "# mine\n");
-  rig.click("Save");
-  rig.frames(2);
-  rig.click("Replace");
-  rig.frames(2);
-  EXPECT_FALSE(rig.recorder.find("Save question"));
-  EXPECT_NE(text(), "# mine\n");
-  EXPECT_EQ(rig.session.simulation.loaded.file.name(), other.string());
+  EXPECT_FALSE(rig.shows("Save problem")) << "another file";
 }
 
 TEST(FilesPanel, CopiesCommandsForTheSettingsInUse) {
@@ -130,19 +114,16 @@ TEST(FilesPanel, CopiesCommandsForTheSettingsInUse) {
   open_only(rig, "Files");
   rig.session.simulation.clock.paused = true;
   rig.session.settings.set_method("grid-hash");
-  rig.click("Copy");
-  const std::string demo = ImGui::GetClipboardText();
-  EXPECT_NE(demo.find(" --scene pair --method grid-hash "), std::string::npos) << demo;
-  EXPECT_TRUE(rig.session.simulation.notice.text().starts_with("Copied")) << rig.session.simulation.notice.text();
-  rig.click("Copy simulate");
-  const std::string simulate = ImGui::GetClipboardText();
-  const std::string end = " --frames " + std::to_string(rig.session.world().frame());
-  EXPECT_NE(simulate.find(" simulate --scene pair "), std::string::npos) << simulate;
-  EXPECT_NE(simulate.find(end), std::string::npos) << simulate;
-  softbody::Material heavy;
-  heavy.name = "new";
-  heavy[softbody::Material::mass] = 2;
-  rig.session.bodies.add({}, heavy);
+  const std::string frames = " --frames " + std::to_string(rig.session.world().frame());
+  const std::map<std::string, std::vector<std::string>> parts{{"Copy", {" --scene pair --method grid-hash "}},
+                                                              {"Copy simulate", {" simulate --scene pair ", frames}}};
+  for (const auto& [button, wanted] : parts) {
+    rig.click(button);
+    const std::string command = ImGui::GetClipboardText();
+    for (const std::string& part : wanted) EXPECT_NE(command.find(part), std::string::npos) << command;
+    EXPECT_TRUE(rig.session.simulation.notice.text().starts_with("Copied")) << rig.session.simulation.notice.text();
+  }
+  rig.session.bodies.add({}, {});
   rig.frames(2);
   EXPECT_FALSE(rig.widget("Copy").enabled) << "the file has no such body";
 }
