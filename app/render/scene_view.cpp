@@ -171,9 +171,8 @@ void SceneView::draw(const softbody::BodiesInMotion& world, const OverlayRequest
   frame_.bounds_radius = enclosing_radius(around.centre, around.radius, positions_);
 
   const float pixels = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
-  add_overlays(
-      {world, overlays, {camera.eye(), pixels / pixel_scale}, {std::span(positions_).first(vertices), particles_}},
-      frame_);
+  add_overlays({world, overlays, camera.eye(), pixels / pixel_scale, std::span(positions_).first(vertices), particles_},
+               frame_);
   if (overlays.highlight) {
     std::ranges::copy(overlays.highlight->boxes, std::back_inserter(frame_.boxes));
     std::ranges::copy(overlays.highlight->lines, std::back_inserter(frame_.lines));

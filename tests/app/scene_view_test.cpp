@@ -155,7 +155,7 @@ class AddOverlaysTest : public testing::Test {
   }
   void add(const std::vector<compare::SurfaceMark>& marks) {
     request_.marks = marks;
-    render::add_overlays({world_, request_, {glm::vec3(0, 3, 9), 500}, {positions_, positions_}}, frame_);
+    render::add_overlays({world_, request_, glm::vec3(0, 3, 9), 500, positions_, positions_}, frame_);
   }
 
   softbody::World world_{touching_pair(), {}};
