@@ -83,14 +83,10 @@ std::optional<Pair> nearest_pair(const collide::BodyBoxes& boxes, std::optional<
   if (boxes.live.empty()) return std::nullopt;
   const bool exists = preferred && std::ranges::count(boxes.live, *preferred) > 0;
   const BodyId body = exists ? *preferred : boxes.live.front();
-  BodyId other = body;
-  float min_gap = std::numeric_limits<float>::infinity();
-  for (const BodyId candidate : boxes.live) {
-    const float distance = gap(boxes.box[body], boxes.box[candidate]);
-    if (candidate == body || distance >= min_gap) continue;
-    min_gap = distance;
-    other = candidate;
-  }
+  const auto distance = [&](BodyId candidate) {
+    return candidate == body ? std::numeric_limits<float>::infinity() : gap(boxes.box[body], boxes.box[candidate]);
+  };
+  const BodyId other = *std::ranges::min_element(boxes.live, {}, distance);
   return Pair{std::min(body, other), std::max(body, other)};
 }
 
@@ -102,12 +98,9 @@ collide::Result detect(collide::Detector& detector, const collide::Frame& frame,
   return result;
 }
 
-std::vector<Contact> of_pair(const softbody::BodiesInMotion& world, const std::vector<Contact>& contacts,
-                             const Pair& pair) {
-  std::vector<Contact> of_pair;
-  std::ranges::copy_if(contacts, std::back_inserter(of_pair),
-                       [&](const Contact& contact) { return pair_of(world, contact) == pair; });
-  return of_pair;
+std::vector<Contact> of_pair(const softbody::BodiesInMotion& world, std::vector<Contact> contacts, const Pair& pair) {
+  std::erase_if(contacts, [&](const Contact& contact) { return pair_of(world, contact) != pair; });
+  return contacts;
 }
 
 std::optional<Contact> closest_of(const softbody::BodiesInMotion& world, const std::vector<Contact>& contacts) {
