@@ -33,7 +33,7 @@ void draw_sidebar(Widgets& w, const Session& session, const UiState& ui, const S
     draw_true_surfaces(w, session);
   }
   ImGui::PopStyleVar(2);
-  end_dock();
+  ImGui::End();
 }
 
 }  // namespace app::ui

@@ -106,7 +106,7 @@ void draw_time_line(Widgets& w, const Session& session, const ScreenRect& area) 
   else
     draw_past(w, session);
   if (has_state) draw_state_text(w, session);
-  end_dock();
+  ImGui::End();
 }
 
 }  // namespace app::ui

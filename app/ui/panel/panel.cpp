@@ -152,7 +152,7 @@ void draw_panel(Widgets& w, const Session& session, const UiState& ui, const Scr
   draw_bodies(w, session);
   ImGui::Spacing();
   draw_sections(w, session, ui);
-  end_dock();
+  ImGui::End();
 }
 
 }  // namespace app::ui

@@ -284,7 +284,7 @@ void draw_compare(Widgets& w, const Session& session, const UiState& ui, const S
       "The method that finds the true contacts, and the size of the frame. §3 compares hashes with the number of "
       "vertices N, and pair tests with all pairs.");
   ImGui::PopStyleVar(2);
-  end_dock();
+  ImGui::End();
 }
 
 }  // namespace app::ui

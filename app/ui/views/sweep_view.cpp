@@ -231,7 +231,7 @@ void SweepView::draw(Widgets& w, const Session& session, const ScreenRect& area)
   w.text_line(footer(session.sweep()));
   const std::string& why = session.sweep().report.reference_note;
   w.register_item("Sweep footing", why.empty() ? "The frame of the sweep." : why);
-  end_dock();
+  ImGui::End();
 }
 
 }  // namespace app::ui
