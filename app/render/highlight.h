@@ -1,8 +1,8 @@
 #pragma once
 // Highlights a part of the scene and fades the rest, for a step of the guided tour.
 
-#include <algorithm>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,9 +18,9 @@ struct SceneLabel {
 };
 
 struct Highlight {
-  std::vector<softbody::BodyId> bodies;  // in their colours; all others are faded
-  float opacity = 1;                     // of these; below 1 their inside shows
-  bool bodies_hide = true;               // the faces of boxes behind these; false: these are a veil over such faces
+  std::set<softbody::BodyId> bodies;  // in their colours; all others are faded
+  float opacity = 1;                  // of these; below 1 their inside shows
+  bool bodies_hide = true;            // the faces of boxes behind these; false: these are a veil over such faces
   std::vector<engine::BoxSet> boxes;
   std::vector<engine::LineSet> lines;
   std::vector<engine::PointSet> points;
@@ -29,7 +29,7 @@ struct Highlight {
   glm::vec3 centre{0.0f};
   float radius = 1;  // m
 
-  bool fades(softbody::BodyId body) const { return std::ranges::count(bodies, body) == 0; }
+  bool fades(softbody::BodyId body) const { return !bodies.contains(body); }
 };
 
 }  // namespace app::render

@@ -50,7 +50,7 @@ void add_body_boxes(const OverlayInput& from, engine::FrameData& frame) {
   const collide::Bodies& bodies = from.world.bodies();
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     glm::vec3 lo(std::numeric_limits<float>::max()), hi(std::numeric_limits<float>::lowest());
-    for (const glm::vec3& p : from.at.shown.subspan(bodies.first[b], bodies.size(b))) {
+    for (const glm::vec3& p : from.shown.subspan(bodies.first[b], bodies.size(b))) {
       lo = glm::min(lo, p);
       hi = glm::max(hi, p);
     }
@@ -90,7 +90,7 @@ void add_bucket(const OverlayInput& from, engine::FrameData& frame) {
     cells.boxes.push_back(cell_box(group.cell, *from.world.collision().cell_size, glm::vec4(colour * 0.6f, 0.9f)));
     for (const collide::Index item : group.items) {
       if (request.bucket->vertices) {
-        points.points.push_back({from.at.shown[item], glm::vec4(colour, 1.0f)});
+        points.points.push_back({from.shown[item], glm::vec4(colour, 1.0f)});
       } else {
         const auto& [lo, hi, body] = request.debug->boxes[item];
         boxes.boxes.push_back({lo, hi, glm::vec4(colour * 0.9f, 1.0f)});
@@ -134,10 +134,10 @@ void add_contacts(const OverlayInput& from, engine::FrameData& frame) {
   const collide::Bodies& bodies = from.world.bodies();
   for (const collide::Contact& contact : from.world.detection().contacts) {
     const bool inside = bodies.body_of(contact.a) == bodies.body_of(contact.b);
-    add_contact(from.at.shown, contact, inside ? contact_inside_colour : contact_between_colour, marks);
+    add_contact(from.shown, contact, inside ? contact_inside_colour : contact_between_colour, marks);
   }
   for (const softbody::SolidContactPoint& contact : from.request.solid_contacts)
-    marks.points.push_back({from.at.simulated[contact.vertex], glm::vec4(contact_solid_colour, 1.0f)});
+    marks.points.push_back({from.simulated[contact.vertex], glm::vec4(contact_solid_colour, 1.0f)});
 }
 
 Legend contacts_legend(const LegendFacts&) {
@@ -150,7 +150,7 @@ void add_missed(const OverlayInput& from, engine::FrameData& frame) {
   if (!from.request.missed) return;
   LinesAndPoints marks(frame, 3.0f, 7.0f, seen_through);
   for (const collide::Contact& contact : *from.request.missed)
-    add_contact(from.at.shown, contact, contact_missed_colour, marks);
+    add_contact(from.shown, contact, contact_missed_colour, marks);
 }
 
 Legend missed_legend(const LegendFacts& facts) {
@@ -164,7 +164,7 @@ void add_surface_contacts(const OverlayInput& from, engine::FrameData& frame) {
   for (const softbody::SurfaceContactPoint& contact : from.request.surface_contacts) {
     glm::vec3 first(0.0f), second(0.0f);
     for (std::size_t k = 0; k < contact.vertex.size(); ++k)
-      (contact.weight[k] > 0 ? first : second) += std::abs(contact.weight[k]) * from.at.simulated[contact.vertex[k]];
+      (contact.weight[k] > 0 ? first : second) += std::abs(contact.weight[k]) * from.simulated[contact.vertex[k]];
     const glm::vec4 colour(contact.a == contact.b ? contact_inside_colour : contact_between_colour, 1.0f);
     const float length = 0.5f * static_cast<float>(from.world.model(contact.a).mean_edge);
     marks.lines.push_back({second, second + length * contact.normal, colour});
@@ -216,7 +216,7 @@ void spread(const softbody::BodyModel& model, std::span<float> particles, std::s
 /// in sight. Adds the deepest vertex of each pair of bodies, joined to the nearest point of the surface.
 void add_marks(const OverlayInput& from, engine::FrameData& frame) {
   const softbody::BodiesInMotion& world = from.world;
-  const Points particles = from.at.simulated;
+  const Points particles = from.simulated;
   frame.mark_colour = contact_missed_colour;
   frame.marks.assign(frame.positions.size(), 0.0f);
   const collide::Bodies& bodies = *world.simulated().positions.bodies;
@@ -269,10 +269,10 @@ void add_springs(const std::vector<softbody::Spring>& springs, Points body, cons
 }
 
 /// Returns true if the body is so large on the screen that its other springs can be told from those along edges.
-bool is_near(const softbody::BodyModel& model, Points body, const Viewpoint& viewpoint) {
+bool is_near(const softbody::BodyModel& model, Points body, const OverlayInput& from) {
   constexpr float min_edge = 20;  // pixels
   const float edge = static_cast<float>(model.mean_edge);
-  return edge * viewpoint.pixels_at_one_metre > min_edge * glm::distance(body.front(), viewpoint.eye);
+  return edge * from.pixels_at_one_metre > min_edge * glm::distance(body.front(), from.eye);
 }
 
 void add_all_springs(const OverlayInput& from, engine::FrameData& frame) {
@@ -282,10 +282,10 @@ void add_all_springs(const OverlayInput& from, engine::FrameData& frame) {
   const collide::Bodies& bodies = *world.simulated().positions.bodies;
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     const softbody::BodyModel& model = world.model(b);
-    const Points body = from.at.simulated.subspan(bodies.first[b], bodies.size(b));
-    const std::vector<char> in_sight = vertices_in_sight(model, body, from.viewpoint.eye);
+    const Points body = from.simulated.subspan(bodies.first[b], bodies.size(b));
+    const std::vector<char> in_sight = vertices_in_sight(model, body, from.eye);
     add_springs(softbody::springs<softbody::StructuralSprings>(model), body, in_sight, 1.0f, structural);
-    if (!is_near(model, body, from.viewpoint)) continue;
+    if (!is_near(model, body, from)) continue;
     add_springs(softbody::springs<softbody::BendSprings>(model), body, in_sight, 0.45f, others);
     add_springs(softbody::springs<softbody::ShearSprings>(model), body, in_sight, 0.7f, others);
   }
@@ -330,14 +330,15 @@ void add_outline(const softbody::BodiesInMotion& world, softbody::BodyId id, con
 
 /// Adds fine outlines to open bodies, which show little shade, and a bold one to the selected body.
 void add_outlines(const OverlayInput& from, engine::FrameData& frame) {
-  const auto& [world, request, viewpoint, at] = from;
+  const softbody::BodiesInMotion& world = from.world;
+  const OverlayRequest& request = from.request;
   engine::LineSet fine{.lines = {}, .width = 1.25f, .occluded_alpha = hidden};
   engine::LineSet bold{.lines = {}, .width = 3.0f, .occluded_alpha = seen_through};
   for (softbody::BodyId body = 0; body < world.bodies().count(); ++body) {
     if (body == request.selected_body)
-      add_outline(world, body, viewpoint.eye, at.shown, hand_colour, bold);
+      add_outline(world, body, from.eye, from.shown, hand_colour, bold);
     else if (is_open(world.model(body)) && !(request.highlight && request.highlight->fades(body)))
-      add_outline(world, body, viewpoint.eye, at.shown, 0.5f * body_colour(world.body(body).number), fine);
+      add_outline(world, body, from.eye, from.shown, 0.5f * body_colour(world.body(body).number), fine);
   }
   frame.lines.push_back(std::move(fine));
   frame.lines.push_back(std::move(bold));
@@ -350,7 +351,7 @@ void add_grab(const OverlayInput& from, engine::FrameData& frame) {
   const std::uint32_t first = from.world.simulated().positions.bodies->first[grab.body];
   glm::vec3 held(0.0f);
   for (int i = 0; i < 3; ++i)
-    held += static_cast<float>(grab.weights[i]) * from.at.simulated[first + grab.corners[static_cast<std::size_t>(i)]];
+    held += static_cast<float>(grab.weights[i]) * from.simulated[first + grab.corners[static_cast<std::size_t>(i)]];
   const glm::vec4 colour(hand_colour, 1.0f);
   const glm::vec3 target(grab.target);
   frame.lines.push_back({.lines = {{held, target, colour}}, .width = 2.5f, .occluded_alpha = seen_through});
@@ -407,7 +408,7 @@ engine::Box cell_box(const compare::Cell& cell, const glm::vec3& size, const glm
 }
 
 void add_overlays(const OverlayInput& from, engine::FrameData& frame) {
-  assert(from.at.shown.size() == from.world.bodies().vertex_count());
+  assert(from.shown.size() == from.world.bodies().vertex_count());
   for (const int layer : {0, 1, 2}) {
     for (const OverlayRow& row : overlay_table)
       if (row.layer == layer && from.request.shown.*row.shown) row.add(from, frame);

@@ -30,23 +30,14 @@ struct Overlays {
   bool any() const { return *this != Overlays(); }
 };
 
-/// The viewpoint, and the number of pixels that 1 m covers at a distance of 1 m.
-struct Viewpoint {
-  glm::vec3 eye;
-  float pixels_at_one_metre;
-};
-
-/// Where the vertices of a world are drawn: of the meshes that it shows, and of those that it simulates.
-struct DrawnPoints {
-  std::span<const glm::vec3> shown, simulated;
-};
-
 /// What overlays are drawn from.
 struct OverlayInput {
   const softbody::BodiesInMotion& world;
   const OverlayRequest& request;
-  Viewpoint viewpoint;
-  DrawnPoints at;
+  glm::vec3 eye;
+  float pixels_at_one_metre;  // that 1 m covers at a distance of 1 m
+  // Where the vertices of the world are drawn: of the meshes that it shows, and of those that it simulates.
+  std::span<const glm::vec3> shown, simulated;
 };
 
 /// What legends tell beside colours.

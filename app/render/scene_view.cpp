@@ -53,6 +53,10 @@ void add(const softbody::SolidPlane& p, engine::FrameData& frame) {
     frame.planes.push_back({glm::vec3(p.point), glm::vec3(p.normal)});
 }
 
+void append(const compare::DrawnPositions& from, std::vector<glm::vec3>& to) {
+  for (std::size_t i = 0; i < from.size(); ++i) to.push_back(from[i]);
+}
+
 void add_solids(const softbody::Scene& scene, engine::FrameData& frame) {
   for (const softbody::Solid& solid : scene.solids)
     if (solid.enabled) std::visit([&](const auto& shape) { add(shape, frame); }, solid.shape);
@@ -68,10 +72,6 @@ const SceneView::UploadedMesh& SceneView::upload(const softbody::Mesh& mesh) {
     uploaded.indices.insert(uploaded.indices.end(), t.begin(), t.end());
   uploaded.handle = renderer_.add_mesh(uploaded.indices, static_cast<std::uint32_t>(mesh.vertices.size()));
   return meshes_.emplace(mesh.triangles, std::move(uploaded)).first->second;
-}
-
-void SceneView::gather_positions(const compare::DrawnPositions& positions) {
-  for (std::size_t i = 0; i < positions.size(); ++i) positions_.push_back(positions[i]);
 }
 
 std::vector<engine::MeshDraw> SceneView::gather_bodies(const softbody::BodiesInMotion& world, std::uint32_t first) {
@@ -99,7 +99,7 @@ std::vector<engine::MeshDraw> SceneView::gather_bodies(const softbody::BodiesInM
 void SceneView::gather_ghost(const softbody::BodiesInMotion& ghost, const compare::DrawnPositions& positions) {
   assert(positions.size() == positions_.size());
   const auto first = static_cast<std::uint32_t>(positions_.size());
-  gather_positions(positions);
+  append(positions, positions_);
   // A ghost that overlaps its own body stands behind it. Otherwise either surface would show through the other in
   // patches.
   engine::TranslucentSet near{.meshes = {}, .opacity = 0.45f, .behind_bodies = true},
@@ -150,9 +150,9 @@ void SceneView::draw(const softbody::BodiesInMotion& world, const OverlayRequest
     positions_ = {};
     normals_ = {};
   }
-  gather_positions(at.shown);
+  append(at.shown, positions_);
   particles_.clear();
-  for (std::size_t i = 0; i < at.simulated.size(); ++i) particles_.push_back(at.simulated[i]);
+  append(at.simulated, particles_);
   frame_.meshes = gather_bodies(world, 0);
   for (softbody::BodyId b = 0; b < frame_.meshes.size(); ++b) {
     const glm::vec3 colour = body_colour(world.body(b).number);
@@ -171,9 +171,8 @@ void SceneView::draw(const softbody::BodiesInMotion& world, const OverlayRequest
   frame_.bounds_radius = enclosing_radius(around.centre, around.radius, positions_);
 
   const float pixels = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
-  add_overlays(
-      {world, overlays, {camera.eye(), pixels / pixel_scale}, {std::span(positions_).first(vertices), particles_}},
-      frame_);
+  add_overlays({world, overlays, camera.eye(), pixels / pixel_scale, std::span(positions_).first(vertices), particles_},
+               frame_);
   if (overlays.highlight) {
     std::ranges::copy(overlays.highlight->boxes, std::back_inserter(frame_.boxes));
     std::ranges::copy(overlays.highlight->lines, std::back_inserter(frame_.lines));

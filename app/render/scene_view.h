@@ -67,7 +67,6 @@ class SceneView {
     std::vector<std::uint32_t> indices;
   };
 
-  void gather_positions(const compare::DrawnPositions& positions);
   /// Returns the draws of the bodies whose vertices were gathered last and begin at `first`. Colours are not set yet.
   std::vector<engine::MeshDraw> gather_bodies(const softbody::BodiesInMotion& world, std::uint32_t first);
   void gather_ghost(const softbody::BodiesInMotion& ghost, const compare::DrawnPositions& positions);

@@ -67,11 +67,13 @@ void Session::exchange() {
 }
 
 double Session::stepped() {
-  if (simulated()) notify(ghost_.step(*simulated()));
+  if (simulated()) lead_ghost([this] { ghost_.step(*simulated()); });
   return ghost_.step_ms() + run_ahead.stepped();
 }
 
-void Session::intervened() { notify(ghost_.restart(simulated())); }
+void Session::intervened() {
+  lead_ghost([this] { ghost_.restart(simulated()); });
+}
 
 void Session::detection_changed() {
   inspector.select_bucket(inspector.selected_bucket());  // the table may have fewer buckets
@@ -85,17 +87,27 @@ void Session::replaced(bool new_scene) {
   if (new_scene) inspector.select_bucket({});
   comparison.restart(world(), simulation.revision());
   surfaces.restart(simulation.revision());
-  notify(ghost_.restart(simulated()));
+  intervened();
 }
 
 void Session::choose_ghost(const std::optional<softbody::IntegratorChoice>& choice) {
   assert(simulated());
   simulation.notice.clear();
-  notify(ghost_.choose(*simulated(), choice, simulation.threads()));
+  try {
+    ghost_.choose(*simulated(), choice, simulation.threads());
+  } catch (const std::exception& error) {
+    simulation.notice.set(error.what());
+  }
 }
 
-void Session::notify(const std::string& problem) {
-  if (!problem.empty()) simulation.notice.set(problem);
+/// Ends the ghost, with a notice, if `action` throws.
+void Session::lead_ghost(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::exception& error) {
+    ghost_.end();
+    simulation.notice.set(error.what());
+  }
 }
 
 }  // namespace app::session

@@ -69,7 +69,7 @@ class Session : private SimulationObserver {
 
   void add_picture(double seconds);
   void exchange();
-  void notify(const std::string& problem);
+  void lead_ghost(const std::function<void()>& action);
 
   Ghost ghost_;
   bool has_left_world_ = false;  // whose memory is not yet given back

@@ -47,7 +47,7 @@ void draw_entries(Widgets& w, const Entries& entries, float left) {
     ImGui::SameLine();
     ImGui::SetCursorPosX(left + w.px(key_width));
     ImGui::TextDisabled("%.*s", static_cast<int>(e.text.size()), e.text.data());
-    w.register_item(fmt::format("Help {}", e.text).c_str(), nullptr);
+    w.register_item(fmt::format("Help {}", e.text));
   }
   ImGui::EndGroup();
 }

@@ -2,7 +2,6 @@
 // The parts of the user interface that keep no state of their own: the help, the sidebar, and the time line.
 
 #include "app/ui/state/ui_state.h"
-#include "app/ui/views/hash_table_view.h"
 #include "app/ui/widgets/dock.h"
 
 namespace app::ui {
@@ -16,8 +15,7 @@ void draw_help(Widgets& widgets, const ScreenRect& area);
 bool has_sidebar(const Session& session, const UiState& ui);
 /// Draws the sidebar over `area`, at the right of the scene: the hash table, the selected bucket, the legend of the
 /// overlays and the figures of the surface oracle, one below the other. It covers nothing of the scene.
-void draw_sidebar(Widgets& widgets, const Session& session, const UiState& ui, HashTableView& hash_table_view,
-                  const ScreenRect& area);
+void draw_sidebar(Widgets& widgets, const Session& session, const UiState& ui, const ScreenRect& area);
 
 /// Returns the height of the time line in ImGui units.
 float time_line_height(float scale);

@@ -8,15 +8,14 @@ bool has_sidebar(const Session& session, const UiState& ui) {
   return ui.hash_table || session.inspector.bucket() || ui.overlays.true_surfaces;
 }
 
-void draw_sidebar(Widgets& w, const Session& session, const UiState& ui, HashTableView& hash_table_view,
-                  const ScreenRect& area) {
+void draw_sidebar(Widgets& w, const Session& session, const UiState& ui, const ScreenRect& area) {
   const ImGuiStyle& style = ImGui::GetStyle();
   // The contents keep their width when a scrollbar appears.
   ImGui::SetNextWindowContentSize({w.px(sidebar_width) - 2 * style.WindowPadding.x - style.ScrollbarSize, 0});
   begin_dock("Sidebar", area, false);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {style.ItemSpacing.x, w.px(2)});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {style.FramePadding.x, w.px(2)});
-  if (ui.hash_table) hash_table_view.draw(w, session);
+  if (ui.hash_table) draw_hash_table(w, session);
   if (session.inspector.bucket()) draw_bucket(w, session);
   const auto separate = [] {
     if (ImGui::GetCursorPosY() == ImGui::GetCursorStartPos().y) return;
@@ -34,7 +33,7 @@ void draw_sidebar(Widgets& w, const Session& session, const UiState& ui, HashTab
     draw_true_surfaces(w, session);
   }
   ImGui::PopStyleVar(2);
-  end_dock();
+  ImGui::End();
 }
 
 }  // namespace app::ui

@@ -26,11 +26,10 @@ std::string state_text(const Session& session) {
 void draw_frames(Widgets& w, const session::Player& player) {
   int frame = player.frame();
   const int last = player.recording()->frame_count() - 1;
-  ImGui::BeginDisabled(last == 0);
+  const Disabled off(last == 0);
   if (w.slider("Time line", frame, 0, last, fmt::format("frame %d of {}", grouped(std::uint64_t(last))).c_str(),
                "Drag it to any frame; frames count from 0. It pauses there."))
     w.ask([frame](Session& s) { s.simulation.rewind_to(frame); });
-  ImGui::EndDisabled();
 }
 
 /// Draws how fast the frames that are played follow each other, and whether they begin again.
@@ -50,7 +49,7 @@ void draw_speed(Widgets& w, const Session& session) {
 void draw_past(Widgets& w, const Session& session) {
   const auto& past = session.simulation.stability().past();
   const int frame = session.world().frame();
-  ImGui::BeginDisabled(past.snapshots().empty());
+  const Disabled off(past.snapshots().empty());
   int place = past.snapshots().empty() ? 0 : static_cast<int>(past.at(frame));
   const int last = past.snapshots().empty() ? 0 : static_cast<int>(past.snapshots().size()) - 1;
   const std::string shown = fmt::format("frame {}, {:.2f} s", frame, session.world().last_step().time);
@@ -59,10 +58,8 @@ void draw_past(Widgets& w, const Session& session) {
                            "it did unless you change something. {} snapshots, {:.1f} of at most {} MiB: dense in the "
                            "recent past, sparse further back.",
                            past.snapshots().size(), static_cast<double>(past.bytes()) / (1 << 20),
-                           session::Rewind::max_bytes >> 20)
-                   .c_str()))
+                           session::Rewind::max_bytes >> 20)))
     w.ask([to = past.snapshots()[static_cast<std::size_t>(place)].frame](Session& s) { s.simulation.rewind_to(to); });
-  ImGui::EndDisabled();
 }
 
 void draw_state_text(Widgets& w, const Session& session) {
@@ -109,7 +106,7 @@ void draw_time_line(Widgets& w, const Session& session, const ScreenRect& area) 
   else
     draw_past(w, session);
   if (has_state) draw_state_text(w, session);
-  end_dock();
+  ImGui::End();
 }
 
 }  // namespace app::ui

@@ -20,7 +20,7 @@ Requests UserInterface::draw(const Session& session, const UiState& ui, float sc
   else if (layout_.lower)
     sweep_view_.draw(widgets, session, *layout_.lower);
   if (layout_.time_line) draw_time_line(widgets, session, *layout_.time_line);
-  if (layout_.sidebar) draw_sidebar(widgets, session, ui, hash_table_view_, *layout_.sidebar);
+  if (layout_.sidebar) draw_sidebar(widgets, session, ui, *layout_.sidebar);
   show_field_problem(widgets);
   if (layout_.tour)
     draw_tour(widgets, session, ui.tour, *layout_.tour);

@@ -2,7 +2,6 @@
 // All that Dear ImGui draws over and beside the scene. It needs no window.
 
 #include "app/ui/layout.h"
-#include "app/ui/views/hash_table_view.h"
 #include "app/ui/views/story_card.h"
 #include "app/ui/views/sweep_view.h"
 
@@ -18,7 +17,6 @@ class UserInterface {
   /// The area of the scene in the last draw(), in ImGui units. Docked windows draw no background: clear the frame to
   /// dock_colour() before.
   const ScreenRect& scene_area() const { return layout_.scene; }
-  const HashTableView& hash_table_view() const { return hash_table_view_; }
   const SweepView& sweep_view() const { return sweep_view_; }
 
  private:
@@ -27,7 +25,6 @@ class UserInterface {
   void draw_over_scene(Widgets& widgets, const Session& session, const UiState& ui, double seconds);
 
   Layout layout_;
-  HashTableView hash_table_view_;
   SweepView sweep_view_;
   FloatingBox lights_;
   StoryCard story_;

@@ -31,9 +31,7 @@ TEST(CoverageLight, FitsOneLineWithEveryMethodInANarrowWindow) {
   for (const collide::Method& method : collide::method_table())
     for (const float cell : {0.2f, 2.0f}) {
       rig.session.settings.set_method(method.key);
-      collide::Settings settings = rig.session.world().collision();
-      settings.cell_size = glm::vec3(cell);
-      rig.session.simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
+      rig.change([&](softbody::Scene& scene) { scene.collision.cell_size = glm::vec3(cell); });
       ASSERT_TRUE(rig.frames_until([&] { return rig.session.comparison.driver_row() != nullptr; }));
       rig.frames(2);
       for (const char* light : {"Coverage", "Live recall", "Step light"})
@@ -47,13 +45,9 @@ TEST(SurfaceRemark, WarnsOfAToleranceThatLetsVerticesThroughFaces) {
   const double safe = softbody::safe_vertex_tolerance(*rig.session.simulated());
   EXPECT_GT(safe, 0.16 * 0.5);  // of the sphere of 162 vertices and radius 0.5 m
   EXPECT_LT(safe, 0.19 * 0.5);
-  collide::Settings settings = rig.session.world().collision();
-  settings.tolerance = 0.05f;
-  rig.session.simulation.change_scene(
-      "Settings", [&](softbody::Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
+  rig.change([](softbody::Scene& scene) { scene.collision.tolerance = 0.05f; });
   EXPECT_NE(ui::surface_remark(rig.session).text.find("slip through faces"), std::string::npos);
-  rig.session.simulation.change_scene(
-      "Contact", [&](softbody::Scene& s) { s.contact_surface = softbody::ContactSurface::surfaces; });
+  rig.change([](softbody::Scene& scene) { scene.contact_surface = softbody::ContactSurface::surfaces; });
   EXPECT_EQ(ui::surface_remark(rig.session).text, "");
 }
 
@@ -75,11 +69,9 @@ TEST(CoverageLight, AgreesWithTheLiteralMethod) {
   PanelRig rig;
   rig.session.settings.set_method("multi-level-sb");
   for (const float cell : {0.2f, 2.0f}) {
-    collide::Settings settings = rig.session.world().collision();
-    settings.cell_size = glm::vec3(cell);
-    rig.session.simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
+    rig.change([&](softbody::Scene& scene) { scene.collision.cell_size = glm::vec3(cell); });
     const bool fits = rig.session.world().detection().coverage == collide::Coverage::covered;
-    const std::string text = ui::box_against_cell(rig.session.inspector.paper_geometry(), *settings.cell_size);
+    const std::string text = ui::box_against_cell(rig.session.inspector.paper_geometry(), glm::vec3(cell));
     EXPECT_EQ(text.find("Every box fits") != text.npos, fits) << text;
   }
 }

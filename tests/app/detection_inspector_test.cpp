@@ -49,42 +49,17 @@ TEST(DetectionInspector, FindsEveryContactBetweenBodiesInTheSearchAreas) {
   EXPECT_GT(between, 0u);
 }
 
-/// The first side's closest point, or the second's.
-glm::dvec3 closest_point(const softbody::SurfaceContactPoint& touch, const collide::Frame& frame, bool second) {
-  glm::dvec3 point(0.0);
-  double sum = 0;
-  for (std::size_t k = 0; k < touch.vertex.size(); ++k) {
-    const double weight = second ? -touch.weight[k] : touch.weight[k];
-    const collide::Index v = touch.vertex[k];
-    if (weight > 0) point += weight * glm::dvec3(frame.x[v], frame.y[v], frame.z[v]);
-    if (weight > 0) sum += weight;
-  }
-  EXPECT_NEAR(sum, 1, 1e-5);
-  return point;
-}
-
-TEST(DetectionInspector, ShowsSurfaceContactsAtTheClosestPointsOfTwoBodies) {
+TEST(DetectionInspector, HasTheSurfaceContactsOfThePresentWorld) {
   softbody::Scene scene = touching_pair();
   scene.contact_surface = softbody::ContactSurface::surfaces;
   scene.bodies[0].velocity = {1, 0, 0};
   session::Simulation simulation(scene, 1);
-  session::SettingControls controls(simulation);
   session::DetectionInspector inspector(simulation);
   for (int i = 0; i < 60 && inspector.surface_contacts().empty(); ++i) simulation.advance(tick);
   ASSERT_FALSE(inspector.surface_contacts().empty());
-  const collide::Frame frame = simulation.world().positions();
-  const auto body = [&](collide::Index vertex) { return simulation.world().bodies().body_of(vertex); };
-  for (const softbody::SurfaceContactPoint& touch : inspector.surface_contacts()) {
-    EXPECT_NE(touch.a, touch.b);
-    EXPECT_EQ(body(touch.vertex[0]), touch.a);
-    EXPECT_EQ(body(touch.vertex[3]), touch.b);
-    const glm::dvec3 apart = closest_point(touch, frame, false) - closest_point(touch, frame, true);
-    EXPECT_LT(glm::length(apart), 0.02);
-    EXPECT_GT(glm::dot(apart, glm::dvec3(touch.normal)), 0);
-    EXPECT_GT((touch.a == 0 ? -1 : 1) * touch.normal.x, 0.5f);  // body 0 is at the left
-  }
+  EXPECT_EQ(inspector.surface_contacts().size(), simulation.simulated()->surface_contacts().size());
   simulation.change_scene("Contact",
-                          [&](softbody::Scene& s) { s.contact_surface = softbody::ContactSurface::vertices; });
+                          [](softbody::Scene& s) { s.contact_surface = softbody::ContactSurface::vertices; });
   EXPECT_TRUE(inspector.surface_contacts().empty());
 }
 

@@ -1,46 +1,46 @@
 // The views of the hash table and of a bucket.
 
-#include "app/ui/views/hash_table_view.h"
+#include "app/ui/views/views.h"
 
 #include <algorithm>
 
-#include "app/ui/views/views.h"
+#include "app/ui/widgets/bucket_grid.h"
 #include "tests/app/panel_rig.h"
 #include "tests/bucket_loads.h"
 
 namespace app {
 namespace {
 
-std::uint32_t fullest_bucket(const Session& session) {
-  return std::ranges::max_element(session.inspector.shown_geometry().loads, {}, &collide::BucketLoad::load)->bucket;
+collide::BucketLoad fullest_bucket(const Session& session) {
+  return *std::ranges::max_element(session.inspector.shown_geometry().loads, {}, &collide::BucketLoad::load);
 }
 
-TEST(TableFigures, AreThoseOfTheDrivingMethodIfItHashes) {
-  Session session(touching_pair(), {}, 1);
-  for (const collide::Method& method : collide::method_table()) {
-    session.settings.set_method(method.key);
-    session.simulation.clock.single_step();
-    session.advance(tick);
-    const ui::TableFigures figures = ui::table_figures(session.inspector.shown_geometry());
-    EXPECT_GT(figures.buckets_used, 0u) << method.key << ": else those of the paper's method";
-    if (!method.uses_hash) continue;
-    const collide::Counters& counters = session.world().detection().counters;
-    const std::vector<collide::BucketLoad> loads = session.world().detector().debug().loads;
-    EXPECT_EQ(figures.buckets_used, loads.size()) << method.key;
-    EXPECT_EQ(figures.longest, std::ranges::max_element(loads, {}, &collide::BucketLoad::load)->load) << method.key;
-    EXPECT_EQ(figures.boxes, method.uses_levels ? counters.boxes : 0) << method.key;
-  }
+ui::BucketGrid grid_of(const PanelRig& rig) {
+  const auto [min, max] = rig.area("Buckets of the table");
+  const std::uint32_t buckets = rig.session.world().collision().buckets;
+  return ui::BucketGrid::fit(buckets, max.x - min.x, max.y - min.y, ui::min_square);
+}
+
+void click_square(PanelRig& rig, std::uint32_t square) {
+  const ImVec2 origin = rig.area("Buckets of the table").min;
+  const ui::BucketGrid grid = grid_of(rig);
+  rig.click_at(origin.x + (static_cast<float>(square % grid.columns) + 0.5f) * grid.side,
+               origin.y + (static_cast<float>(square / grid.columns) + 0.5f) * grid.side);
+}
+
+TEST(LongestBucket, HasTheLargestLoad) {
+  collide::DebugGeometry debug;
+  EXPECT_EQ(ui::longest_bucket(debug), 0u);
+  debug.loads = {{.bucket = 4, .load = 2}, {.bucket = 9, .load = 7}, {.bucket = 11, .load = 3}};
+  EXPECT_EQ(ui::longest_bucket(debug), 7u);
 }
 
 TEST(BucketView, GroupsEntriesByCellsAndSelectsACell) {
   PanelRig rig;
-  collide::Settings settings = rig.session.world().collision();
-  settings.buckets = 7;  // few, so that cells share
-  rig.session.simulation.change_scene(
-      "Settings", [&](softbody::Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
+  rig.change([](softbody::Scene& scene) { scene.collision.buckets = 7; });  // few, so that cells share
   rig.session.simulation.clock.paused = true;
   EXPECT_FALSE(rig.recorder.find("Same cell / aliased"));
-  rig.session.inspector.select_bucket(fullest_bucket(rig.session));
+  rig.session.inspector.select_bucket(fullest_bucket(rig.session).bucket);
   rig.frames(3);
   EXPECT_TRUE(rig.recorder.find("Same cell / aliased"));
   EXPECT_TRUE(rig.recorder.find("All buckets"));
@@ -66,7 +66,7 @@ TEST(BucketView, SelectsABucketByItsNumber) {
 TEST(BucketView, ShowsVerticesIfTheMethodHashesThem) {
   PanelRig rig;
   rig.session.settings.set_method("grid-hash");
-  rig.session.inspector.select_bucket(fullest_bucket(rig.session));
+  rig.session.inspector.select_bucket(fullest_bucket(rig.session).bucket);
   rig.frames(2);
   EXPECT_TRUE(rig.session.inspector.bucket()->vertices);
   EXPECT_TRUE(rig.recorder.find("Same cell / aliased"));
@@ -97,35 +97,25 @@ TEST(BucketView, AbbreviatesListsOfBodies) {
   EXPECT_EQ(text({0, 1, 3, 4}), "bodies 1, 4 and 2 more");
 }
 
-TEST(HashTableView, SelectsTheClickedBucketAndDeselectsItAtASecondClick) {
+TEST(DrawHashTable, SelectsTheClickedBucketAndDeselectsItAtASecondClick) {
   PanelRig rig;
-  const ui::HashTableView& view = rig.interface.hash_table_view();
-  const ui::BucketGrid& grid = view.grid();
-  const std::uint32_t square = 345;
-  const float x = view.grid_origin().x + (static_cast<float>(square % grid.columns) + 0.5f) * grid.side;
-  const float y = view.grid_origin().y + (static_cast<float>(square / grid.columns) + 0.5f) * grid.side;
-  rig.click_at(x, y);
+  click_square(rig, 345);
   EXPECT_EQ(rig.session.inspector.selected_bucket(), 345u);
-  rig.click_at(x, y);
+  click_square(rig, 345);
   EXPECT_FALSE(rig.session.inspector.selected_bucket());
 }
 
-TEST(HashTableView, SelectsTheFullestBucketOfTheClickedSquare) {
+TEST(DrawHashTable, SelectsTheFullestBucketOfTheClickedSquare) {
   PanelRig rig;
-  collide::Settings settings = rig.session.world().collision();
-  settings.buckets = 1'000'003;
-  rig.session.simulation.change_scene(
-      "Settings", [&](softbody::Scene& s) { s.collision = settings, s.collision.cell_size.reset(); });
+  rig.change([](softbody::Scene& scene) { scene.collision.buckets = 1'000'003; });
   rig.session.simulation.clock.paused = true;
   rig.frames(2);
-  const ui::HashTableView& view = rig.interface.hash_table_view();
-  ASSERT_GT(view.grid().per_square, 1u);
-  const auto loads = rig.session.inspector.shown_geometry().loads;
-  const collide::BucketLoad fullest = *std::ranges::max_element(loads, {}, &collide::BucketLoad::load);
-  const std::uint32_t square = fullest.bucket / view.grid().per_square;
-  rig.click_at(view.grid_origin().x + (static_cast<float>(square % view.grid().columns) + 0.5f) * view.grid().side,
-               view.grid_origin().y + (static_cast<float>(square / view.grid().columns) + 0.5f) * view.grid().side);
+  const std::uint32_t per_square = grid_of(rig).per_square;
+  ASSERT_GT(per_square, 1u);
+  const collide::BucketLoad fullest = fullest_bucket(rig.session);
+  click_square(rig, fullest.bucket / per_square);
   ASSERT_TRUE(rig.session.inspector.selected_bucket());
+  const auto& loads = rig.session.inspector.shown_geometry().loads;
   const auto selected =
       std::ranges::find(loads, *rig.session.inspector.selected_bucket(), &collide::BucketLoad::bucket);
   ASSERT_NE(selected, loads.end());

@@ -14,85 +14,67 @@
 namespace app {
 namespace {
 
-TEST(Tooltip, StandsBesideThePanel) {
+TEST(Tooltip, StandsBesideThePanelAndAboveTheComparison) {
   PanelRig rig;
   for (const char* label : {"Reset", "Tolerance", "Contacts", "Detect"}) {
-    const auto [name, min, max, enabled] = rig.widget(label);
-    rig.move(0.5f * (min.x + max.x), 0.5f * (min.y + max.y));
-    rig.frames(40);  // the mouse rests
+    rig.hover(label);
     EXPECT_GE(rig.widget("Tooltip").min.x, ui::panel_width) << label;
     EXPECT_LE(rig.widget("Tooltip").max.x, 1280) << label;
   }
-}
-
-TEST(Tooltip, StandsAboveTheComparison) {
-  PanelRig rig;
   rig.ui.lower = ui::LowerView::comparison;
   rig.frames(3);
-  const ui::WidgetRecorder::Widget head = rig.widget("Column Time"), row = rig.widget("Drive Grid Hash");
-  rig.move(0.5f * (row.min.x + row.max.x), 0.5f * (row.min.y + row.max.y));
-  rig.frames(40);
-  EXPECT_LE(rig.widget("Tooltip").max.y, head.min.y);
+  rig.hover("Drive Grid Hash");
+  EXPECT_LE(rig.widget("Tooltip").max.y, rig.widget("Column Time").min.y);
 }
 
 TEST(Tooltip, KeepsOffTheLightsAndTheComparison) {
-  for (const ImVec2 size : {ImVec2{1280, 720}, ImVec2{800, 500}}) {
+  for (const glm::ivec2 size : {glm::ivec2(1280, 720), glm::ivec2(800, 500)}) {
     PanelRig rig;
     rig.ui.lower = ui::LowerView::comparison;
-    rig.resize(static_cast<int>(size.x), static_cast<int>(size.y));
+    rig.resize(size.x, size.y);
     for (const ui::WidgetRecorder::Widget& widget : std::vector(rig.recorder.widgets)) {
-      const bool of_panel = widget.max.x < ui::panel_width && widget.max.y < size.y;
-      if (!of_panel) continue;
+      if (widget.max.x >= ui::panel_width || widget.max.y >= static_cast<float>(size.y)) continue;
       rig.move(0.5f * (widget.min.x + widget.max.x), 0.5f * (widget.min.y + widget.max.y));
       rig.frames(30);
-      if (!rig.recorder.find("Tooltip")) continue;
-      const ui::WidgetRecorder::Widget tip = rig.widget("Tooltip");
-      for (const char* result :
-           {"Coverage", "Live recall", "Step light", "Column Time", "Drive Multi-Level SB, exact"}) {
-        const ui::WidgetRecorder::Widget* shown = rig.recorder.find(result);
-        if (!shown) continue;
-        const bool apart = tip.max.x <= shown->min.x || tip.min.x >= shown->max.x || tip.max.y <= shown->min.y ||
-                           tip.min.y >= shown->max.y;
-        EXPECT_TRUE(apart) << widget.label << " covers " << result;
-      }
+      if (!rig.shows("Tooltip")) continue;
+      for (const char* result : {"Coverage", "Live recall", "Step light", "Column Time", "Drive Multi-Level SB, exact"})
+        if (rig.shows(result)) {
+          EXPECT_FALSE(overlap(rig.area("Tooltip"), rig.area(result))) << widget.label << " covers " << result;
+        }
     }
   }
 }
 
 TEST(Tooltip, WaitsForTheMouseAfterAClick) {
   PanelRig rig;
-  const auto [name, min, max, enabled] = rig.widget("Tolerance");
-  const ImVec2 middle{0.5f * (min.x + max.x), 0.5f * (min.y + max.y)};
-  rig.move(middle.x, middle.y);
-  rig.frames(40);
-  EXPECT_TRUE(rig.recorder.find("Tooltip"));
+  rig.hover("Tolerance");
+  EXPECT_TRUE(rig.shows("Tooltip"));
+  const ImVec2 middle = rig.middle("Tolerance");
   rig.press();
   rig.move(middle.x + 20, middle.y);
   rig.frames(40);
-  EXPECT_FALSE(rig.recorder.find("Tooltip")) << "while the button is down";
+  EXPECT_FALSE(rig.shows("Tooltip")) << "while the button is down";
   rig.release();
   rig.frames(40);
-  EXPECT_FALSE(rig.recorder.find("Tooltip")) << "until the mouse moves";
-  rig.move(middle.x, middle.y);
-  rig.frames(40);
-  EXPECT_TRUE(rig.recorder.find("Tooltip"));
+  EXPECT_FALSE(rig.shows("Tooltip")) << "until the mouse moves";
+  rig.hover("Tolerance");
+  EXPECT_TRUE(rig.shows("Tooltip"));
 }
 
 TEST(Layout, NamesThePartsThatHaveNoRoom) {
   PanelRig rig;
-  rig.frames(2);
   ASSERT_TRUE(rig.ui.hash_table);
-  EXPECT_FALSE(rig.recorder.find("No room"));
+  EXPECT_FALSE(rig.shows("No room"));
   rig.resize(800, 500);
-  EXPECT_TRUE(rig.recorder.find("No room")) << "for the hash table";
+  EXPECT_TRUE(rig.shows("No room")) << "for the hash table";
   rig.ui.hash_table = false;
   rig.resize(800, 350);
-  EXPECT_FALSE(rig.recorder.find("No room"));
+  EXPECT_FALSE(rig.shows("No room"));
   rig.ui.lower = ui::LowerView::comparison;
   rig.frames(2);
-  EXPECT_TRUE(rig.recorder.find("No room")) << "for the comparison";
+  EXPECT_TRUE(rig.shows("No room")) << "for the comparison";
   rig.resize(1280, 1150);
-  EXPECT_FALSE(rig.recorder.find("No room"));
+  EXPECT_FALSE(rig.shows("No room"));
 }
 
 TEST(Layout, LeavesTheSceneVisibleAboveTheComparisonAndTheSweep) {
@@ -151,20 +133,16 @@ TEST(Layout, KeepsBoxesOverTheSceneApart) {
         rig.resize(size.x, size.y);
         rig.session.simulation.notice.set("something");
         rig.frames(3);
-        const auto box = [&](const char* first, const char* last) {
-          return ui::ScreenRect{rig.widget(first).min, {rig.widget(last).max.x, rig.widget(last).max.y}};
-        };
-        std::vector<ui::ScreenRect> boxes{box("Story of Multi-Level SB", "Story sentence"), box("Notice", "Notice")};
-        boxes[0].min.y = rig.widget("Close story").min.y;
-        if (lights) boxes.push_back(box("Coverage", "Step light"));
+        const auto story = rig.area("Story of Multi-Level SB");
+        std::vector<ui::ScreenRect> boxes{
+            {{story.min.x, rig.area("Close story").min.y}, rig.area("Story sentence").max}, rig.area("Notice")};
+        if (lights) boxes.push_back({rig.area("Coverage").min, rig.area("Step light").max});
         for (const ui::WidgetRecorder::Widget& line : rig.recorder.widgets)
           if (line.label == "Legend") boxes.push_back({line.min, line.max});
         for (std::size_t i = 0; i < boxes.size(); ++i)
-          for (std::size_t j = 0; j < i; ++j) {
-            const ui::ScreenRect &p = boxes[i], &q = boxes[j];
-            EXPECT_TRUE(p.max.x <= q.min.x || q.max.x <= p.min.x || p.max.y <= q.min.y || q.max.y <= p.min.y)
+          for (std::size_t j = 0; j < i; ++j)
+            EXPECT_FALSE(overlap(boxes[i], boxes[j]))
                 << size.x << ", panel " << panel << ", lights " << lights << ", boxes " << i << " and " << j;
-          }
       }
 }
 
@@ -172,41 +150,21 @@ TEST(Layout, KeepsLegendsWithinTheirArea) {
   for (const float scale : {1.0f, 2.0f}) {
     PanelRig rig(scale);
     for (const render::OverlayRow& row : render::overlay_table) rig.ui.overlays.*row.shown = true;
-    rig.session.simulation.change_scene(
-        "Contact", [&](softbody::Scene& s) { s.contact_surface = softbody::ContactSurface::surfaces; });
+    rig.change([](softbody::Scene& s) { s.contact_surface = softbody::ContactSurface::surfaces; });
     rig.session.choose_ghost(softbody::IntegratorChoice{"semi-implicit-euler", 1234});
     rig.frames(3);
-    const float display = 1280 * scale;
-    ASSERT_LT(rig.interface.scene_area().max.x, display) << "there is no sidebar";
+    const auto expect_lines_end_before = [&](float x) {
+      for (const ui::WidgetRecorder::Widget& line : rig.recorder.widgets)
+        if (line.label == "Legend") {
+          EXPECT_LE(line.max.x, x) << scale;
+        }
+    };
+    ASSERT_LT(rig.interface.scene_area().max.x, 1280 * scale) << "there is no sidebar";
     EXPECT_GE(std::ranges::count(rig.recorder.widgets, "Legend", &ui::WidgetRecorder::Widget::label), 7);
-    for (const ui::WidgetRecorder::Widget& line : rig.recorder.widgets)
-      if (line.label == "Legend") {
-        EXPECT_LE(line.max.x, display - ImGui::GetStyle().WindowPadding.x);
-      }
+    expect_lines_end_before(1280 * scale - ImGui::GetStyle().WindowPadding.x);
     rig.resize(static_cast<int>(600 * scale), static_cast<int>(900 * scale));
     ASSERT_EQ(rig.interface.scene_area().max.x, 600 * scale) << "there is a sidebar";
-    for (const ui::WidgetRecorder::Widget& line : rig.recorder.widgets)
-      if (line.label == "Legend") {
-        EXPECT_LE(line.max.x, 600 * scale) << "over the scene";
-      }
-  }
-}
-
-TEST(Layout, FitsTheTourIntoSmallWindows) {
-  PanelRig rig;
-  for (const glm::ivec2 size : {glm::ivec2(640, 480), glm::ivec2(500, 400), glm::ivec2(1280, 720)}) {
-    rig.resize(size.x, size.y);
-    rig.ui.tour.start(rig.session, rig.ui.overlays);
-    rig.frames(3);
-    for (const char* label : {"Back", "Next", "Close tour"}) {
-      const ui::WidgetRecorder::Widget button = rig.widget(label);
-      EXPECT_LE(button.max.x, static_cast<float>(size.x)) << label;
-      EXPECT_LE(button.max.y, static_cast<float>(size.y)) << label;
-    }
-    const ui::ScreenRect scene = rig.interface.scene_area();
-    EXPECT_GT(scene.max.x - scene.min.x, 200);
-    EXPECT_GT(scene.max.y - scene.min.y, 150);
-    rig.ui.tour.close(rig.session, rig.ui.overlays);
+    expect_lines_end_before(600 * scale);
   }
 }
 

@@ -1,7 +1,8 @@
 // The panel's sections for files, used by mouse and keyboard.
 
 #include <algorithm>
-#include <fstream>
+#include <filesystem>
+#include <map>
 
 #include "softbody/model/body_model.h"
 #include "softbody/scene/scene.h"
@@ -14,10 +15,7 @@ namespace {
 using tests::TemporaryFolder;
 
 /// Opens a section and folds those above it, so that it is visible.
-void open_only(PanelRig& rig, std::string_view section) {
-  for (const char* above : {"Numbers", "Show", "Detection"}) rig.click(above);
-  rig.click(section);
-}
+void open_only(PanelRig& rig, std::string_view section) { rig.click_each({"Numbers", "Show", "Detection", section}); }
 
 TEST(FilesPanel, LoadsTheNamedFile) {
   const TemporaryFolder folder;
@@ -27,11 +25,11 @@ TEST(FilesPanel, LoadsTheNamedFile) {
   rig.type("File to open", file.string());
   EXPECT_EQ(rig.session.import.path, file.string());
   rig.click("Load");
-  for (int i = 0; i < 6000 && rig.session.import.busy(); ++i) rig.frame();
+  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.import.busy(); }));
   EXPECT_EQ(rig.session.world().scene().name, "Lone");
   rig.type("File to open", "/none.obj");
   rig.click("Load");
-  for (int i = 0; i < 6000 && rig.session.import.busy(); ++i) rig.frame();
+  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.import.busy(); }));
   rig.frames(2);
   EXPECT_NE(rig.session.import.problem().find("/none.obj"), std::string::npos) << rig.session.import.problem();
   const auto problem = rig.widget("Load problem");
@@ -52,7 +50,7 @@ TEST(FilesPanel, SetsTheWeldDistanceOfTheNextMesh) {
   const auto import_is_closed = [&] {
     const std::size_t before = rig.session.world().bodies().count();
     rig.session.import.drop({mesh.string()});
-    for (int i = 0; i < 6000 && rig.session.world().bodies().count() == before; ++i) rig.frame();
+    EXPECT_TRUE(rig.frames_until([&] { return rig.session.world().bodies().count() > before; }));
     return rig.session.world().model(rig.session.world().bodies().count() - 1).mesh.closed;
   };
   EXPECT_EQ(rig.session.import.weld, softbody::MeshFile{}.weld);
@@ -67,43 +65,40 @@ TEST(FilesPanel, SetsTheWeldDistanceOfTheNextMesh) {
   EXPECT_TRUE(import_is_closed());
 }
 
-TEST(FilesPanel, SaysWhichMeshesAreSimulatedByHowManyParticles) {
-  PanelRig rig;
-  open_only(rig, "Files");
-  const ui::WidgetRecorder::Widget resolution = rig.widget("Auto resolution");
-  rig.move(resolution.min.x + 5, resolution.min.y + 5);
-  rig.frames(60);
-  EXPECT_NE(rig.recorder.tooltip.find("more than " + grouped(softbody::max_simulated_vertices) + " vertices"),
-            std::string::npos)
-      << rig.recorder.tooltip;
-  EXPECT_NE(rig.recorder.tooltip.find("by " + grouped(softbody::default_resolution) + " particles"), std::string::npos)
-      << rig.recorder.tooltip;
-}
-
 TEST(ImportReport, ListsEveryFileBelowTheStatus) {
   PanelRig rig;
   rig.resize(800, 600);
   rig.session.import.drop(std::vector<std::string>(20, "/none/with a path that takes more than one line here.stl"));
-  for (int i = 0; i < 40; ++i) rig.frame();
+  rig.frames(40);
   EXPECT_EQ(std::ranges::count(rig.recorder.widgets, "Import report", &ui::WidgetRecorder::Widget::label), 20);
   const float status_end = rig.widget("Step light").max.y;
   const auto first = std::ranges::find(rig.recorder.widgets, "Import report", &ui::WidgetRecorder::Widget::label);
   EXPECT_GT(first->min.y, status_end) << "a long report scrolls";
 }
 
-TEST(FilesPanel, SavesAndReplacesAScene) {
+TEST(FilesPanel, SavesASceneAndAsksBeforeItReplacesAFile) {
   const TemporaryFolder folder;
-  const std::string file = (folder.path() / "saved.toml").string();
+  const std::string file = folder.write("mine.toml", "# mine\n").string();
+  const auto method = [&] { return softbody::load_scene(file).method; };
   PanelRig rig;
   open_only(rig, "Files");
   rig.session.settings.set_method("grid-hash");
   rig.type("Scene file", file);
-  rig.click("Save");
+  for (const char* answer : {"Cancel", "Replace"}) {
+    rig.click("Save");
+    rig.frames(2);
+    EXPECT_EQ(std::filesystem::file_size(file), 7u) << "as it was";
+    EXPECT_TRUE(rig.shows("Save question"));
+    rig.click(answer);
+    rig.frames(2);
+    EXPECT_FALSE(rig.shows("Save question"));
+  }
   EXPECT_EQ(rig.session.simulation.notice.text(), "Scene saved: " + file);
-  EXPECT_EQ(softbody::load_scene(file).method, "grid-hash");
+  EXPECT_EQ(method(), "grid-hash");
+  EXPECT_EQ(rig.session.simulation.loaded.file.name(), file);
   rig.session.settings.set_method("brute-force");
   rig.click("Save");
-  EXPECT_EQ(softbody::load_scene(file).method, "brute-force");
+  EXPECT_EQ(method(), "brute-force") << "without a question: it is the scene's own file";
   rig.type("Scene file", "/none/x.toml");
   rig.click("Save");
   rig.frames(2);
@@ -111,34 +106,7 @@ TEST(FilesPanel, SavesAndReplacesAScene) {
   EXPECT_GE(rig.widget("Save problem").min.y, rig.widget("Scene file").max.y) << "below its field";
   rig.type("Scene file", file);
   rig.frames(2);
-  EXPECT_FALSE(rig.recorder.find("Save problem")) << "another file";
-}
-
-TEST(FilesPanel, AsksBeforeItReplacesAFile) {
-  const TemporaryFolder folder;
-  const auto other = folder.write("other.toml", "# mine\n");
-  const auto text = [&] {
-    std::ifstream in(other);
-    return std::string(std::istreambuf_iterator<char>(in), {});
-  };
-  PanelRig rig;
-  open_only(rig, "Files");
-  rig.type("Scene file", other.string());
-  rig.click("Save");
-  rig.frames(2);
-  EXPECT_EQ(text(), "# mine\n");
-  EXPECT_TRUE(rig.recorder.find("Save question"));
-  rig.click("Cancel");
-  rig.frames(2);
-  EXPECT_FALSE(rig.recorder.find("Save question"));
-  EXPECT_EQ(text(), "# mine\n");
-  rig.click("Save");
-  rig.frames(2);
-  rig.click("Replace");
-  rig.frames(2);
-  EXPECT_FALSE(rig.recorder.find("Save question"));
-  EXPECT_NE(text(), "# mine\n");
-  EXPECT_EQ(rig.session.simulation.loaded.file.name(), other.string());
+  EXPECT_FALSE(rig.shows("Save problem")) << "another file";
 }
 
 TEST(FilesPanel, CopiesCommandsForTheSettingsInUse) {
@@ -146,19 +114,16 @@ TEST(FilesPanel, CopiesCommandsForTheSettingsInUse) {
   open_only(rig, "Files");
   rig.session.simulation.clock.paused = true;
   rig.session.settings.set_method("grid-hash");
-  rig.click("Copy");
-  const std::string demo = ImGui::GetClipboardText();
-  EXPECT_NE(demo.find(" --scene pair --method grid-hash "), std::string::npos) << demo;
-  EXPECT_TRUE(rig.session.simulation.notice.text().starts_with("Copied")) << rig.session.simulation.notice.text();
-  rig.click("Copy simulate");
-  const std::string simulate = ImGui::GetClipboardText();
-  const std::string end = " --frames " + std::to_string(rig.session.world().frame());
-  EXPECT_NE(simulate.find(" simulate --scene pair "), std::string::npos) << simulate;
-  EXPECT_NE(simulate.find(end), std::string::npos) << simulate;
-  softbody::Material heavy;
-  heavy.name = "new";
-  heavy[softbody::Material::mass] = 2;
-  rig.session.bodies.add({}, heavy);
+  const std::string frames = " --frames " + std::to_string(rig.session.world().frame());
+  const std::map<std::string, std::vector<std::string>> parts{{"Copy", {" --scene pair --method grid-hash "}},
+                                                              {"Copy simulate", {" simulate --scene pair ", frames}}};
+  for (const auto& [button, wanted] : parts) {
+    rig.click(button);
+    const std::string command = ImGui::GetClipboardText();
+    for (const std::string& part : wanted) EXPECT_NE(command.find(part), std::string::npos) << command;
+    EXPECT_TRUE(rig.session.simulation.notice.text().starts_with("Copied")) << rig.session.simulation.notice.text();
+  }
+  rig.session.bodies.add({}, {});
   rig.frames(2);
   EXPECT_FALSE(rig.widget("Copy").enabled) << "the file has no such body";
 }

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <functional>
+#include <initializer_list>
 
 #include "app/ui/user_interface.h"
 #include "engine/gl.h"
@@ -85,6 +87,7 @@ class PanelRig {
     release();
   }
 
+  bool shows(std::string_view label) const { return recorder.find(label) != nullptr; }
   ui::WidgetRecorder::Widget widget(std::string_view label) const {
     const ui::WidgetRecorder::Widget* found = recorder.find(label);
     if (!found) ADD_FAILURE() << "no widget '" << label << "'";
@@ -99,10 +102,27 @@ class PanelRig {
           << was.label << " moved";
     }
   }
-  void click(std::string_view label) {
+  ui::ScreenRect area(std::string_view label) const { return {widget(label).min, widget(label).max}; }
+  /// Returns the middle of a widget.
+  ImVec2 middle(std::string_view label) const {
     const auto [name, min, max, enabled] = widget(label);
-    click_at(0.5f * (min.x + max.x), 0.5f * (min.y + max.y));
+    return {0.5f * (min.x + max.x), 0.5f * (min.y + max.y)};
   }
+  /// Rests the mouse on a widget until its tooltip is there.
+  void hover(std::string_view label) {
+    const ImVec2 at = middle(label);
+    move(at.x, at.y);
+    frames(40);
+  }
+  void click(std::string_view label) {
+    const ImVec2 at = middle(label);
+    click_at(at.x, at.y);
+  }
+  void click_each(std::initializer_list<std::string_view> labels) {
+    for (const std::string_view label : labels) click(label);
+  }
+  /// Changes the scene in use, as the panel's widgets do.
+  void change(const std::function<void(softbody::Scene&)>& change) { session.simulation.change_scene("Test", change); }
   void double_click(std::string_view label) {
     click(label);
     ImGui::GetIO().MouseDoubleClickTime = 1;
@@ -121,8 +141,7 @@ class PanelRig {
   }
   /// Presses in the middle of a slider and drags it sideways.
   void drag(std::string_view label, float by) {
-    const auto [name, min, max, enabled] = widget(label);
-    const float x = 0.5f * (min.x + max.x), y = 0.5f * (min.y + max.y);
+    const auto [x, y] = middle(label);
     move(x, y);
     press();
     move(x + 0.3f * by * scale_, y);

@@ -86,28 +86,23 @@ TEST(Panel, KeepsEverythingInPlaceWhileNumbersChange) {
   for (int i = 0; i < 90; ++i) {
     rig.frame();
     ASSERT_EQ(rig.recorder.widgets.size(), before.size());
-    for (std::size_t w = 0; w < before.size(); ++w) {
-      const auto &then = before[w], &now = rig.recorder.widgets[w];
-      ASSERT_EQ(now.label, then.label);
-      ASSERT_TRUE(now.min.x == then.min.x && now.min.y == then.min.y && now.max.x == then.max.x &&
-                  now.max.y == then.max.y)
-          << now.label << " moved";
-    }
+    rig.expect_in_place(before);
   }
   EXPECT_GT(rig.session.world().frame(), 90);
 }
 
-TEST(Panel, FoldsItsSections) {
+TEST(Panel, FoldsItsSectionsAndRemembersThem) {
   PanelRig rig;
   ASSERT_TRUE(rig.recorder.find("Tolerance"));
+  EXPECT_TRUE(rig.ui.sections.at("Detection"));
   rig.click("Detection");
   EXPECT_FALSE(rig.recorder.find("Tolerance"));
-  EXPECT_TRUE(rig.recorder.find("Coverage"));  // the status light stays
+  EXPECT_FALSE(rig.ui.sections.at("Detection"));
 }
 
 TEST(Panel, SaysWhichStagesActAsForcesInXpbd) {
   PanelRig rig;
-  for (const char* section : {"Numbers", "Show", "Detection", "Stages of a step"}) rig.click(section);
+  rig.click_each({"Numbers", "Show", "Detection", "Stages of a step"});
   EXPECT_FALSE(rig.recorder.find("contact-response"));
   rig.session.settings.set_integrator({"xpbd"});
   rig.frames(2);
@@ -130,13 +125,6 @@ TEST(Panel, IsTwiceAsLargeOnAHighDensityScreen) {
   const ImVec2 two = PanelRig(2).widget("Reset").max;
   EXPECT_NEAR(two.x, 2 * one.x, 8);
   EXPECT_NEAR(two.y, 2 * one.y, 8);
-}
-
-TEST(Panel, RemembersItsFoldedSections) {
-  PanelRig rig;
-  EXPECT_TRUE(rig.ui.sections.at("Numbers"));
-  rig.click("Numbers");
-  EXPECT_FALSE(rig.ui.sections.at("Numbers"));
 }
 
 }  // namespace

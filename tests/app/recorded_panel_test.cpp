@@ -18,7 +18,7 @@ class RecordedPanel : public testing::Test {
     rig.session.simulation.clock.paused = true;
     rig.frames(2);
   }
-  bool shows(std::string_view label) const { return rig.recorder.find(label) != nullptr; }
+  bool shows(std::string_view label) const { return rig.shows(label); }
 
   PanelRig rig{1, opened(std::make_shared<RecordedBalls>(60))};
 };
@@ -77,8 +77,7 @@ TEST_F(RecordedPanel, DrawsNoOverlayThatNeedsASolverButKeepsTheChoice) {
 }
 
 TEST_F(RecordedPanel, OpensFilesAndGivesTheCommandThatPlaysTheRecording) {
-  for (const char* above : {"Numbers", "Show", "Detection"}) rig.click(above);
-  rig.click("Files");
+  rig.click_each({"Numbers", "Show", "Detection", "Files"});
   rig.frames(2);
   EXPECT_TRUE(shows("File to open") && shows("Load"));
   for (const char* label : {"Size of meshes", "Weld distance", "Scene file", "Copy simulate"})

@@ -12,10 +12,10 @@ namespace {
 /// Makes cells so small that the corners of boxes skip some.
 void make_it_miss(PanelRig& rig) {
   rig.session.simulation.clock.paused = true;
-  collide::Settings settings = rig.session.world().collision();
-  settings.cell_size = glm::vec3(0.13f);
-  settings.buckets = 1'000'003;
-  rig.session.simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
+  rig.change([](softbody::Scene& scene) {
+    scene.collision.cell_size = glm::vec3(0.13f);
+    scene.collision.buckets = 1'000'003;
+  });
 }
 
 TEST(StoryCard, CountsWhatThePapersMethodMissesBesideAnExactDriver) {
@@ -30,7 +30,7 @@ TEST(StoryCard, CountsWhatThePapersMethodMissesBesideAnExactDriver) {
   EXPECT_TRUE(rig.recorder.find("Story of Multi-Level SB"));
   EXPECT_TRUE(rig.recorder.find("Story of Multi-Level SB, exact"));
   rig.session.settings.set_method(collide::paper_method);
-  ASSERT_TRUE(rig.frames_until([&] { return rig.recorder.find("Story of Brute force") != nullptr; }))
+  ASSERT_TRUE(rig.frames_until([&] { return rig.shows("Story of Brute force"); }))
       << "the reference stands beside the paper's method when that drives";
 }
 

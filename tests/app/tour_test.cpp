@@ -5,10 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "app/compare/score.h"
-
 #include "app/render/palette.h"
 #include "app/ui/shortcuts.h"
-#include "app/ui/tour/body_subset.h"
 #include "app/ui/tour/paper_boxes.h"
 #include "app/ui/tour/steps.h"
 #include "app/window/preferences.h"
@@ -37,33 +35,44 @@ softbody::Scene shipped_scene(const std::string& key) {
   return softbody::find_scene(key, engine::find_folder("assets") / "scenes");
 }
 
-/// Advances until the run ahead of the tour is over.
-void finish_run(Session& session, ui::Tour& tour) {
-  while (session.run_ahead.active()) {
+/// A tour that was opened at a step.
+struct TourRig {
+  explicit TourRig(const files::Opened& opened, std::size_t step = 0) : session(opened, {}, 1) {
+    tour.start(session, shown, step);
     tour.update(session);
-    session.advance(tick);
   }
-  tour.update(session);
+  /// Advances until the run ahead of the tour is over.
+  void finish_run() {
+    while (session.run_ahead.active()) {
+      tour.update(session);
+      session.advance(tick);
+    }
+    tour.update(session);
+  }
+  /// The tour must have an example.
+  ui::TourContext context() const { return tour.context(session).value(); }
+
+  Session session;
+  ui::Tour tour;
+  render::Overlays shown;
+};
+
+std::vector<collide::Contact> contacts_by(std::string_view method, const softbody::BodiesInMotion& world) {
+  collide::Result result;
+  collide::Workers workers(1);
+  collide::find_method(method)->make()->detect(world.positions(), world.collision(), workers, result);
+  return result.contacts;
 }
 
-/// What the paper's method misses in the world, by the detectors themselves.
+/// Returns what the paper's method misses in the world, by the detectors themselves.
 std::vector<collide::Contact> misses_of(const softbody::BodiesInMotion& world) {
-  std::array<collide::Result, 2> results;
-  collide::Workers workers(1);
-  for (const bool paper : {false, true})
-    collide::find_method(paper ? collide::paper_method : collide::reference_method)
-        ->make()
-        ->detect(world.positions(), world.collision(), workers, results[paper]);
-  return compare::score(results[1].contacts, results[0].contacts).missed;
+  return compare::score(contacts_by(collide::paper_method, world), contacts_by(collide::reference_method, world))
+      .missed;
 }
 
-/// What the tour says that the method misses, with the structure of the method.
-std::vector<collide::Contact> missed_by(const collide::DebugGeometry& structure,
-                                        const softbody::BodiesInMotion& world) {
-  collide::Result exact;
-  collide::Workers workers(1);
-  collide::find_method(collide::reference_method)->make()->detect(world.positions(), world.collision(), workers, exact);
-  return ui::missed_contacts(structure, world.positions(), exact.contacts);
+std::optional<ui::TourExample> example_of(const softbody::Scene& scene,
+                                          std::optional<softbody::BodyId> preferred = {}) {
+  return ui::ExampleFinder().find(softbody::World(scene, {}), preferred);
 }
 
 /// Returns the width of a figure whose label and value do not overlap. The font must be known, as after a frame.
@@ -145,13 +154,12 @@ TEST(Tour, LetsTheUserResumeTheWorld) {
   EXPECT_FALSE(rig.session.simulation.clock.paused);
 }
 
-TEST(Tour, HashesTheChosenCornerAsTheMethodDoes) {
+TEST(Tour, WritesOutTheHashOfTheChosenCorner) {
   PanelRig rig;
-  rig.ui.tour.start(rig.session, rig.ui.overlays);
-  rig.ui.tour.next();
-  rig.ui.tour.next();
+  rig.ui.tour.start(rig.session, rig.ui.overlays, 2);
   rig.frames(3);
-  const collide::methods::CellHash hash(rig.session.world().collision());
+  const collide::Settings& settings = rig.session.world().collision();
+  const collide::methods::CellHash hash(settings);
   for (std::size_t corner = 0; corner < 8; ++corner) {
     rig.click("Corner " + std::to_string(corner + 1));
     const auto context = rig.ui.tour.context(rig.session);
@@ -160,47 +168,32 @@ TEST(Tour, HashesTheChosenCornerAsTheMethodDoes) {
     EXPECT_EQ(chosen.bucket, hash.bucket(hash.cell(chosen.at.x, chosen.at.y, chosen.at.z)));
     const std::string result = ui::tour_steps()[2].figures(*context).back().value;
     EXPECT_TRUE(result.ends_with("->  " + grouped(chosen.bucket))) << result;
-  }
-}
-
-/// The formula that the tour writes out gives the bucket that it states, negative cells included.
-TEST(Tour, WritesOutTheHashOfItsBucket) {
-  Session session(touching_pair(), {}, 1);
-  ui::Tour tour;
-  render::Overlays shown;
-  tour.start(session, shown);
-  tour.update(session);
-  for (std::size_t i = 0; i < 8; ++i) {
-    tour.choose_corner(i);
-    const auto context = tour.context(session);
     std::int64_t sum = 0;
-    const auto& settings = session.world().collision();
-    for (std::size_t axis = 0; axis < 3; ++axis) sum += context->hashed_corner().cell[axis] * settings.primes[axis];
+    for (std::size_t axis = 0; axis < 3; ++axis) sum += chosen.cell[axis] * settings.primes[axis];
     const std::int64_t n = settings.buckets;
-    EXPECT_EQ(((sum % n) + n) % n, context->hashed_corner().bucket);
+    EXPECT_EQ(((sum % n) + n) % n, chosen.bucket) << "of negative cells, too";
   }
 }
 
 TEST(ExampleFinder, FindsTouchingBodiesAndAllTheirContacts) {
-  Session session(touching_pair(), {}, 1);
-  const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
+  const softbody::World world(touching_pair(), {});
+  const auto found = ui::ExampleFinder().find(world, std::nullopt);
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->touching);
   EXPECT_EQ(found->body, 0u);
   EXPECT_EQ(found->other, 1u);
-  EXPECT_EQ(found->contacts,
-            session.world().detection().contacts);  // the exact method drives, and no other bodies touch
-  EXPECT_LT(found->distance, session.world().collision().tolerance);
+  EXPECT_EQ(found->contacts, world.detection().contacts);  // the exact method drives, and no other bodies touch
+  EXPECT_LT(found->distance, world.collision().tolerance);
   const compare::BucketContents bucket = found->table.bucket(found->corners[found->corner].bucket);
   EXPECT_GT(bucket.groups.size() + bucket.items, 2u);
 }
 
 TEST(ExampleFinder, FindsTheSameWhicheverMethodDrives) {
-  Session session(touching_pair(), {}, 1);
-  const auto before = ui::ExampleFinder().find(session.world(), std::nullopt);
+  softbody::Scene scene = touching_pair();
+  const auto before = example_of(scene);
   for (const collide::Method& method : collide::method_table()) {
-    session.settings.set_method(method.key);
-    const auto now = ui::ExampleFinder().find(session.world(), std::nullopt);
+    scene.method = method.key;
+    const auto now = example_of(scene);
     EXPECT_EQ(now->box, before->box) << method.key;
     EXPECT_EQ(now->contacts, before->contacts) << method.key;
     EXPECT_EQ(now->missed, before->missed) << method.key;
@@ -208,36 +201,25 @@ TEST(ExampleFinder, FindsTheSameWhicheverMethodDrives) {
   }
 }
 
-TEST(ExampleFinder, FindsWhatSmallCellsMiss) {
-  Session session(touching_pair(), {}, 1);
-  collide::Settings settings = session.world().collision();
-  settings.cell_size = glm::vec3(0.13f);
-  settings.buckets = 1'000'003;
-  session.simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
-  const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
-  EXPECT_FALSE(found->missed.empty());
-  session.settings.set_method("multi-level-sb");
-  EXPECT_EQ(found->contacts.size() - found->missed.size(), session.world().detection().contacts.size());
-}
-
 TEST(ExampleFinder, FindsTheClosestVerticesIfThereAreNoContacts) {
-  Session session(without_solids(), {}, 1);
-  const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
+  softbody::Scene scene = without_solids();
+  softbody::BodySource far = scene.bodies[0];
+  far.position.y += 20;
+  scene.bodies.insert(scene.bodies.begin(), far);
+  const softbody::World world(scene, {});
+  const auto found = ui::ExampleFinder().find(world, 2);
   ASSERT_TRUE(found && found->closest);
   EXPECT_FALSE(found->touching);
-  const collide::Frame f = session.world().positions();
-  float min_squared = 1e9f;
-  for (collide::Index a = 0; a < f.bodies->first[1]; ++a)
-    for (collide::Index b = f.bodies->first[1]; b < f.bodies->first[2]; ++b)
-      min_squared = std::min(min_squared, collide::squared_distance(f.x[a], f.y[a], f.z[a], f.x[b], f.y[b], f.z[b]));
-  EXPECT_NEAR(found->distance, std::sqrt(min_squared), 1e-6);
-  PanelRig rig(1, without_solids());
-  rig.session.simulation.clock.paused = true;
-  rig.ui.tour.start(rig.session, rig.ui.overlays);
-  for (int i = 0; i < 4; ++i) rig.ui.tour.next();
-  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.run_ahead.active(); }));
-  rig.frames(3);
-  EXPECT_TRUE(rig.recorder.find("Contacts"));  // "none"
+  const collide::Frame f = world.positions();
+  const auto distance = [&](collide::Index a, collide::Index b) {
+    return glm::distance(position(f, a), position(f, b));
+  };
+  float nearest = 1e9f;
+  for (collide::Index a = f.bodies->first[1]; a < f.bodies->first[2]; ++a)
+    for (collide::Index b = f.bodies->first[2]; b < f.bodies->first[3]; ++b)
+      nearest = std::min(nearest, distance(a, b));
+  EXPECT_NEAR(found->distance, nearest, 1e-6);
+  EXPECT_NEAR(distance(found->closest->a, found->closest->b), nearest, 1e-6);
 }
 
 TEST(ExampleFinder, PrefersTheSelectedBodyIfItTouches) {
@@ -245,9 +227,7 @@ TEST(ExampleFinder, PrefersTheSelectedBodyIfItTouches) {
   softbody::BodySource third = scene.bodies[1];
   third.position.x += 1.02;
   scene.bodies.push_back(third);
-  Session session(scene, {}, 1);
-  const auto found = ui::ExampleFinder().find(session.world(), 2);
-  EXPECT_EQ(found->other, 2u);
+  EXPECT_EQ(example_of(scene, 2)->other, 2u);
 }
 
 TEST(Tour, SaysThatTheWorldHasNoBodies) {
@@ -283,47 +263,36 @@ TEST(Tour, WorksInEveryScene) {
 }
 
 TEST(Tour, RunsAheadToAContact) {
-  Session session(shipped_scene("drop"), {}, 1);
-  ui::Tour tour;
-  render::Overlays shown;
-  tour.start(session, shown);
-  ASSERT_TRUE(tour.running_to(session));
-  session.advance(tick);
-  EXPECT_GT(session.world().frame(), 1) << "several frames per picture";
-  tour.update(session);
-  EXPECT_FALSE(tour.context(session));
-  EXPECT_EQ(tour.highlight(), nullptr);
+  TourRig rig(shipped_scene("drop"));
+  ASSERT_TRUE(rig.tour.running_to(rig.session));
+  rig.session.advance(tick);
+  EXPECT_GT(rig.session.world().frame(), 1) << "several frames per picture";
+  rig.tour.update(rig.session);
+  EXPECT_FALSE(rig.tour.context(rig.session));
+  EXPECT_EQ(rig.tour.highlight(), nullptr);
   int before = 0;
-  for (; session.run_ahead.active(); session.advance(tick)) before = session.world().frame();
-  tour.update(session);
-  ASSERT_TRUE(tour.context(session));
-  EXPECT_TRUE(tour.context(session)->f.touching);
-  EXPECT_TRUE(session.simulation.clock.paused);
-  EXPECT_LE(session.world().frame(), before + session::SimulationClock::max_steps);
-  tour.close(session, shown);
-  EXPECT_FALSE(session.simulation.clock.paused) << "the world goes on from there";
+  for (; rig.session.run_ahead.active(); rig.session.advance(tick)) before = rig.session.world().frame();
+  rig.tour.update(rig.session);
+  EXPECT_TRUE(rig.context().f.touching);
+  EXPECT_TRUE(rig.session.simulation.clock.paused);
+  EXPECT_LE(rig.session.world().frame(), before + session::SimulationClock::max_steps);
+  rig.tour.close(rig.session, rig.shown);
+  EXPECT_FALSE(rig.session.simulation.clock.paused) << "the world goes on from there";
 }
 
 TEST(Tour, StaysInAFrameWithAContact) {
-  Session session(touching_pair(), {}, 1);
-  ui::Tour tour;
-  render::Overlays shown;
-  tour.start(session, shown);
-  EXPECT_FALSE(tour.running_to(session));
-  EXPECT_TRUE(session.simulation.clock.paused);
-  EXPECT_EQ(session.world().frame(), 0);
+  const TourRig rig(touching_pair());
+  EXPECT_FALSE(rig.tour.running_to(rig.session));
+  EXPECT_TRUE(rig.session.simulation.clock.paused);
+  EXPECT_EQ(rig.session.world().frame(), 0);
 }
 
 TEST(Tour, RunsAheadInAnEmptyWorld) {
   softbody::Scene scene = falling_pair();
   for (softbody::BodySource& body : scene.bodies) body.appear = 20;
-  Session session(scene, {}, 1);
-  ui::Tour tour;
-  render::Overlays shown;
-  tour.start(session, shown);
-  finish_run(session, tour);
-  ASSERT_TRUE(tour.context(session));
-  EXPECT_TRUE(tour.context(session)->f.touching);
+  TourRig rig(scene);
+  rig.finish_run();
+  EXPECT_TRUE(rig.context().f.touching);
 }
 
 TEST(Tour, CanBeClosedWhileTheWorldRunsAhead) {
@@ -358,62 +327,49 @@ TEST(Tour, GivesUpWhereNothingWillTouch) {
 TEST(Tour, GivesUpAfterAWhile) {
   softbody::Scene scene = without_solids();
   scene.bodies[0].velocity.x = -1;  // away from each other, for ever
-  Session session(scene, {}, 1);
-  ui::Tour tour;
-  render::Overlays shown;
-  tour.start(session, shown);
-  finish_run(session, tour);
-  EXPECT_NEAR(session.world().last_step().time, 20, 0.1);
-  EXPECT_TRUE(tour.has_given_up(session));
-  EXPECT_TRUE(tour.context(session));
-  while (tour.step() < ui::miss_step) tour.next();
-  EXPECT_FALSE(tour.has_given_up(session)) << "a page with another goal";
-  tour.back();
-  EXPECT_TRUE(tour.has_given_up(session));
-  session.simulation.clock.single_step();
-  session.advance(tick);
-  EXPECT_FALSE(tour.has_given_up(session)) << "another frame";
+  TourRig rig(scene);
+  rig.finish_run();
+  EXPECT_NEAR(rig.session.world().last_step().time, 20, 0.1);
+  EXPECT_TRUE(rig.tour.has_given_up(rig.session));
+  EXPECT_TRUE(rig.tour.context(rig.session));
+  while (rig.tour.step() < ui::miss_step) rig.tour.next();
+  EXPECT_FALSE(rig.tour.has_given_up(rig.session)) << "a page with another goal";
+  rig.tour.back();
+  EXPECT_TRUE(rig.tour.has_given_up(rig.session));
+  rig.session.simulation.clock.single_step();
+  rig.session.advance(tick);
+  EXPECT_FALSE(rig.tour.has_given_up(rig.session)) << "another frame";
 }
 
 TEST(Tour, ExplainsAMissOfThePapersMethod) {
   softbody::Scene scene = shipped_scene("drop");
   scene.collision.levels = 4;
-  Session session(scene, {}, 1);
-  ui::Tour tour;
-  render::Overlays shown;
-  tour.start(session, shown, ui::miss_step);
-  finish_run(session, tour);
-  ASSERT_EQ(tour.step(), ui::miss_step);
-  ASSERT_TRUE(tour.context(session));
-  const ui::TourExample& example = tour.context(session)->f;
-  ASSERT_TRUE(example.miss);
-  const ui::ExplainedMiss& miss = *example.miss;
-  const std::vector<collide::Contact> misses = misses_of(session.world());
-  EXPECT_EQ(example.all_missed, misses.size());
+  TourRig rig(scene, ui::miss_step);
+  rig.finish_run();
+  ASSERT_EQ(rig.tour.step(), ui::miss_step);
+  const ui::TourContext context = rig.context();
+  ASSERT_TRUE(context.f.miss && context.f.miss->face);
+  const ui::ExplainedMiss& miss = *context.f.miss;
+  const std::vector<collide::Contact> misses = misses_of(rig.session.world());
+  EXPECT_EQ(context.f.all_missed, misses.size());
   EXPECT_TRUE(std::ranges::count(misses, miss.contact));
   EXPECT_NE(miss.corners[0].bucket, miss.corners[1].bucket);
-  ASSERT_TRUE(miss.face);
   const int axis = miss.face->axis;
-  const float at = static_cast<float>(miss.face->index) * (*session.world().collision().cell_size)[axis];
-  std::array boxes{example.structure.boxes[miss.boxes[0]], example.structure.boxes[miss.boxes[1]]};
+  const float at = static_cast<float>(miss.face->index) * (*rig.session.world().collision().cell_size)[axis];
+  std::array boxes{context.f.structure.boxes[miss.boxes[0]], context.f.structure.boxes[miss.boxes[1]]};
   if (boxes[0].lo[axis] > boxes[1].lo[axis]) std::swap(boxes[0], boxes[1]);
   EXPECT_LT(boxes[0].hi[axis], at);
   EXPECT_GE(boxes[1].lo[axis], at);
-  const std::string text = ui::tour_steps()[ui::miss_step].text(*tour.context(session));
+  const std::string text = ui::tour_steps()[ui::miss_step].text(context);
   EXPECT_NE(text.find("a cell face (dark blue) lies between"), std::string::npos) << text;
 }
 
 TEST(Tour, FramesTheBoxesOfAMissAndNotTheirCells) {
   softbody::Scene scene = touching_pair();
   scene.collision.cell_size = glm::vec3{2.47f, 60, 60};  // a face at x = 0, between the bodies
-  Session session(scene, {}, 1);
-  ui::Tour tour;
-  render::Overlays shown;
-  tour.start(session, shown, ui::miss_step);
-  tour.update(session);
-  ASSERT_TRUE(tour.context(session));
-  ASSERT_TRUE(tour.context(session)->f.miss && tour.context(session)->f.miss->face);
-  const render::Highlight& highlight = *tour.highlight();
+  const TourRig rig(scene, ui::miss_step);
+  ASSERT_TRUE(rig.context().f.miss && rig.context().f.miss->face);
+  const render::Highlight& highlight = *rig.tour.highlight();
   EXPECT_LT(highlight.radius, 1.0f);
   for (const engine::BoxSet& set : highlight.boxes)
     for (const engine::Box& box : set.boxes)
@@ -425,23 +381,20 @@ TEST(Tour, ShowsFewCellsOfAFullBucketAndTheCornersOwnFirst) {
   softbody::Scene scene = touching_pair();
   scene.collision.buckets = 1;
   scene.collision.cell_size = glm::vec3(0.3f);
-  Session session(scene, {}, 1);
-  ui::Tour tour;
-  render::Overlays shown;
-  tour.start(session, shown, 3);
+  TourRig rig(scene, 3);
   for (std::size_t corner = 0; corner < 8; ++corner) {
-    tour.choose_corner(corner);
-    tour.update(session);
-    const auto context = tour.context(session);
-    const compare::BucketContents bucket = context->bucket();
+    rig.tour.choose_corner(corner);
+    rig.tour.update(rig.session);
+    const ui::TourContext context = rig.context();
+    const compare::BucketContents bucket = context.bucket();
     ASSERT_GT(bucket.groups.size(), 3u);
-    EXPECT_EQ(bucket.groups.front().cell, context->bucket_corner().cell);
-    const std::vector<ui::TourFigure> figures = ui::tour_steps()[3].figures(*context);
+    EXPECT_EQ(bucket.groups.front().cell, context.bucket_corner().cell);
+    const std::vector<ui::TourFigure> figures = ui::tour_steps()[3].figures(context);
     EXPECT_EQ(figures[1].colour, render::same_cell_colour);
     EXPECT_EQ(figures[2].colour, render::aliased_colour);
     EXPECT_EQ(figures[4].value, grouped(bucket.groups.size() - 3)) << figures[4].label;
-    EXPECT_EQ(tour.highlight()->labels.size(), 3u);
-    EXPECT_EQ(tour.highlight()->boxes.size(), 2u) << "a set of cells and one of boxes";
+    EXPECT_EQ(rig.tour.highlight()->labels.size(), 3u);
+    EXPECT_EQ(rig.tour.highlight()->boxes.size(), 2u) << "a set of cells and one of boxes";
   }
 }
 
@@ -451,12 +404,11 @@ TEST(Tour, ShowsTheCellThatALargeBoxSkips) {
   scene.collision.cell_size = glm::vec3(0.3f);
   scene.collision.buckets = 1'000'003;
   scene.bodies[1].position = scene.bodies[0].position + glm::dvec3(0.57);  // the boxes overlap
-  Session session(scene, {}, 1);
-  const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
+  const auto found = example_of(scene);
   ASSERT_TRUE(found && found->miss);
   const ui::ExplainedMiss& miss = *found->miss;
   ASSERT_TRUE(miss.skipped && !miss.face);
-  const collide::methods::CellHash hash(session.world().collision());
+  const collide::methods::CellHash hash(scene.collision);
   int without_corner = 0;
   for (const collide::Index box : miss.boxes) {
     const auto& [lo, hi, body] = found->structure.boxes[box];
@@ -502,7 +454,8 @@ TEST(Tour, FitsEveryPageIntoSmallWindows) {
                                    .pair_tests = 405'190'390,
                                    .all_pairs = 128'144'278'125,
                                    .pair_tests_estimated = true};
-  for (const glm::ivec2 size : {glm::ivec2(640, 480), glm::ivec2(800, 500), glm::ivec2(1280, 720)}) {
+  for (const glm::ivec2 size :
+       {glm::ivec2(640, 480), glm::ivec2(500, 400), glm::ivec2(800, 500), glm::ivec2(1280, 720)}) {
     rig.resize(size.x, size.y);
     rig.ui.tour.start(rig.session, rig.ui.overlays);
     for (std::size_t step = 0; step <= last_step; ++step, rig.ui.tour.next()) {
@@ -514,26 +467,27 @@ TEST(Tour, FitsEveryPageIntoSmallWindows) {
       const ui::WidgetRecorder::Widget row = rig.widget("All pairs");
       for (const ui::TourFigure& figure : ui::figures_of_frame(of_drop_3000))
         EXPECT_LE(width_of(figure), row.max.x - row.min.x) << figure.label << ": " << figure.value << " at " << size.x;
-      for (const char* label : {"Back", "Next", "Close tour"})
+      for (const char* label : {"Back", "Next", "Close tour"}) {
+        EXPECT_LE(rig.widget(label).max.x, static_cast<float>(size.x)) << label;
         EXPECT_LE(rig.widget(label).max.y, static_cast<float>(size.y)) << label;
+      }
     }
+    const ui::ScreenRect area = rig.interface.scene_area();
+    EXPECT_GT(area.max.x - area.min.x, 200);
+    EXPECT_GT(area.max.y - area.min.y, 150);
     rig.ui.tour.close(rig.session, rig.ui.overlays);
   }
 }
 
 TEST(Tour, SpeaksOfAliasingOnlyWhereItShowsIt) {
+  softbody::Scene scene = touching_pair();
   for (const std::uint32_t buckets : {7u, 1'000'003u}) {
-    softbody::Scene scene = touching_pair();
     scene.collision.buckets = buckets;
-    Session session(scene, {}, 1);
-    ui::Tour tour;
-    render::Overlays shown;
-    tour.start(session, shown);
-    tour.update(session);
-    const auto context = tour.context(session);
-    const bool aliased = context->f.table.bucket(context->bucket_corner().bucket).groups.size() > 1;
+    const TourRig rig(scene);
+    const ui::TourContext context = rig.context();
+    const bool aliased = context.f.table.bucket(context.bucket_corner().bucket).groups.size() > 1;
     EXPECT_EQ(aliased, buckets == 7);
-    const std::string text = ui::tour_steps()[3].text(*context);
+    const std::string text = ui::tour_steps()[3].text(context);
     EXPECT_EQ(text.find("orange") != std::string::npos, aliased) << text;
   }
 }
@@ -543,8 +497,7 @@ TEST(Tour, FindsAliasingInAnotherBox) {
   scene.bodies[0].position.x -= 0.2;
   for (std::uint32_t buckets = 30; buckets < 400; ++buckets) {
     scene.collision.buckets = buckets;
-    Session session(scene, {}, 1);
-    const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
+    const auto found = example_of(scene);
     if (!found->aliased_corner) continue;
     EXPECT_GT(found->table.bucket(found->aliased_corner->bucket).groups.size(), 1u);
     for (const ui::HashedCorner& corner : found->corners)
@@ -566,7 +519,9 @@ TEST(MissedContacts, AreThoseThatTheDetectorMisses) {
         for (int i = 0; i < frames; ++i) session.advance(tick);
         const std::vector<collide::Contact> expected = misses_of(session.world());
         const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
-        EXPECT_EQ(missed_by(found->structure, session.world()), expected) << levels << ' ' << cell;
+        const auto contacts = contacts_by(collide::reference_method, session.world());
+        EXPECT_EQ(ui::missed_contacts(found->structure, session.world().positions(), contacts), expected)
+            << levels << ' ' << cell;
         EXPECT_EQ(found->all_missed, expected.size());
         EXPECT_EQ(ui::ExampleFinder().has_miss(session.world()), !expected.empty());
         missed += expected.size();
@@ -574,15 +529,6 @@ TEST(MissedContacts, AreThoseThatTheDetectorMisses) {
     }
   }
   EXPECT_GT(missed, 0u);
-}
-
-TEST(BodySubset, HasTheWorldsPositionsAndIndices) {
-  Session session(touching_pair(), {}, 1);
-  const collide::Frame all = session.world().positions();
-  const ui::BodySubset second(session.world(), 1, 1);
-  ASSERT_EQ(second.frame().x.size(), all.bodies->size(1));
-  EXPECT_EQ(second.frame().x[5], all.x[all.bodies->first[1] + 5]);
-  EXPECT_EQ(second.to_world({3, 4}).b, all.bodies->first[1] + 4);
 }
 
 }  // namespace

@@ -19,8 +19,7 @@ void bring_to(softbody::World& ghost, const softbody::World& of, const softbody:
 
 }  // namespace
 
-std::string Ghost::choose(const softbody::World& of, const std::optional<softbody::IntegratorChoice>& choice,
-                          int threads) try {
+void Ghost::choose(const softbody::World& of, const std::optional<softbody::IntegratorChoice>& choice, int threads) {
   std::unique_ptr<softbody::World> chosen;
   if (choice) {
     chosen = std::make_unique<softbody::World>(
@@ -32,26 +31,20 @@ std::string Ghost::choose(const softbody::World& of, const std::optional<softbod
   world_ = std::move(chosen);
   before_ = std::move(before);
   restarted();
-  return {};
-} catch (const std::exception& error) {
-  return error.what();
 }
 
-std::string Ghost::restart(const softbody::World* of) try {
+void Ghost::restart(const softbody::World* of) {
   if (!of) world_.reset();
   if (world_) {
     bring_to(*world_, *of, softbody::IntegratorChoice(world_->integrator_choice()));
     before_.copy(world_->positions());
   }
   restarted();
-  return {};
-} catch (const std::exception& error) {
-  return end(error);
 }
 
-std::string Ghost::step(const softbody::World& of) try {
+void Ghost::step(const softbody::World& of) {
   // While a hand holds a body the ghost begins anew with each step.
-  if (!world_ || blown_up_ || of.grabbed()) return {};
+  if (!world_ || blown_up_ || of.grabbed()) return;
   before_.copy(world_->positions());
   world_->step();
   if (!world_->all_at_rest()) ++revision_;
@@ -59,12 +52,9 @@ std::string Ghost::step(const softbody::World& of) try {
   const collide::Frame f = world_->positions();
   const auto lost = [](float at) { return !(std::abs(at) < far); };
   blown_up_ = std::ranges::any_of(f.x, lost) || std::ranges::any_of(f.y, lost) || std::ranges::any_of(f.z, lost);
-  if (blown_up_) return {};
+  if (blown_up_) return;
   if (world_->last_step().seconds != of.last_step().seconds) return restart(&of);  // one was cut short
   distances_.push(of.frame(), static_cast<float>(distance(of)));
-  return {};
-} catch (const std::exception& error) {
-  return end(error);
 }
 
 /// Forgets what was found out about the ghost before.
@@ -74,10 +64,9 @@ void Ghost::restarted() {
   blown_up_ = false;
 }
 
-std::string Ghost::end(const std::exception& error) {
+void Ghost::end() {
   world_.reset();
   restarted();
-  return error.what();
 }
 
 double Ghost::distance(const softbody::World& of) const {

@@ -2,7 +2,6 @@
 // A second world beside the one that is shown: the same bodies from the same state on, moved by another integrator.
 
 #include <memory>
-#include <string>
 
 #include "app/base/time_series.h"
 #include "app/compare/drawn_positions.h"
@@ -11,17 +10,17 @@
 
 namespace app::session {
 
-/// There is one if the user wants it. It is kept in step with the world that is shown (`of`). Functions that return a
-/// text return what went wrong, for the user; unless said otherwise, the ghost is gone then. Empty: nothing did.
+/// There is one if the user wants it. It is kept in step with the world that is shown (`of`). If restart() or step()
+/// throws, what() is for the user, and end() must follow.
 class Ghost {
  public:
-  /// Begins a ghost of the present state, or ends it. On an error the ghost before stays.
-  [[nodiscard]] std::string choose(const softbody::World& of, const std::optional<softbody::IntegratorChoice>& choice,
-                                   int threads);
+  /// Begins a ghost of the present state, or ends it. If it throws, the ghost before stays.
+  void choose(const softbody::World& of, const std::optional<softbody::IntegratorChoice>& choice, int threads);
   /// The world was changed: the ghost begins anew from its present state, or ends if there is none (nullptr).
-  [[nodiscard]] std::string restart(const softbody::World* of);
+  void restart(const softbody::World* of);
   /// Follows a step of the world.
-  [[nodiscard]] std::string step(const softbody::World& of);
+  void step(const softbody::World& of);
+  void end();
 
   /// Returns nullptr if there is no ghost.
   const softbody::World* world() const { return world_.get(); }
@@ -43,7 +42,6 @@ class Ghost {
 
  private:
   void restarted();
-  std::string end(const std::exception& error);
 
   std::unique_ptr<softbody::World> world_;
   compare::Positions before_;

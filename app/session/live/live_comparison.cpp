@@ -3,22 +3,6 @@
 #include <utility>
 
 namespace app::session {
-namespace {
-
-compare::FrameSnapshot copy_frame(const softbody::BodiesInMotion& world, std::uint64_t revision,
-                                  std::uint64_t world_number) {
-  compare::FrameSnapshot copy;
-  copy.id = revision;
-  copy.frame_number = world.frame();
-  copy.world = world_number;
-  copy.copy(world.positions());
-  copy.settings = world.collision();
-  copy.driver = compare::method_index(world.method().key);
-  copy.found = world.detection();
-  return copy;
-}
-
-}  // namespace
 
 void LiveComparison::exchange(const softbody::BodiesInMotion& world, std::uint64_t revision, std::uint64_t world_number,
                               int rests) {
@@ -27,7 +11,14 @@ void LiveComparison::exchange(const softbody::BodiesInMotion& world, std::uint64
   method_ms_.resize(choice.methods.size());
   if (report && report->id >= first_wanted_) keep(std::move(*report));
   if (!wants_report(revision) || !comparison_.ready(rests)) return;
-  compare::FrameSnapshot snapshot = copy_frame(world, revision, world_number);
+  compare::FrameSnapshot snapshot;
+  snapshot.id = revision;
+  snapshot.frame_number = world.frame();
+  snapshot.world = world_number;
+  snapshot.copy(world.positions());
+  snapshot.settings = world.collision();
+  snapshot.driver = compare::method_index(world.method().key);
+  snapshot.found = world.detection();
   snapshot.chosen = chosen();
   if (std::exchange(offered_, revision) != revision || snapshot.chosen != offered_methods_) offers_ = 0;
   offered_methods_ = snapshot.chosen;

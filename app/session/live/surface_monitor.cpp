@@ -3,22 +3,6 @@
 #include "app/compare/world_oracle.h"
 
 namespace app::session {
-namespace {
-
-compare::StepSnapshot copy_step(const softbody::BodiesInMotion& world, const compare::Positions& before,
-                                std::uint64_t revision) {
-  compare::StepSnapshot copy;
-  copy.id = revision;
-  copy.frame = world.frame();
-  copy.before = before;
-  const softbody::SimulatedMeshes simulated = world.simulated();
-  copy.copy(simulated.positions);
-  copy.surfaces = compare::surfaces_of(world);
-  copy.contacts.assign(simulated.contacts.begin(), simulated.contacts.end());
-  return copy;
-}
-
-}  // namespace
 
 void SurfaceMonitor::exchange(const softbody::BodiesInMotion& world, const compare::Positions& before,
                               std::uint64_t revision, int rests) {
@@ -26,7 +10,15 @@ void SurfaceMonitor::exchange(const softbody::BodiesInMotion& world, const compa
   if (auto report = check_.take(); report && report->id >= first_wanted_) keep(std::move(*report));
   if (offered_ == revision || !check_.ready(rests)) return;
   offered_ = revision;
-  check_.offer(copy_step(world, before, revision));
+  compare::StepSnapshot snapshot;
+  snapshot.id = revision;
+  snapshot.frame = world.frame();
+  snapshot.before = before;
+  const softbody::SimulatedMeshes simulated = world.simulated();
+  snapshot.copy(simulated.positions);
+  snapshot.surfaces = compare::surfaces_of(world);
+  snapshot.contacts.assign(simulated.contacts.begin(), simulated.contacts.end());
+  check_.offer(std::move(snapshot));
 }
 
 void SurfaceMonitor::restart(std::uint64_t revision) {

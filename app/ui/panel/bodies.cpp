@@ -16,7 +16,7 @@ void draw_drop_and_throw(Widgets& w, const Session& session) {
   if (!session.simulated()) return;
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
-  ImGui::BeginDisabled(!session.bodies.can_drop());
+  const Disabled off(!session.bodies.can_drop());
   if (w.button("Drop", "Drops another body from above (D).", width)) w.ask([](Session& s) { s.bodies.drop(); });
   ImGui::SameLine();
   if (w.button("Drop 20", "Drops twenty bodies side by side (Shift+D).", width))
@@ -30,7 +30,6 @@ void draw_drop_and_throw(Widgets& w, const Session& session) {
   if (w.slider("Throw speed", speed, session::BodyControls::min_throw_speed, session::BodyControls::max_throw_speed,
                "%.0f m/s", "How fast bodies are thrown.", true))
     w.ask([speed](Session& s) { s.bodies.throw_speed = speed; });
-  ImGui::EndDisabled();
 }
 
 const char* state_text(const softbody::World& world, softbody::BodyId id) {
@@ -60,8 +59,7 @@ void draw_selected(Widgets& w, const Session& session, softbody::BodyId id) {
   w.register_item("Selected body",
                   fmt::format("The body that was clicked last, simulated by {} particles. Bodies and vertices count "
                               "from 0.",
-                              grouped(particles))
-                      .c_str());
+                              grouped(particles)));
   const std::string volume = volume_text(world, id);
   if (!simulated) return w.figure("Volume", volume, "Of the volume in the first frame with this body.");
   const double speed =
@@ -88,13 +86,12 @@ void draw_bodies(Widgets& w, const Session& session) {
   else
     draw_no_selection(w, has_solver);
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-  ImGui::BeginDisabled(!body);
+  const Disabled off(!body);
   if (w.button("Look at it", "The camera goes to the selected body, as a double-click on it does.", width))
     w.ask(WindowTask::show_selected_body);
   if (has_solver) ImGui::SameLine();
   if (has_solver && w.button("Delete", "Takes the selected body out of the world (Del); Ctrl+Z brings it back.", width))
     w.ask([](Session& s) { s.bodies.remove_selected(); });
-  ImGui::EndDisabled();
 }
 
 }  // namespace app::ui

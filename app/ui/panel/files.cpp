@@ -69,19 +69,17 @@ void draw_mesh_settings(Widgets& w, const session::Import& import) {
   const bool automatic = import.resolution == 0;
   if (w.checkbox("Auto###Auto resolution", automatic,
                  fmt::format("A mesh of more than {} vertices is simulated by {} particles; its vertices follow them.",
-                             grouped(softbody::max_simulated_vertices), grouped(softbody::default_resolution))
-                     .c_str()))
+                             grouped(softbody::max_simulated_vertices), grouped(softbody::default_resolution))))
     w.ask([automatic](Session& s) { s.import.resolution = automatic ? softbody::default_resolution : 0; });
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  ImGui::BeginDisabled(automatic);
+  const Disabled off(automatic);
   int resolution = static_cast<int>(automatic ? softbody::default_resolution : import.resolution);
   if (w.slider(
           "Particles of meshes", resolution, static_cast<int>(softbody::min_resolution), max_resolution, "%d",
           "How many particles simulate the next mesh if it has more vertices. More of them follow finer folds, and "
           "take longer."))
     w.ask([resolution](Session& s) { s.import.resolution = static_cast<std::size_t>(resolution); });
-  ImGui::EndDisabled();
 }
 
 void save(Session& session, UiState& ui) {
@@ -120,22 +118,18 @@ void draw_save(Widgets& w, const Session& session, const UiState& ui, bool saved
   draw_save_question(w, ui);
 }
 
-/// Draws a button that copies a command to the clipboard. `purpose`: what the command does.
-void draw_copy_button(Widgets& w, const char* name, const std::string& command, const char* purpose, float width) {
-  constexpr std::size_t max_shown = 600;  // each frame that is played has a name
-  const std::string shown = command.size() > max_shown ? command.substr(0, max_shown) + " ..." : command;
-  if (!w.button(name, shown.c_str(), width)) return;
-  ImGui::SetClipboardText(command.c_str());
-  w.ask([purpose](Session& s) { s.simulation.notice.tell(std::string("Copied: the command that ") + purpose); });
-}
-
 void draw_command(Widgets& w, const Session& session, const softbody::Scene& used, bool saved) {
   w.row_label("Command", w.px(narrow_column));
-  ImGui::BeginDisabled(!saved);
+  const Disabled off(!saved);
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+  // Draws a button that copies a command to the clipboard. `purpose`: what the command does.
   const auto draw_copy = [&](const char* name, const std::string& command, const char* purpose) {
     constexpr const char* unsaved = "The scene was changed: save it, so that a command can name it.";
-    draw_copy_button(w, name, saved ? command : unsaved, purpose, width);
+    constexpr std::size_t max_shown = 600;  // each frame that is played has a name
+    const std::string shown = command.size() > max_shown ? command.substr(0, max_shown) + " ..." : command;
+    if (!w.button(name, saved ? shown : unsaved, width)) return;
+    ImGui::SetClipboardText(command.c_str());
+    w.ask([purpose](Session& s) { s.simulation.notice.tell(std::string("Copied: the command that ") + purpose); });
   };
   if (const session::Player* player = session.simulation.player()) {
     draw_copy("Copy", session::play_command(*player->recording(), used), "opens this scene");
@@ -151,7 +145,6 @@ void draw_command(Widgets& w, const Session& session, const softbody::Scene& use
               session::simulate_command(name, used, world.integrator_choice(), world.frame() + (just_added ? 1 : 0)),
               "makes this picture");
   }
-  ImGui::EndDisabled();
 }
 
 /// Draws the choice of the pictures' size.
@@ -161,12 +154,11 @@ void draw_picture_size(Widgets& w, const session::Exporter& exporter) {
     return std::string(size == Exporter::own ? "Own size" : Exporter::sizes[size].name);
   };
   w.row_label("Size", w.px(narrow_column));
-  ImGui::BeginDisabled(exporter.with_panel || exporter.recording() || exporter.finishing());
-  if (w.begin_combo("Picture size", exporter.with_panel ? "As the window" : name_of(exporter.size).c_str(),
+  const Disabled off(exporter.with_panel || exporter.recording() || exporter.finishing());
+  if (w.begin_combo("Picture size", exporter.with_panel ? "As the window" : name_of(exporter.size),
                     "Of pictures and videos of the scene without the panel. They show what the camera shows now.")) {
     for (std::size_t size = 0; size <= Exporter::own; ++size)
-      if (w.combo_item(name_of(size).c_str(), size == exporter.size, nullptr))
-        w.ask([size](Session& s) { s.exporter.size = size; });
+      if (w.combo_item(name_of(size), size == exporter.size)) w.ask([size](Session& s) { s.exporter.size = size; });
     ImGui::EndCombo();
   }
   if (exporter.size == Exporter::own && !exporter.with_panel) {
@@ -180,7 +172,6 @@ void draw_picture_size(Widgets& w, const session::Exporter& exporter) {
     w.number_field("Picture height", size.y, Exporter::min_side, Exporter::max_side, "In pixels.");
     if (size != exporter.own_size) w.ask([size](Session& s) { s.exporter.own_size = size; });
   }
-  ImGui::EndDisabled();
 }
 
 void draw_recording(Widgets& w, const session::Exporter& exporter) {
@@ -188,25 +179,21 @@ void draw_recording(Widgets& w, const session::Exporter& exporter) {
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - w.px(file_button_width) - gap);
   ImGui::BeginDisabled(exporter.recording() || exporter.finishing());
-  const auto text = [](std::string_view part) { return std::string(part); };
   const session::RecordingKind& now = session::recording_kinds[exporter.kind];
-  if (w.begin_combo("Kind of recording", text(now.name).c_str(), text(now.tooltip).c_str())) {
+  if (w.begin_combo("Kind of recording", now.name, now.tooltip)) {
     for (std::size_t i = 0; i < session::recording_kinds.size(); ++i) {
       const session::RecordingKind& kind = session::recording_kinds[i];
-      if (w.combo_item(text(kind.name).c_str(), i == exporter.kind, text(kind.tooltip).c_str()))
-        w.ask([i](Session& s) { s.exporter.kind = i; });
+      if (w.combo_item(kind.name, i == exporter.kind, kind.tooltip)) w.ask([i](Session& s) { s.exporter.kind = i; });
     }
     ImGui::EndCombo();
   }
   ImGui::EndDisabled();
   ImGui::SameLine(0, gap);
-  ImGui::BeginDisabled(exporter.finishing());
   if (w.button(exporter.recording() ? "Stop###Record" : "Start###Record",
                "Every frame of the world from now on, until it is stopped. The world waits for the recording, so that "
                "no frame is lost.",
-               w.px(file_button_width)))
+               w.px(file_button_width), !exporter.finishing()))
     w.ask([](Session& s) { s.exporter.toggle_recording(); });
-  ImGui::EndDisabled();
 }
 
 /// Draws the message, or an empty line, so that nothing moves.
@@ -214,7 +201,7 @@ void draw_message(Widgets& w, const session::Exporter& exporter) {
   if (exporter.failed()) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
   w.text_line(exporter.message());
   if (exporter.failed()) ImGui::PopStyleColor();
-  w.register_item("Message", exporter.message().empty() ? nullptr : exporter.message().c_str());
+  w.register_item("Message", exporter.message());
 }
 
 }  // namespace

@@ -7,8 +7,7 @@
 
 #include "app/render/palette.h"
 #include "app/ui/panel/panel.h"
-#include "app/ui/views/hash_table_view.h"
-#include "app/ui/views/status.h"
+#include "app/ui/views/views.h"
 #include "softbody/world/measures.h"
 
 namespace app::ui {
@@ -95,7 +94,7 @@ void draw_skipped(Widgets& w, const Session& session) {
   w.register_item("Skipped", "Work that this frame did not need. A proof shows that no contact is lost.");
   for (std::size_t kind = 0; kind < collide::skip_kinds.size(); ++kind) {
     const std::string label = "  " + std::string(collide::skip_kinds[kind].text);
-    w.figure(label.c_str(), grouped(session.world().detection().skipped[kind]), skip_tooltips[kind]);
+    w.figure(label, grouped(session.world().detection().skipped[kind]), skip_tooltips[kind]);
   }
 }
 
@@ -112,8 +111,7 @@ void draw_pair_tests(Widgets& w, const Session& session) {
       fmt::format("{}, {} %", ratio(counters.pair_tests, vertices), ratio(100 * counters.pair_tests, all)),
       fmt::format("Pair tests per vertex ({} vertices) and as a share of all {} pairs. §3 claims a constant number "
                   "per vertex at best, and all pairs at worst.",
-                  grouped(vertices), grouped(all))
-          .c_str());
+                  grouped(vertices), grouped(all)));
 }
 
 void draw_hashes(Widgets& w, const Session& session) {
@@ -132,14 +130,14 @@ void draw_hashes(Widgets& w, const Session& session) {
 /// Draws the figures of the table that the hash table's view shows.
 void draw_table(Widgets& w, const Session& session) {
   const collide::DebugGeometry& geometry = session.inspector.shown_geometry();
-  const TableFigures figures = table_figures(geometry);
   const auto text = [&](std::size_t count, bool known) { return known ? grouped(count) : std::string("-"); };
   const bool known = geometry.buckets > 0;
   ImGui::TextDisabled("Table of %s", shown_method_text(session).c_str());
   w.register_item("Table", "The hash table of this method (§2.2). The view of the hash table (T) shows the same one.");
-  w.figure("  boxes", text(figures.boxes, known && figures.boxes > 0), "Boxes with at least one vertex (§2.1).");
-  w.figure("  buckets used", text(figures.buckets_used, known), "Buckets with at least one entry (§2.2).");
-  w.figure("  longest bucket", text(figures.longest, known), "Entries of the fullest bucket (§2.2).");
+  const std::size_t boxes = geometry.boxes.size();
+  w.figure("  boxes", text(boxes, known && boxes > 0), "Boxes with at least one vertex (§2.1).");
+  w.figure("  buckets used", text(geometry.loads.size(), known), "Buckets with at least one entry (§2.2).");
+  w.figure("  longest bucket", text(longest_bucket(geometry), known), "Entries of the fullest bucket (§2.2).");
 }
 
 }  // namespace

@@ -28,10 +28,9 @@ void draw_scene(Widgets& w, const Session& session) {
   const float help_width = ImGui::GetFrameHeight(), tour_button_width = w.px(52),
               gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - tour_button_width - 2 * gap);
-  if (w.begin_combo("Scene", shown.c_str(), scene.look_at.c_str())) {
+  if (w.begin_combo("Scene", shown, scene.look_at)) {
     for (const session::SceneChoice& choice : session.scenes.choices())
-      if (w.combo_item(choice.name.c_str(), choice.key == session.simulation.loaded.file.name(),
-                       choice.look_at.c_str()))
+      if (w.combo_item(choice.name, choice.key == session.simulation.loaded.file.name(), choice.look_at))
         w.ask([&choice](Session& s) { s.scenes.choose(choice.key); });
     ImGui::EndCombo();
   }
@@ -47,39 +46,34 @@ void draw_time_controls(Widgets& w, const Session& session) {
   if (w.button("Reset", "Restarts the scene with the present settings and without added bodies (R).", width))
     w.ask([](Session& s) { s.simulation.reset(); });
   ImGui::SameLine();
-  ImGui::BeginDisabled(!session.simulation.can_undo());
-  if (w.button("Undo", "Undoes the last reset, choice of scene, change of bodies, or drag of a solid (Ctrl+Z).", width))
+  if (w.button("Undo", "Undoes the last reset, choice of scene, change of bodies, or drag of a solid (Ctrl+Z).", width,
+               session.simulation.can_undo()))
     w.ask([](Session& s) { s.simulation.undo(); });
-  ImGui::EndDisabled();
   ImGui::SameLine();
-  ImGui::BeginDisabled(!session.simulation.can_redo());
-  if (w.button("Redo", "Brings back what the last undo took away (Ctrl+Y).", width))
+  if (w.button("Redo", "Brings back what the last undo took away (Ctrl+Y).", width, session.simulation.can_redo()))
     w.ask([](Session& s) { s.simulation.redo(); });
-  ImGui::EndDisabled();
 
   if (w.checkbox("Slow motion", session.simulation.clock.slow_motion, "Runs the simulation slower than real time (S)."))
     w.ask([](Session& s) { s.simulation.clock.slow_motion = !s.simulation.clock.slow_motion; });
   ImGui::SameLine(w.px(label_column + 20));
   ImGui::SetNextItemWidth(-FLT_MIN);
-  ImGui::BeginDisabled(!session.simulation.clock.slow_motion);
+  const Disabled off(!session.simulation.clock.slow_motion);
   double percent = 100 * session.simulation.clock.slow_factor;
   if (w.slider("Slow motion speed", percent, 100 * session::SimulationClock::min_slow_factor,
                100 * session::SimulationClock::max_slow_factor, "%.0f %% of real time", "The speed of slow motion.",
                true))
     w.ask([factor = percent / 100](Session& s) { s.simulation.clock.slow_factor = factor; });
-  ImGui::EndDisabled();
 }
 
 void draw_overlays(Widgets& w, const Session& session, const UiState& ui) {
   std::size_t i = 0;
-  const auto flag = [&](const char* label, bool shown, const char* tooltip, const auto& change) {
+  const auto flag = [&](std::string_view label, bool shown, std::string_view tooltip, const auto& change) {
     if (i++ % 2) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.54f);
     if (w.checkbox(label, shown, tooltip)) w.ask(change);
   };
   for (const render::OverlayRow& row : render::overlay_table)
     if (!row.needs_solver || session.simulated())
-      flag(std::string(row.label).c_str(), ui.overlays.*row.shown,
-           fmt::format("{} ({})", row.tooltip, row.shortcut).c_str(),
+      flag(row.label, ui.overlays.*row.shown, fmt::format("{} ({})", row.tooltip, row.shortcut),
            [&row](UiState& state) { state.overlays.*row.shown = !(state.overlays.*row.shown); });
   flag("Hash table", ui.hash_table, "Shows the hash table: each square is a bucket (T).",
        [](Session& s, UiState& state) { state.toggle_hash_table(s); });
@@ -105,12 +99,12 @@ void draw_plan(Widgets& w, const Session& session, const UiState&) {
         key.append(shape == world.plan().shapes.front() ? ": " : ", ").append(shape->name);
     const bool as_force = std::ranges::find(as_forces, stage) != as_forces.end();
     ImGui::BulletText(as_force ? "%s, as a force" : "%s", key.c_str());
-    if (as_force) w.register_item(key.c_str(), "XPBD moves no particles to where it has them.");
+    if (as_force) w.register_item(key, "XPBD moves no particles to where it has them.");
   }
   for (const auto& [stage, why] : world.plan().left_out) {
     const std::string key(softbody::stage_key(stage));
     ImGui::TextDisabled("without %s: %s", key.c_str(), why.c_str());
-    w.register_item(key.c_str(), why.c_str());
+    w.register_item(key, why);
   }
 }
 
@@ -158,7 +152,7 @@ void draw_panel(Widgets& w, const Session& session, const UiState& ui, const Scr
   draw_bodies(w, session);
   ImGui::Spacing();
   draw_sections(w, session, ui);
-  end_dock();
+  ImGui::End();
 }
 
 }  // namespace app::ui

@@ -27,23 +27,21 @@ bool draw_integrator_choice(Widgets& w, const char* name, softbody::IntegratorCh
   const softbody::IntegratorChoice before = choice;
   const softbody::Integrator& now = *softbody::find_integrator(choice.key);
   w.row_label("Integrator", w.px(label_column));
-  if (w.begin_combo(fmt::format("{}Integrator", name).c_str(), std::string(now.name).c_str(),
-                    std::string(now.summary).c_str())) {
+  if (w.begin_combo(fmt::format("{}Integrator", name), now.name, now.summary)) {
     for (const softbody::Integrator& i : softbody::integrators())
-      if (w.combo_item(std::string(i.name).c_str(), &i == &now, std::string(i.summary).c_str())) choice.key = i.key;
+      if (w.combo_item(i.name, &i == &now, i.summary)) choice.key = i.key;
     ImGui::EndCombo();
   }
   const bool fixed = choice.substeps.has_value();
-  if (w.checkbox(fmt::format("Fixed substeps###{}Fixed substeps", name).c_str(), fixed,
+  if (w.checkbox(fmt::format("Fixed substeps###{}Fixed substeps", name), fixed,
                  "Takes a fixed number of steps per frame. If they are too few, explicit integrators blow up."))
     choice.substeps = fixed ? std::nullopt : std::optional(std::max(1, proposed));
-  ImGui::BeginDisabled(!choice.substeps);
+  const Disabled off(!choice.substeps);
   w.row_label("Substeps", w.px(label_column));
   int substeps = choice.substeps.value_or(std::max(1, proposed));
-  if (w.slider(fmt::format("{}Substeps", name).c_str(), substeps, 1, std::max(100, substeps), "%d per frame",
+  if (w.slider(fmt::format("{}Substeps", name), substeps, 1, std::max(100, substeps), "%d per frame",
                "Steps of the integrator in each frame. Fewer are faster but less stable."))
     choice.substeps = substeps;
-  ImGui::EndDisabled();
   return choice != before;
 }
 
@@ -78,7 +76,7 @@ void draw_integrator(Widgets& w, const Session& session) {
   const std::string why = world.integrator_choice().integrator().automatic
                               ? "Chosen automatically: " + std::string(last.why) + "."
                               : "The integrator that you chose.";
-  w.figure("Active integrator", chosen ? std::string(last.integrator->name) : "next step", why.c_str());
+  w.figure("Active integrator", chosen ? std::string(last.integrator->name) : "next step", why);
 }
 
 struct StabilityCurve {
@@ -135,9 +133,8 @@ void draw_step_light(Widgets& w, const Session& session) {
   w.dot(light.colour);
   w.text_line(std::string(light.label).append(": ").append(step_text(margin, session.world())));
   ImGui::EndGroup();
-  w.register_item(
-      "Step light",
-      fmt::format("{} Substeps per frame: {} taken, {} needed.", light.sentence, margin.taken, margin.needed).c_str());
+  w.register_item("Step light", fmt::format("{} Substeps per frame: {} taken, {} needed.", light.sentence, margin.taken,
+                                            margin.needed));
   const auto& blow_up = session.simulation.stability().blow_up();
   if (!blow_up) return;
   w.wrapped_text("Blow-up",

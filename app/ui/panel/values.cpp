@@ -29,11 +29,11 @@ const char* length_format(float usual) { return usual < 0.05f ? "%.3g m" : "%.3f
 /// a mark, and the reason as its tooltip.
 void draw_hash_label(Widgets& w, const std::string& label, float column, const collide::Settings& settings, bool used) {
   const std::string warning = used ? collide::hash_warning(settings) : "";
-  if (warning.empty()) return w.row_label(label.c_str(), column);
+  if (warning.empty()) return w.row_label(label, column);
   ImGui::PushStyleColor(ImGuiCol_TextDisabled, {0.85f, 0.5f, 0.0f, 1.0f});
-  w.row_label((label + "!").c_str(), column);
+  w.row_label(label + "!", column);
   ImGui::PopStyleColor();
-  w.register_item((label + " warning").c_str(), warning.c_str());
+  w.register_item(label + " warning", warning);
 }
 
 /// Draws the widget for a value by its type. The functions return true if the user has changed it.
@@ -57,10 +57,7 @@ struct ValueWidgets {
   bool slide(const softbody::Key& key, Value& value, const softbody::Slider& s, const std::string& more = "") const {
     const std::string tooltip = std::string(key.summary) + more;
     const auto least = static_cast<Value>(s.least), most = static_cast<Value>(s.most);
-    if constexpr (std::is_integral_v<Value>)
-      return w.slider(s.text, value, least, most, s.format, tooltip.c_str());
-    else
-      return w.slider(s.text, value, least, most, s.format, tooltip.c_str(), s.logarithmic);
+    return w.slider(s.text, value, least, most, s.format, tooltip, s.logarithmic);
   }
   /// Returns the slider of a length, which goes `below` and `above` the scene's tolerance.
   softbody::Slider of_lengths(softbody::Slider s, float below, float above) const {
@@ -93,19 +90,18 @@ struct ValueWidgets {
     std::string tooltip = method.description;
     if (uses_surface_contact(session)) tooltip += " With surface contact it does not move the bodies.";
     tooltip += " M: next shown method.";
-    draw_method_choice(w, session, "Method", method.name.c_str(), tooltip.c_str());
+    draw_method_choice(w, session, "Method", method.name, tooltip);
     return false;  // the list sets it
   }
 
   bool draw(const softbody::Key& key, softbody::ContactSurface& value) const {
     if (!session.simulated()) return false;
     label(key);
-    const auto text = [](std::string_view part) { return std::string(part); };
     const auto& info = *std::ranges::find(softbody::contact_surfaces, value, &softbody::ContactSurfaceInfo::value);
-    const std::string tooltip = text(key.summary) + " " + text(info.summary) + " F: next.";
-    if (!w.begin_combo("Contact surface", text(info.name).c_str(), tooltip.c_str())) return false;
+    const std::string tooltip = fmt::format("{} {} F: next.", key.summary, info.summary);
+    if (!w.begin_combo("Contact surface", info.name, tooltip)) return false;
     for (const softbody::ContactSurfaceInfo& each : softbody::contact_surfaces)
-      if (w.combo_item(text(each.name).c_str(), &each == &info, text(each.summary).c_str())) value = each.value;
+      if (w.combo_item(each.name, &each == &info, each.summary)) value = each.value;
     ImGui::EndCombo();
     return value != info.value;
   }
@@ -120,20 +116,19 @@ struct ValueWidgets {
   }
 
   bool draw(const softbody::Key& key, std::uint32_t& value) const {
-    const std::string tooltip(key.summary);
     draw_hash_label(w, key.slider.text, w.px(label_column), settings, uses(key));
     const float arrow = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
     const float field_width = w.px(84);
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - arrow - field_width - 2 * gap);
-    bool changed = w.slider("Buckets", value, 1, collide::max_buckets, tooltip.c_str());
+    bool changed = w.slider("Buckets", value, 1, collide::max_buckets, "", key.summary, true);
     ImGui::SameLine(0, gap);
     ImGui::SetNextItemWidth(field_width);
-    changed |= w.number_field("Number of buckets", value, 1, collide::max_buckets, tooltip.c_str());
+    changed |= w.number_field("Number of buckets", value, 1, collide::max_buckets, key.summary);
     ImGui::SameLine(0, gap);
     if (w.begin_combo("Bucket presets", "", "Common numbers of buckets: the paper's, and primes near them.",
                       ImGuiComboFlags_NoPreview)) {
       for (const std::uint32_t preset : bucket_presets) {
-        if (!w.combo_item(grouped(preset).c_str(), preset == value, nullptr)) continue;
+        if (!w.combo_item(grouped(preset), preset == value)) continue;
         value = preset;
         changed = true;
       }
@@ -144,7 +139,6 @@ struct ValueWidgets {
 
   bool draw(const softbody::Key& key, std::array<std::uint32_t, 3>& value) const {
     static constexpr std::array labels{"x prime", "y prime", "z prime"};
-    const std::string tooltip(key.summary);
     draw_hash_label(w, key.slider.text, w.px(62), settings, uses(key));  // three numbers need more room than one
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(3), ImGui::GetStyle().FramePadding.y});
     const float reset = ImGui::GetFrameHeight(), gap = w.px(3);
@@ -152,8 +146,7 @@ struct ValueWidgets {
     bool changed = false;
     for (std::size_t axis = 0; axis < labels.size(); ++axis) {
       ImGui::SetNextItemWidth(field);
-      changed |=
-          w.number_field(labels[axis], value[axis], 1, std::numeric_limits<std::uint32_t>::max(), tooltip.c_str());
+      changed |= w.number_field(labels[axis], value[axis], 1, std::numeric_limits<std::uint32_t>::max(), key.summary);
       ImGui::SameLine(0, gap);
     }
     if (w.button("x###Default primes", "Restores the default: 73856093, 19349669, 83492791.", reset)) {
@@ -173,13 +166,12 @@ struct ValueWidgets {
     if (changed) value = value ? std::nullopt : std::optional(now);
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::BeginDisabled(!value);
+    const Disabled off(!value);
     float side = std::max({now.x, now.y, now.z});
     if (slide(key, side, of_lengths(key.slider, 5, 50))) {
       value = glm::vec3(side);
       changed = true;
     }
-    ImGui::EndDisabled();
     return changed;
   }
 
@@ -193,7 +185,7 @@ struct ValueWidgets {
   }
 
   bool draw(const softbody::Key& key, bool& value) const {
-    if (!w.checkbox(key.slider.text, value, std::string(key.summary).c_str())) return false;
+    if (!w.checkbox(key.slider.text, value, key.summary)) return false;
     value = !value;
     return true;
   }
@@ -210,10 +202,8 @@ void draw_values(Widgets& w, const Session& session, const UiState& ui, bool of_
   const ValueWidgets widgets{w, session, needed};
   softbody::for_each_value(session.world().scene(), [&](const softbody::Key& key, auto value) {
     if (!key.slider.text || softbody::is_of_detection(key) != of_detection) return;
-    ImGui::BeginDisabled(!widgets.uses(key));
-    const bool changed = widgets.draw(key, value);
-    ImGui::EndDisabled();
-    if (changed)
+    const Disabled off(!widgets.uses(key));
+    if (widgets.draw(key, value))
       w.ask([&key, value](Session& s) {
         s.simulation.change_scene(key.slider.text,
                                   [&](softbody::Scene& scene) { softbody::set_value(scene, key, value); });

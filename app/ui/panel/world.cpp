@@ -18,9 +18,9 @@ std::size_t choose(Widgets& w, const char* label, const char* tooltip, std::size
   assert(count > 0);
   chosen = std::min(chosen, count - 1);
   w.row_label(label, w.px(label_column));
-  if (!w.begin_combo(label, name(chosen).c_str(), tooltip)) return chosen;
+  if (!w.begin_combo(label, name(chosen), tooltip)) return chosen;
   for (std::size_t i = 0; i < count; ++i)
-    if (w.combo_item(name(i).c_str(), i == chosen, nullptr)) chosen = i;
+    if (w.combo_item(name(i), i == chosen)) chosen = i;
   ImGui::EndCombo();
   return chosen;
 }
@@ -44,12 +44,11 @@ void draw_preset(Widgets& w, const Session& session, std::size_t index) {
   const auto& presets = session.scenes.presets();
   const auto same = std::ranges::find(presets, now, renamed);
   w.row_label("Preset", w.px(label_column));
-  if (!w.begin_combo("Material preset", same == presets.end() ? "Custom" : same->name.c_str(),
+  if (!w.begin_combo("Material preset", same == presets.end() ? "Custom" : same->name,
                      "Sets all values below to those of a known material."))
     return;
   for (const softbody::Material& preset : presets)
-    if (w.combo_item(preset.name.c_str(), renamed(preset) == now, nullptr))
-      ask_for_material(w, index, "Preset", renamed(preset));
+    if (w.combo_item(preset.name, renamed(preset) == now)) ask_for_material(w, index, "Preset", renamed(preset));
   ImGui::EndCombo();
 }
 
@@ -66,9 +65,7 @@ void draw_material(Widgets& w, const Session& session, const UiState& ui) {
     softbody::Material changed = all[chosen];
     double shown = changed[*key] / s.unit;
     w.row_label(s.text, w.px(label_column));
-    if (!w.slider(std::string(key->name).c_str(), shown, s.least, s.most, s.format, std::string(key->summary).c_str(),
-                  s.logarithmic))
-      continue;
+    if (!w.slider(key->name, shown, s.least, s.most, s.format, key->summary, s.logarithmic)) continue;
     changed[*key] = shown * s.unit;
     ask_for_material(w, chosen, s.text, changed);
   }
@@ -94,12 +91,12 @@ struct ShapeWidgets {
     std::string text(key);
     const std::string label = "Solid " + text;
     text[0] = static_cast<char>(std::toupper(key[0]));
-    w.row_label(text.c_str(), w.px(label_column));
-    w.slider(label.c_str(), l.value, min_size, max_size, "%.2f m", (text + " of the solid.").c_str(), true);
+    w.row_label(text, w.px(label_column));
+    w.slider(label, l.value, min_size, max_size, "%.2f m", text + " of the solid.", true);
   }
   void operator()(const char*, softbody::solid::Height h) {
     w.row_label("Height", w.px(label_column));
-    w.slider("Ground height", h.value, -3, 3, "%.2f m", "Height of the ground.", false);
+    w.slider("Ground height", h.value, -3, 3, "%.2f m", "Height of the ground.");
   }
   void operator()(const char*, softbody::solid::HalfSize s) {
     glm::dvec3 size = 2.0 * s.value;
@@ -128,13 +125,12 @@ void draw_solids(Widgets& w, const Session& session, const UiState& ui) {
   ImGui::BeginDisabled(!solid.enabled);
   solid.values(ShapeWidgets{w});
   w.row_label("Friction", w.px(label_column));
-  w.slider("Solid friction", solid.friction, 0, 2, "%.2f", "Coefficient of friction.", false);
+  w.slider("Solid friction", solid.friction, 0, 2, "%.2f", "Coefficient of friction.");
   w.row_label("Restitution", w.px(label_column));
   w.slider(
       "Solid restitution", solid.restitution, 0, 1, "%.2f",
       "Bounce of bodies off the solid. At 0 contact keeps the energy that it takes in an impact, at 1 it gives all "
-      "back.",
-      false);
+      "back.");
   ImGui::EndDisabled();
   if (solid != solids[index]) w.ask([index, solid](Session& s) { s.settings.set_solid(index, solid); });
 }

@@ -1,6 +1,7 @@
 #include "app/ui/tour/example.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -10,8 +11,8 @@
 #include <glm/geometric.hpp>
 
 #include "app/compare/compare.h"
-#include "app/compare/cost_model.h"
-#include "app/ui/tour/body_subset.h"
+#include "app/compare/positions.h"
+#include "app/session/window_work.h"
 #include "collide/core/body_boxes.h"
 #include "collide/methods.h"
 #include "softbody/world/measures.h"
@@ -82,14 +83,10 @@ std::optional<Pair> nearest_pair(const collide::BodyBoxes& boxes, std::optional<
   if (boxes.live.empty()) return std::nullopt;
   const bool exists = preferred && std::ranges::count(boxes.live, *preferred) > 0;
   const BodyId body = exists ? *preferred : boxes.live.front();
-  BodyId other = body;
-  float min_gap = std::numeric_limits<float>::infinity();
-  for (const BodyId candidate : boxes.live) {
-    const float distance = gap(boxes.box[body], boxes.box[candidate]);
-    if (candidate == body || distance >= min_gap) continue;
-    min_gap = distance;
-    other = candidate;
-  }
+  const auto distance = [&](BodyId candidate) {
+    return candidate == body ? std::numeric_limits<float>::infinity() : gap(boxes.box[body], boxes.box[candidate]);
+  };
+  const BodyId other = *std::ranges::min_element(boxes.live, {}, distance);
   return Pair{std::min(body, other), std::max(body, other)};
 }
 
@@ -101,12 +98,9 @@ collide::Result detect(collide::Detector& detector, const collide::Frame& frame,
   return result;
 }
 
-std::vector<Contact> of_pair(const softbody::BodiesInMotion& world, const std::vector<Contact>& contacts,
-                             const Pair& pair) {
-  std::vector<Contact> of_pair;
-  std::ranges::copy_if(contacts, std::back_inserter(of_pair),
-                       [&](const Contact& contact) { return pair_of(world, contact) == pair; });
-  return of_pair;
+std::vector<Contact> of_pair(const softbody::BodiesInMotion& world, std::vector<Contact> contacts, const Pair& pair) {
+  std::erase_if(contacts, [&](const Contact& contact) { return pair_of(world, contact) != pair; });
+  return contacts;
 }
 
 std::optional<Contact> closest_of(const softbody::BodiesInMotion& world, const std::vector<Contact>& contacts) {
@@ -118,13 +112,19 @@ std::optional<Contact> closest_of(const softbody::BodiesInMotion& world, const s
 /// Returns the closest vertices of two different bodies, by doubling the tolerance until there are contacts.
 std::optional<Contact> closest_between(const softbody::BodiesInMotion& world, const Pair& pair,
                                        collide::Detector& exact, collide::Workers& workers) {
-  const BodySubset subset(world, pair.a, pair.b);
+  assert(pair.a < pair.b);
+  const collide::Frame all = world.positions();
+  compare::FrameCopy both;
+  for (const BodyId body : {pair.a, pair.b}) both.add(all, body);
   collide::Settings settings = world.collision();
   settings.self_collision = false;
   constexpr int max_doublings = 20;
   for (int i = 0; i < max_doublings; ++i) {
-    std::vector<Contact> near = detect(exact, subset.frame(), settings, workers).contacts;
-    for (Contact& contact : near) contact = subset.to_world(contact);
+    std::vector<Contact> near = detect(exact, both.view(), settings, workers).contacts;
+    for (Contact& contact : near) {
+      contact.a += all.bodies->first[pair.a];
+      contact.b += all.bodies->first[pair.b] - both.bodies.first[1];
+    }
     if (!near.empty()) return closest_of(world, near);
     settings.tolerance *= 2;
   }
@@ -200,12 +200,6 @@ void add_boxes(const softbody::BodiesInMotion& world, TourExample& example) {
     example.aliased_corner = find_aliased_corner(example, settings);
 }
 
-std::uint64_t estimate_pair_tests(const softbody::BodiesInMotion& world) {
-  compare::CostModel cost_model;
-  cost_model.begin(world.positions(), world.collision(), 0);
-  return cost_model.of(compare::method_index(collide::paper_method)).pair_tests;
-}
-
 }  // namespace
 
 ExampleFinder::ExampleFinder()
@@ -264,7 +258,8 @@ std::optional<TourExample> ExampleFinder::find(const softbody::BodiesInMotion& w
 }
 
 FrameWork ExampleFinder::count_work(const softbody::BodiesInMotion& world, std::size_t boxes) {
-  const std::uint64_t estimate = estimate_pair_tests(world);
+  const collide::Method& paper = *collide::find_method(collide::paper_method);
+  const std::uint64_t estimate = session::window_work(world, paper, world.collision()).pair_tests;
   FrameWork work{.bodies = world.bodies().count(),
                  .vertices = world.bodies().vertex_count(),
                  .boxes = boxes,

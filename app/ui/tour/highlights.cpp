@@ -25,8 +25,8 @@ void frame_camera(render::Highlight& highlight, const collide::Aabb& region) {
   highlight.radius = std::max(0.5f * glm::distance(region.lo, region.hi), 1e-3f);
 }
 
-engine::BoxSet outlines(float width, float fill) {
-  return {.boxes = {}, .width = width, .occluded_alpha = 0.7f, .face_alpha = fill};
+engine::BoxSet outlines(float width, float fill, std::vector<engine::Box> boxes = {}) {
+  return {.boxes = std::move(boxes), .width = width, .occluded_alpha = 0.7f, .face_alpha = fill};
 }
 
 /// Returns the part of a box that is in or near the region that the camera frames. A cell may be far larger.
@@ -48,8 +48,10 @@ engine::BoxSet cell_outlines() { return outlines(1.25f, 0.06f); }
 
 void add_contacts(const TourContext& v, const std::vector<collide::Contact>& contacts, const glm::vec3& colour,
                   float width, render::Highlight& highlight) {
-  engine::LineSet lines{.lines = {}, .width = width, .occluded_alpha = 0.9f};
-  engine::PointSet points{.points = {}, .diameter = 3 + 1.5f * width, .occluded_alpha = 0.9f};
+  engine::LineSet& lines =
+      highlight.lines.emplace_back(engine::LineSet{.lines = {}, .width = width, .occluded_alpha = 0.9f});
+  engine::PointSet& points = highlight.points.emplace_back(
+      engine::PointSet{.points = {}, .diameter = 3 + 1.5f * width, .occluded_alpha = 0.9f});
   const collide::Frame frame = v.world.positions();
   for (const collide::Contact& contact : contacts) {
     const glm::vec3 a = position(frame, contact.a), b = position(frame, contact.b);
@@ -57,8 +59,6 @@ void add_contacts(const TourContext& v, const std::vector<collide::Contact>& con
     points.points.push_back({a, glm::vec4(colour, 1.0f)});
     points.points.push_back({b, glm::vec4(colour, 1.0f)});
   }
-  highlight.lines.push_back(std::move(lines));
-  highlight.points.push_back(std::move(points));
 }
 
 /// Adds the face between the cells of the two corners, or the skipped cell.
@@ -76,9 +76,7 @@ void add_barrier(const TourContext& v, const ExplainedMiss& miss, const collide:
   } else {
     barrier = render::cell_box(*miss.skipped, size, colour);
   }
-  engine::BoxSet set = outlines(2.5f, 0.3f);
-  set.boxes.push_back(clip(barrier, framed));
-  highlight.boxes.push_back(std::move(set));
+  highlight.boxes.push_back(outlines(2.5f, 0.3f, {clip(barrier, framed)}));
 }
 
 }  // namespace
@@ -86,12 +84,9 @@ void add_barrier(const TourContext& v, const ExplainedMiss& miss, const collide:
 void highlight_body(const TourContext& v, render::Highlight& highlight) {
   const auto& [lo, hi] = v.f.bounds[0];
   highlight.bodies = {v.f.body};
-  engine::BoxSet box = outlines(2.5f, 0.08f);
-  box.boxes.push_back({lo, hi, glm::vec4(outline_colour, 1.0f)});
-  highlight.boxes = {std::move(box)};
-  highlight.points = {{.points = {{lo, glm::vec4(outline_colour, 1.0f)}, {hi, glm::vec4(outline_colour, 1.0f)}},
-                       .diameter = 9,
-                       .occluded_alpha = 0.9f}};
+  const glm::vec4 colour(outline_colour, 1.0f);
+  highlight.boxes = {outlines(2.5f, 0.08f, {{lo, hi, colour}})};
+  highlight.points = {{.points = {{lo, colour}, {hi, colour}}, .diameter = 9, .occluded_alpha = 0.9f}};
   highlight.labels = {{lo, "minimum"}, {hi, "maximum"}};
   frame_camera(highlight, v.f.bounds[0]);
 }
@@ -99,13 +94,12 @@ void highlight_body(const TourContext& v, render::Highlight& highlight) {
 void highlight_boxes(const TourContext& v, render::Highlight& highlight) {
   highlight.bodies = {v.f.body};
   highlight.opacity = 0.45f;
-  engine::BoxSet boxes = outlines(2, 0.12f);
+  engine::BoxSet& boxes = highlight.boxes.emplace_back(outlines(2, 0.12f));
   for (collide::Index i = v.f.boxes.begin; i < v.f.boxes.end; ++i) {
     const auto& [lo, hi, body] = v.f.structure.boxes[i];
     const std::uint32_t bucket = v.f.structure.box_bucket[v.f.structure.box_first[i]];
     boxes.boxes.push_back({lo, hi, glm::vec4(render::bucket_colour(bucket), 1.0f)});
   }
-  highlight.boxes = {std::move(boxes)};
   frame_camera(highlight, v.f.bounds[0]);
 }
 
@@ -113,12 +107,11 @@ void highlight_corners(const TourContext& v, render::Highlight& highlight) {
   highlight.bodies = {v.f.body};
   highlight.opacity = 0.35f;
   const auto& [lo, hi, body] = v.f.structure.boxes[v.f.box];
-  engine::BoxSet box = outlines(2.5f, 0.15f);
-  box.boxes.push_back({lo, hi, glm::vec4(outline_colour, 1.0f)});
   engine::BoxSet cell = cell_outlines();
   add_cell(v, v.hashed_corner().cell, render::same_cell_colour, v.f.bounds[0], cell);
-  highlight.boxes = {std::move(box), std::move(cell)};
-  engine::PointSet points{.points = {}, .diameter = 9, .occluded_alpha = 0.9f};
+  highlight.boxes = {outlines(2.5f, 0.15f, {{lo, hi, glm::vec4(outline_colour, 1.0f)}}), std::move(cell)};
+  engine::PointSet& points =
+      highlight.points.emplace_back(engine::PointSet{.points = {}, .diameter = 9, .occluded_alpha = 0.9f});
   for (std::size_t i = 0; i < v.f.corners.size(); ++i) {
     const HashedCorner& corner = v.f.corners[i];
     const bool chosen = &corner == &v.hashed_corner();
@@ -127,7 +120,6 @@ void highlight_corners(const TourContext& v, render::Highlight& highlight) {
     if (chosen) text.append(": bucket ").append(grouped(corner.bucket));
     highlight.labels.push_back({corner.at, std::move(text)});
   }
-  highlight.points = {std::move(points)};
   frame_camera(highlight, v.f.bounds[0]);
 }
 
@@ -144,22 +136,19 @@ void highlight_bucket(const TourContext& v, render::Highlight& highlight) {
     for (const collide::Index item : group.items) {
       const auto& [lo, hi, body] = v.f.structure.boxes[item];
       boxes.boxes.push_back({lo, hi, glm::vec4(colour_of(group), 1.0f)});
-      highlight.bodies.push_back(body);
+      highlight.bodies.insert(body);
       framed = hull(framed, {lo, hi});
     }
   for (const compare::CellGroup& group : groups) {
     const engine::Box cell = add_cell(v, group.cell, colour_of(group) * 0.7f, framed, cells);
     highlight.labels.push_back({0.5f * (cell.lo + cell.hi), "cell " + compare::cell_text(group.cell)});
   }
-  std::ranges::sort(highlight.bodies);
-  highlight.bodies.erase(std::unique(highlight.bodies.begin(), highlight.bodies.end()), highlight.bodies.end());
   highlight.boxes = {std::move(cells), std::move(boxes)};
   frame_camera(highlight, framed);
 }
 
 void highlight_contact(const TourContext& v, render::Highlight& highlight) {
-  highlight.bodies = {v.f.body};
-  if (v.f.other != v.f.body) highlight.bodies.push_back(v.f.other);
+  highlight.bodies = {v.f.body, v.f.other};
   highlight.opacity = 0.35f;
   const glm::vec3 colour = v.f.other == v.f.body ? render::contact_inside_colour : render::contact_between_colour;
   add_contacts(v, v.f.contacts, colour, 2, highlight);
@@ -176,8 +165,7 @@ void highlight_contact(const TourContext& v, render::Highlight& highlight) {
 void highlight_miss(const TourContext& v, render::Highlight& highlight) {
   if (!v.f.miss) return highlight_contact(v, highlight);
   const ExplainedMiss& miss = *v.f.miss;
-  highlight.bodies = {miss.bodies[0]};
-  if (miss.bodies[1] != miss.bodies[0]) highlight.bodies.push_back(miss.bodies[1]);
+  highlight.bodies = {miss.bodies[0], miss.bodies[1]};
   highlight.opacity = 0.35f;
   highlight.bodies_hide = false;
   collide::Aabb framed{glm::min(miss.at[0], miss.at[1]), glm::max(miss.at[0], miss.at[1])};

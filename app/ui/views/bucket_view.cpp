@@ -27,8 +27,7 @@ void draw_group(Widgets& w, const Session& session, const compare::BucketContent
   const std::string tooltip =
       fmt::format("Cell {}: {} of {}. Click to show its entries in blue, and those of other cells in orange (§2.2).",
                   cell, count_text(group.items.size(), bucket), bodies);
-  if (w.combo_item(text.c_str(), chosen, tooltip.c_str()))
-    w.ask([at = group.cell](Session& s) { s.inspector.select_cell(at); });
+  if (w.combo_item(text, chosen, tooltip)) w.ask([at = group.cell](Session& s) { s.inspector.select_cell(at); });
 }
 
 }  // namespace
@@ -37,13 +36,13 @@ void draw_bucket(Widgets& w, const Session& session) {
   const compare::BucketContents* bucket = session.inspector.bucket();
   assert(bucket);
   const std::string title = fmt::format("Bucket {}###Bucket", grouped(bucket->bucket));
-  const bool close = w.closable_heading(title.c_str(), "Deselects the bucket (Esc).");
+  const bool close = w.closable_heading(title, "Deselects the bucket (Esc).");
   std::uint32_t number = bucket->bucket;
   w.row_label("Number", w.px(70));
   const bool another = w.number_field("Bucket number", number, 0, session.world().collision().buckets - 1,
                                       "Type the number of another bucket. The first is 0.");
   const std::size_t cells = bucket->groups.size();
-  w.figure(count_text(bucket->items, *bucket).c_str(), fmt::format("{}{}", cells, cells == 1 ? " cell" : " cells"),
+  w.figure(count_text(bucket->items, *bucket), fmt::format("{}{}", cells, cells == 1 ? " cell" : " cells"),
            "The entries of the bucket, and the number of cells that they belong to (§2.2).");
   ImGui::BeginChild("Cells", {0, static_cast<float>(list_lines) * ImGui::GetTextLineHeightWithSpacing()});
   const compare::CellGroup* chosen = bucket->group(session.inspector.selected_cell());

@@ -24,7 +24,7 @@ struct Column {
 };
 
 constexpr std::array<Column, column_count> columns{{
-    {"Method", 220, false, nullptr},
+    {"Method", 220, false, ""},
     {"Time", 112, true,
      "Time to find all contacts from scratch on one core: median of the last 15 measurements (§3). While the frame "
      "stays the same, caches are warm. The panel's Detect is one search as the program runs."},
@@ -49,42 +49,34 @@ float min_content_width() {
 }
 
 /// The ends of the columns, in screen coordinates, and the row that is being drawn.
-class Grid {
- public:
-  Grid(const Widgets& w, float left, float width) {
+struct Grid {
+  std::array<float, column_count> left{}, right{};
+  float top = 0, height = ImGui::GetFrameHeight();
+
+  Grid(const Widgets& w, float start, float width) {
     float rest = width;
     for (const Column& column : columns) rest -= w.px(column.width);
     for (std::size_t i = 0; i < column_count; ++i) {
-      left_[i] = left;
-      left += columns[i].width > 0 ? w.px(columns[i].width) : rest;
-      right_[i] = left - w.px(column_gap);
+      left[i] = start;
+      start += columns[i].width > 0 ? w.px(columns[i].width) : rest;
+      right[i] = start - w.px(column_gap);
     }
-    height_ = ImGui::GetFrameHeight();
   }
-  void next_row() { top_ = ImGui::GetCursorScreenPos().y; }
-  float left(ColumnIndex i) const { return left_[i]; }
-  float right(ColumnIndex i) const { return right_[i]; }
-  float top() const { return top_; }
-  float text_top() const { return top_ + 0.5f * (height_ - ImGui::GetTextLineHeight()); }
-  float height() const { return height_; }
+  void next_row() { top = ImGui::GetCursorScreenPos().y; }
+  float text_top() const { return top + 0.5f * (height - ImGui::GetTextLineHeight()); }
 
   /// Draws text that is no ImGui item, so that its length moves nothing.
   void text(ColumnIndex i, const std::string& text, bool pale = false) const {
-    const float end =
-        right_[i] - (columns[i].right_aligned ? ImGui::CalcTextSize(text.c_str()).x : right_[i] - left_[i]);
+    const float end = right[i] - (columns[i].right_aligned ? ImGui::CalcTextSize(text.c_str()).x : right[i] - left[i]);
     ImGui::GetWindowDrawList()->AddText({std::floor(end), text_top()},
                                         ImGui::GetColorU32(pale ? ImGuiCol_TextDisabled : ImGuiCol_Text), text.c_str());
   }
   /// Adds an invisible item over the column's cell, for a tooltip.
-  void cell(Widgets& w, ColumnIndex i, const char* label, const char* tooltip) const {
-    ImGui::SetCursorScreenPos({left_[i], top_});
-    ImGui::Dummy({right_[i] - left_[i], height_});
+  void cell(Widgets& w, ColumnIndex i, std::string_view label, std::string_view tooltip) const {
+    ImGui::SetCursorScreenPos({left[i], top});
+    ImGui::Dummy({right[i] - left[i], height});
     w.register_item(label, tooltip);
   }
-
- private:
-  std::array<float, column_count> left_{}, right_{};
-  float top_ = 0, height_;
 };
 
 /// What all rows have in common.
@@ -116,9 +108,9 @@ struct Row {
 };
 
 void draw_misses_switch(Widgets& w, const Session& session, const UiState& ui, const Grid& grid, const Row& row) {
-  ImGui::SetCursorScreenPos({grid.right(misses) - grid.height(), grid.top()});
+  ImGui::SetCursorScreenPos({grid.right[misses] - grid.height, grid.top});
   const bool shown = ui.overlays.missed && session.comparison.choice.misses_of == row.index;
-  if (w.radio(row.label("Misses of").c_str(), shown, "Shows the contacts that this method misses in the scene."))
+  if (w.radio(row.label("Misses of"), shown, "Shows the contacts that this method misses in the scene."))
     w.ask([method = row.index](Session& s, UiState& state) {
       s.comparison.choice.misses_of = method;
       state.overlays.missed = true;
@@ -126,16 +118,16 @@ void draw_misses_switch(Widgets& w, const Session& session, const UiState& ui, c
 }
 
 void draw_name(Widgets& w, const Grid& grid, const Row& row) {
-  ImGui::SetCursorScreenPos({grid.left(name), grid.top()});
-  draw_method_mark(w, row.method, grid.height());
+  ImGui::SetCursorScreenPos({grid.left[name], grid.top});
+  draw_method_mark(w, row.method, grid.height);
   const float left = ImGui::GetItemRectMax().x + w.px(6);
   ImGui::SetCursorScreenPos({left, grid.text_top()});
   const std::string text = row.method.name + row.label("Drive"),
                     tooltip = row.method.summary + " Click to let it drive the bodies.";
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(row.scored() ? ImGuiCol_Text : ImGuiCol_TextDisabled));
-  const bool clicked = ImGui::Selectable(text.c_str(), false, 0, {grid.right(name) - left, 0});
+  const bool clicked = ImGui::Selectable(text.c_str(), false, 0, {grid.right[name] - left, 0});
   ImGui::PopStyleColor();
-  if (w.register_item(clicked, text.c_str(), tooltip.c_str()))
+  if (w.register_item(clicked, text, tooltip))
     w.ask([&key = row.method.key](Session& s) { s.settings.set_method(key); });
 }
 
@@ -149,10 +141,10 @@ void draw_time(const Widgets& w, const Session& session, const Grid& grid, const
     return;
   }
   const float median = times.median(median_count);
-  const float length = (grid.right(time) - grid.left(time)) * (scale.max_median > 0 ? median / scale.max_median : 0.0f);
+  const float length = (grid.right[time] - grid.left[time]) * (scale.max_median > 0 ? median / scale.max_median : 0.0f);
   const float inset = w.px(2);
-  ImGui::GetWindowDrawList()->AddRectFilled({grid.left(time), grid.top() + inset},
-                                            {grid.left(time) + length, grid.top() + grid.height() - inset},
+  ImGui::GetWindowDrawList()->AddRectFilled({grid.left[time], grid.top + inset},
+                                            {grid.left[time] + length, grid.top + grid.height - inset},
                                             to_imgui(compare::style(row.method).colour, 0.45f), w.px(2));
   grid.text(time, fmt::format("{:.2f} ms", median));
 }
@@ -163,7 +155,7 @@ void draw_score(Widgets& w, const Grid& grid, const Row& row) {
   grid.text(hashes, grouped(found.counters.hashes), found.counters.hashes == 0);
   grid.text(contacts, grouped(found.contacts));
   const StatusLight light = status_light(found.coverage);
-  ImGui::SetCursorScreenPos({grid.left(recall) + w.px(4), grid.text_top()});
+  ImGui::SetCursorScreenPos({grid.left[recall] + w.px(4), grid.text_top()});
   w.dot(light.colour);
   if (row.is_reference) {
     grid.text(recall, "reference", true);
@@ -175,7 +167,7 @@ void draw_score(Widgets& w, const Grid& grid, const Row& row) {
     grid.text(precision, fmt::format("{:.4f}", rounded_down(found.precision)));
   }
   const std::string tip = std::string(light.sentence) + " Missed: " + grouped(found.missed.size()) + ".";
-  grid.cell(w, recall, row.label("Recall of").c_str(), tip.c_str());
+  grid.cell(w, recall, row.label("Recall of"), tip);
 }
 
 /// Draws why the row has no score, beside its time if there is one.
@@ -183,20 +175,20 @@ void draw_reason(const Session& session, const Grid& grid, const Row& row) {
   std::string reason = "measuring";
   if (row.measured && !row.measured->not_run.empty()) reason = row.measured->not_run;
   const bool timed = session.comparison.method_ms()[row.index].size() > 0;
-  ImGui::GetWindowDrawList()->AddText({grid.left(timed ? recall : time), grid.text_top()},
+  ImGui::GetWindowDrawList()->AddText({grid.left[timed ? recall : time], grid.text_top()},
                                       ImGui::GetColorU32(ImGuiCol_TextDisabled), reason.c_str());
 }
 
 void draw_row(Widgets& w, const Session& session, const UiState& ui, Grid& grid, const Row& row, const Scale& scale) {
   grid.next_row();
   if (row.begins_group) {
-    const float y = grid.top() - w.px(0.5f * row_gap);
-    ImGui::GetWindowDrawList()->AddLine({grid.left(name), y}, {grid.right(misses), y},
+    const float y = grid.top - w.px(0.5f * row_gap);
+    ImGui::GetWindowDrawList()->AddLine({grid.left[name], y}, {grid.right[misses], y},
                                         ImGui::GetColorU32(ImGuiCol_Border));
   }
   if (row.drives)
-    ImGui::GetWindowDrawList()->AddRectFilled({grid.left(name) - w.px(4), grid.top()},
-                                              {grid.right(misses) + w.px(4), grid.top() + grid.height()},
+    ImGui::GetWindowDrawList()->AddRectFilled({grid.left[name] - w.px(4), grid.top},
+                                              {grid.right[misses] + w.px(4), grid.top + grid.height},
                                               ImGui::GetColorU32(ImGuiCol_Header, 0.55f), w.px(3));
   draw_name(w, grid, row);
   draw_time(w, session, grid, row, scale);
@@ -206,12 +198,12 @@ void draw_row(Widgets& w, const Session& session, const UiState& ui, Grid& grid,
     draw_reason(session, grid, row);
   const TimeSeries& times = session.comparison.method_ms()[row.index];
   if (times.size() > 0) {
-    ImGui::SetCursorScreenPos({grid.left(plot), grid.text_top()});
-    w.sparkline(row.label("Times of").c_str(), times, {0, scale.axis_end}, compare::style(row.method).colour,
-                {"Time of the method on a frame.", "ms"}, grid.right(plot) - grid.left(plot));
+    ImGui::SetCursorScreenPos({grid.left[plot], grid.text_top()});
+    w.sparkline(row.label("Times of"), times, {0, scale.axis_end}, compare::style(row.method).colour,
+                {"Time of the method on a frame.", "ms"}, grid.right[plot] - grid.left[plot]);
   }
   draw_misses_switch(w, session, ui, grid, row);
-  ImGui::SetCursorScreenPos({grid.left(name), grid.top() + grid.height() + w.px(row_gap)});
+  ImGui::SetCursorScreenPos({grid.left[name], grid.top + grid.height + w.px(row_gap)});
 }
 
 void draw_header(Widgets& w, const Session& session, Grid& grid) {
@@ -219,15 +211,15 @@ void draw_header(Widgets& w, const Session& session, Grid& grid) {
   for (std::size_t i = time; i < column_count; ++i) {
     const auto at = static_cast<ColumnIndex>(i);
     grid.text(at, columns[i].label, true);
-    grid.cell(w, at, (std::string("Column ") + columns[i].label).c_str(), columns[i].tooltip);
+    grid.cell(w, at, std::string("Column ") + columns[i].label, columns[i].tooltip);
   }
-  ImGui::SetCursorScreenPos({grid.left(name), grid.top()});
-  if (w.button("x###Close compare", "Closes the comparison (V).", grid.height()))
+  ImGui::SetCursorScreenPos({grid.left[name], grid.top});
+  if (w.button("x###Close compare", "Closes the comparison (V).", grid.height))
     w.ask([](UiState& ui) { ui.lower = LowerView::none; });
   ImGui::SameLine();
-  ImGui::SetNextItemWidth(grid.right(name) - ImGui::GetCursorScreenPos().x);
+  ImGui::SetNextItemWidth(grid.right[name] - ImGui::GetCursorScreenPos().x);
   draw_shown_methods(w, session);
-  ImGui::SetCursorScreenPos({grid.left(name), grid.top() + grid.height() + w.px(row_gap)});
+  ImGui::SetCursorScreenPos({grid.left[name], grid.top + grid.height + w.px(row_gap)});
 }
 
 std::string footer(const Session& session) {
@@ -284,7 +276,7 @@ void draw_compare(Widgets& w, const Session& session, const UiState& ui, const S
       "The method that finds the true contacts, and the size of the frame. §3 compares hashes with the number of "
       "vertices N, and pair tests with all pairs.");
   ImGui::PopStyleVar(2);
-  end_dock();
+  ImGui::End();
 }
 
 }  // namespace app::ui

@@ -39,7 +39,7 @@ void draw_method_line(Widgets& w, const Session& session, const collide::Method&
   draw_method_mark(w, method, ImGui::GetFrameHeight());
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  if (w.combo_item(method.name.c_str(), method.key == session.world().method().key, method.description.c_str()))
+  if (w.combo_item(method.name, method.key == session.world().method().key, method.description))
     w.ask([&key = method.key](Session& s) { s.settings.set_method(key); });
   const StatusLight light = status_light(method);
   ImGui::SameLine(w.px(promise_column));
@@ -49,8 +49,8 @@ void draw_method_line(Widgets& w, const Session& session, const collide::Method&
 
 }  // namespace
 
-void draw_method_choice(Widgets& w, const Session& session, const char* label, const char* preview,
-                        const char* tooltip) {
+void draw_method_choice(Widgets& w, const Session& session, std::string_view label, std::string_view preview,
+                        std::string_view tooltip) {
   if (!w.begin_combo(label, preview, tooltip)) return;
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(2), w.px(1)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {w.px(6), w.px(2)});
@@ -71,7 +71,7 @@ void draw_shown_methods(Widgets& w, const Session& session) {
   const compare::MethodSet shown = session.comparison.shown_methods();
   const std::string preview = fmt::format("{} of {} methods", std::ranges::count(shown, true), shown.size());
   draw_method_choice(
-      w, session, "Shown methods", preview.c_str(),
+      w, session, "Shown methods", preview,
       "Chooses which methods are shown. The one that drives the bodies is always shown; its row is shaded.");
 }
 

@@ -84,8 +84,7 @@ float draw_status(Widgets& w, const Session& session, bool explained, FloatingBo
   const std::string against = reference_sentence(session.comparison.report());
   w.register_item(
       "Live recall",
-      ("Contacts of a recent frame that the driving method missed. Recall is the share that it found. " + against + ".")
-          .c_str());
+      "Contacts of a recent frame that the driving method missed. Recall is the share that it found. " + against + ".");
   if (session.simulated()) draw_step_light(w, session);
   ImGui::PopTextWrapPos();
   return box.end(area);
@@ -115,7 +114,7 @@ namespace {
 void draw_legend_line(Widgets& w, const render::LegendLine& line) {
   if (line.colour) w.swatch(*line.colour);
   line.pale ? ImGui::TextDisabled("%s", line.text.c_str()) : ImGui::TextUnformatted(line.text.c_str());
-  if (line.colour) w.register_item("Legend", nullptr);
+  if (line.colour) w.register_item("Legend");
   if (!line.scale) return;
   ImGui::SameLine();
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -128,7 +127,7 @@ void draw_legend_line(Widgets& w, const render::LegendLine& line) {
 
 void draw_ghost_legend(Widgets& w, const Session& session) {
   ImGui::Text("Opaque: %s", integrator_text(*session.simulated()).c_str());
-  w.register_item("Legend", nullptr);
+  w.register_item("Legend");
   draw_legend_line(w, {"Ghost: " + integrator_text(*session.ghost().world()), render::ghost_colour});
   ImGui::Text("RMS distance: %s", ghost_distance_text(session).c_str());
 }

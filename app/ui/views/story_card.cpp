@@ -42,7 +42,7 @@ void draw_method(Widgets& w, const session::LiveComparison& comparison, std::siz
   if (misses) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::contact_missed_colour));
   w.right_text(text);
   if (misses) ImGui::PopStyleColor();
-  w.register_item(fmt::format("Story of {}", its.name).c_str(), its.summary.c_str());
+  w.register_item(fmt::format("Story of {}", its.name), its.summary);
 }
 
 const char* reason(collide::Coverage coverage) {
@@ -99,10 +99,8 @@ float StoryCard::draw(Widgets& w, const Session& session, const ScreenRect& area
   ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), top + lines + ImGui::GetStyle().ItemSpacing.y));
   const bool may_miss = !session.world().all_at_rest() ||
                         (session.comparison.paper_row() && !session.comparison.paper_row()->missed.empty());
-  ImGui::BeginDisabled(!may_miss);
-  if (w.button("Show me a miss###Explain story", "Opens the guided tour at its page on a missed contact."))
+  if (w.button("Show me a miss###Explain story", "Opens the guided tour at its page on a missed contact.", 0, may_miss))
     w.ask([](Session& s, UiState& ui) { ui.tour.start(s, ui.overlays, miss_step); });
-  ImGui::EndDisabled();
   return box_.end(area);
 }
 

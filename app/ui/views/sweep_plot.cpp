@@ -56,20 +56,19 @@ void SweepPlot::set(const compare::SweepReport& report, const compare::MethodSet
   front_ = compare::pareto_front(values);
 }
 
-void SweepPlot::draw(const Widgets& w, ImVec2 min, ImVec2 max, const Emphasis& emphasis) {
-  place_points(w, min, max);
+void SweepPlot::draw(const Widgets& w, const ScreenRect& area, std::optional<std::size_t> method,
+                     std::optional<std::size_t> row) {
+  place_points(w, area);
   draw_axes(w);
   for (const Point& point : points_) {
-    const bool pale = emphasis.method && *emphasis.method != point.method;
+    const bool pale = method && *method != point.method;
     const compare::MethodStyle style = compare::style(collide::method_table()[point.method]);
     draw_marker(point.at, w.px(mark_radius(point.level)), style.marker, to_imgui(style.colour, pale ? 0.12f : 0.85f),
                 w.px(mark_line));
   }
   draw_front(w);
-  for (const Point& point : points_) {
-    if (emphasis.row != point.row) continue;
-    draw_ring(w, point.at);
-  }
+  for (const Point& point : points_)
+    if (row == point.row) draw_ring(w, point.at);
 }
 
 void SweepPlot::draw_ring(const Widgets& w, ImVec2 at) {
@@ -81,7 +80,8 @@ float SweepPlot::mark_radius(std::optional<std::size_t> level) {
 }
 
 /// Fits the axes to whole decades, a few of them from the start, so that the axes rarely change while points come in.
-void SweepPlot::place_points(const Widgets& w, ImVec2 min, ImVec2 max) {
+void SweepPlot::place_points(const Widgets& w, const ScreenRect& area) {
+  const auto& [min, max] = area;
   const float line = ImGui::GetTextLineHeight();
   int fastest = -2, slowest = 2, min_error = -2;
   for (const Point& point : points_) {

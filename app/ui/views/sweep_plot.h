@@ -15,17 +15,15 @@ class SweepPlot {
     compare::Tradeoff value;           // median time
     ImVec2 at{-1, -1};                 // where it was drawn last
   };
-  struct Emphasis {
-    std::optional<std::size_t> method;  // the points of all other methods are drawn faintly
-    std::optional<std::size_t> row;     // gets a ring: the settings in use
-  };
 
   /// Gathers the report's points of these methods. There are none without true contacts to measure against.
   void set(const compare::SweepReport& report, const compare::MethodSet& methods);
   const std::vector<Point>& points() const { return points_; }
 
-  /// Draws the plot into the rectangle.
-  void draw(const Widgets& widgets, ImVec2 min, ImVec2 max, const Emphasis& emphasis);
+  /// Draws the plot into the rectangle. method: the points of all others are drawn faintly. row: of the settings in
+  /// use, gets a ring.
+  void draw(const Widgets& widgets, const ScreenRect& area, std::optional<std::size_t> method,
+            std::optional<std::size_t> row);
   /// Returns the nearest drawn point within the pick radius, or nullptr.
   const Point* hit_test(const Widgets& widgets, ImVec2 mouse) const;
 
@@ -42,7 +40,7 @@ class SweepPlot {
     float decade(double exponent) const;
   };
 
-  void place_points(const Widgets& widgets, ImVec2 min, ImVec2 max);
+  void place_points(const Widgets& widgets, const ScreenRect& area);
   void draw_axes(const Widgets& widgets) const;
   void draw_time_axis(const Widgets& widgets, float top) const;
   void draw_error_axis(const Widgets& widgets) const;

@@ -39,18 +39,14 @@ std::string point_tooltip(const compare::SweepRow& row) {
 
 /// Lists what was not run and why, at most max_reasons of them.
 std::string not_run_text(const compare::SweepReport& report) {
-  std::string text;
-  std::size_t listed = 0, more = 0;
-  for (const compare::SweepRow& row : report.rows) {
-    if (was_run(row)) continue;
-    if (listed == max_reasons) {
-      ++more;
-      continue;
-    }
-    text += fmt::format("{}{}: {}", listed++ ? "\n" : "", configuration_text(row.configuration), row.not_run);
-  }
-  if (more) text += fmt::format("\nand {} more.", grouped(more));
-  return text.empty() ? "All settings fit the budget." : text;
+  std::vector<std::string> reasons;
+  for (const compare::SweepRow& row : report.rows)
+    if (!was_run(row)) reasons.push_back(configuration_text(row.configuration) + ": " + row.not_run);
+  if (reasons.empty()) return "All settings fit the budget.";
+  const std::size_t all = reasons.size();
+  if (all > max_reasons) reasons.resize(max_reasons);
+  const std::string text = joined(reasons, "\n");
+  return all > max_reasons ? text + fmt::format("\nand {} more.", grouped(all - max_reasons)) : text;
 }
 
 bool in_use(const compare::SweepRow& row, const softbody::BodiesInMotion& world) {
@@ -108,7 +104,7 @@ void draw_legend_entry(Widgets& w, const std::string& text, const char* tip, flo
   if (ImGui::GetItemRectMax().x + w.px(gap) + width <= end) ImGui::SameLine(0, w.px(gap));
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::Dummy({width, line});
-  w.register_item(fmt::format("Legend {}", text).c_str(), tip);
+  w.register_item(fmt::format("Legend {}", text), tip);
   draw_sample(ImVec2(at.x + 0.5f * line, at.y + 0.5f * line));
   ImGui::GetWindowDrawList()->AddText({at.x + line + inner, at.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
 }
@@ -124,7 +120,7 @@ void draw_progress(Widgets& w, const session::SweepState& state, float width) {
   w.register_item("Sweep progress",
                   state.stop_reason.empty()
                       ? "Checks the contacts of each setting first, then times all settings up to five times."
-                      : state.stop_reason.c_str());
+                      : state.stop_reason);
 }
 
 void draw_button(Widgets& w, const Session& session) {
@@ -138,11 +134,9 @@ void draw_button(Widgets& w, const Session& session) {
     return;
   }
   const bool cancelling = session.sweep_worker.cancelling();
-  ImGui::BeginDisabled(cancelling);
   if (w.button(cancelling ? "Cancelling###Sweep" : "Cancel###Sweep", "Ends the sweep and keeps its results so far.",
-               width))
+               width, !cancelling))
     w.ask([](Session& s) { s.sweep_worker.cancel(); });
-  ImGui::EndDisabled();
 }
 
 void draw_controls(Widgets& w, const Session& session) {
@@ -155,19 +149,13 @@ void draw_controls(Widgets& w, const Session& session) {
   ImGui::SameLine();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().FramePadding.y);
   w.text_line(count_text(session.sweep()));
-  w.register_item("Sweep counts", not_run_text(session.sweep().report).c_str());
+  w.register_item("Sweep counts", not_run_text(session.sweep().report));
 }
 
-}  // namespace
-
-float SweepView::preferred_height(std::size_t methods, float window) {
-  const float lanes = 9 * static_cast<float>(methods);  // and lines of the legend
-  return std::clamp(0.44f * window + lanes, min_height, 370 + lanes);
-}
-
-void SweepView::draw_legend(Widgets& w, const compare::MethodSet& shown) {
+/// Draws the legend of these methods. Returns the one under the mouse.
+std::optional<std::size_t> draw_legend(Widgets& w, const compare::MethodSet& shown) {
   constexpr float gap = 12, group_gap = 28, new_line = 1e4f;
-  hovered_method_.reset();
+  std::optional<std::size_t> hovered;
   std::optional<collide::MethodGroup> group;  // of the entry before
   bool levels = false;
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, w.px(3)});
@@ -180,7 +168,7 @@ void SweepView::draw_legend(Widgets& w, const compare::MethodSet& shown) {
                       : group == method.group ? gap
                                               : group_gap,
                       [&](ImVec2 at) { draw_marker(at, w.px(5), style.marker, to_imgui(style.colour), w.px(1.8f)); });
-    if (ImGui::IsItemHovered()) hovered_method_ = m;
+    if (ImGui::IsItemHovered()) hovered = m;
     group = method.group;
     levels |= method.uses_levels;
   }
@@ -200,22 +188,30 @@ void SweepView::draw_legend(Widgets& w, const compare::MethodSet& shown) {
   draw_legend_entry(w, "in use", "The method and settings that drive the bodies now.", gap,
                     [&](ImVec2 at) { SweepPlot::draw_ring(w, at); });
   ImGui::PopStyleVar();
+  return hovered;
 }
 
-void SweepView::draw_plot(Widgets& w, const Session& session, float height) {
+}  // namespace
+
+float SweepView::preferred_height(std::size_t methods, float window) {
+  const float lanes = 9 * static_cast<float>(methods);  // and lines of the legend
+  return std::clamp(0.44f * window + lanes, min_height, 370 + lanes);
+}
+
+void SweepView::draw_plot(Widgets& w, const Session& session, float height, std::optional<std::size_t> method) {
   const ImVec2 min = ImGui::GetCursorScreenPos();
   const ImVec2 size{ImGui::GetContentRegionAvail().x, height};
   const bool clicked = ImGui::InvisibleButton("##scatter", size);
   const bool hovered = ImGui::IsItemHovered();
-  w.register_item("Scatter", nullptr);
-  SweepPlot::Emphasis emphasis{.method = hovered_method_, .row = {}};
+  w.register_item("Scatter");
+  std::optional<std::size_t> used;
   for (const SweepPlot::Point& point : plot_.points())
-    if (in_use(session.sweep().report.rows[point.row], session.world())) emphasis.row = point.row;
-  plot_.draw(w, min, {min.x + size.x, min.y + size.y}, emphasis);
+    if (in_use(session.sweep().report.rows[point.row], session.world())) used = point.row;
+  plot_.draw(w, {min, {min.x + size.x, min.y + size.y}}, method, used);
   const SweepPlot::Point* under = hovered ? plot_.hit_test(w, ImGui::GetIO().MousePos) : nullptr;
   if (!under) return;
   const compare::SweepRow& row = session.sweep().report.rows[under->row];
-  w.show_tooltip(point_tooltip(row).c_str());
+  w.show_tooltip(point_tooltip(row));
   if (clicked) w.ask([c = row.configuration](Session& s) { apply(c, s); });
 }
 
@@ -229,13 +225,13 @@ void SweepView::draw(Widgets& w, const Session& session, const ScreenRect& area)
   draw_controls(w, session);
   const compare::MethodSet shown = session.comparison.shown_methods();
   plot_.set(session.sweep().report, shown);
-  draw_legend(w, shown);
-  const ImGuiStyle& style = ImGui::GetStyle();
-  draw_plot(w, session, ImGui::GetContentRegionAvail().y - ImGui::GetTextLineHeight() - style.ItemSpacing.y);
+  const std::optional<std::size_t> hovered = draw_legend(w, shown);
+  const float footing = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
+  draw_plot(w, session, ImGui::GetContentRegionAvail().y - footing, hovered);
   w.text_line(footer(session.sweep()));
   const std::string& why = session.sweep().report.reference_note;
-  w.register_item("Sweep footing", why.empty() ? "The frame of the sweep." : why.c_str());
-  end_dock();
+  w.register_item("Sweep footing", why.empty() ? "The frame of the sweep." : why);
+  ImGui::End();
 }
 
 }  // namespace app::ui

@@ -22,11 +22,9 @@ class SweepView {
   const SweepPlot& plot() const { return plot_; }
 
  private:
-  void draw_legend(Widgets& widgets, const compare::MethodSet& shown);
-  void draw_plot(Widgets& widgets, const Session& session, float height);
+  void draw_plot(Widgets& widgets, const Session& session, float height, std::optional<std::size_t> method);
 
   SweepPlot plot_;
-  std::optional<std::size_t> hovered_method_;  // under the mouse in the legend
 };
 
 }  // namespace app::ui

@@ -9,7 +9,7 @@ namespace {
 
 void draw_figure(Widgets& w, const TourFigure& figure) {
   if (figure.colour) w.swatch(*figure.colour);
-  w.figure(figure.label.c_str(), figure.value, figure.tooltip.c_str());
+  w.figure(figure.label, figure.value, figure.tooltip);
 }
 
 /// Draws the eight corners to choose from; `shown` is one of context.f.corners, or a corner of another box.
@@ -23,8 +23,8 @@ void draw_corners(Widgets& w, const TourContext& context, const HashedCorner& sh
     const bool chosen = &context.f.corners[i] == &shown;
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
     const std::string number = std::to_string(i + 1);
-    if (w.button(fmt::format("{}###Corner {}", number, number).c_str(),
-                 "Shows the hash of this corner point of the box.", width))
+    if (w.button(fmt::format("{}###Corner {}", number, number), "Shows the hash of this corner point of the box.",
+                 width))
       w.ask([i](UiState& ui) { ui.tour.choose_corner(i); });
     if (chosen) ImGui::PopStyleColor();
   }
@@ -52,12 +52,11 @@ void draw_lack(Widgets& w, const Session& session, const Tour& tour) {
   else if (tour.has_given_up(session))
     text += " This did not change in 20 seconds of simulated time.";
   w.wrapped_text("Tour lack", text);
-  ImGui::BeginDisabled(at_rest);
-  if (w.button(fmt::format("{}###Run ahead", goal.button).c_str(),
+  if (w.button(fmt::format("{}###Run ahead", goal.button),
                "Lets the world run, several frames per picture, and pauses it there. It gives up after 20 seconds of "
-               "simulated time."))
+               "simulated time.",
+               0, !at_rest))
     w.ask([](Session& s, UiState& ui) { ui.tour.run_ahead(s); });
-  ImGui::EndDisabled();
   ImGui::Spacing();
 }
 
@@ -75,13 +74,9 @@ void draw_content(Widgets& w, const Session& session, const Tour& tour) {
 void draw_buttons(Widgets& w, const Tour& tour) {
   const float gap = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
   const bool first = tour.step() == 0, last = tour.step() + 1 == tour_steps().size();
-  ImGui::BeginDisabled(first);
-  if (w.button("Back", "The page before (left arrow).", width)) w.ask([](UiState& ui) { ui.tour.back(); });
-  ImGui::EndDisabled();
+  if (w.button("Back", "The page before (left arrow).", width, !first)) w.ask([](UiState& ui) { ui.tour.back(); });
   ImGui::SameLine();
-  ImGui::BeginDisabled(last);
-  if (w.button("Next", "The next page (right arrow).", width)) w.ask([](UiState& ui) { ui.tour.next(); });
-  ImGui::EndDisabled();
+  if (w.button("Next", "The next page (right arrow).", width, !last)) w.ask([](UiState& ui) { ui.tour.next(); });
   ImGui::SameLine();
   if (w.button("Close###Close tour",
                "Ends the tour (Esc). The world goes on from this frame, unless it was paused before the tour.", width))

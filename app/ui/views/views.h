@@ -20,10 +20,16 @@ void draw_compare(Widgets& widgets, const Session& session, const UiState& ui, c
 /// moves nothing on the panel. Draws nothing if there is neither.
 void draw_import_report(Widgets& widgets, const session::Import& import, const ScreenRect& area);
 
+/// Draws the hash table of the method that is shown: a square for each bucket, coloured by its load. A click asks for
+/// the bucket: its boxes are shown in the scene.
+void draw_hash_table(Widgets& widgets, const Session& session);
+/// Returns the number of entries in the fullest bucket.
+std::uint32_t longest_bucket(const collide::DebugGeometry& table);
+
 /// Draws the list of all methods in their groups as a combo with this label and preview. A click on a name lets the
 /// method drive. A check box shows or hides a method, a group or all methods.
-void draw_method_choice(Widgets& w, const Session& session, const char* label, const char* preview,
-                        const char* tooltip);
+void draw_method_choice(Widgets& w, const Session& session, std::string_view label, std::string_view preview,
+                        std::string_view tooltip);
 /// The same, to choose what a view shows. The preview says how many methods are shown.
 void draw_shown_methods(Widgets& w, const Session& session);
 

@@ -6,6 +6,8 @@
 
 namespace app::ui {
 
+inline constexpr float min_square = 4;  // design pixels: smaller ones are hard to hit with the mouse
+
 struct BucketGrid {
   std::uint32_t buckets = 1;
   std::uint32_t per_square = 1;  // consecutive buckets that share a square; 1 unless there are too many

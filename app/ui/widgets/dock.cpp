@@ -20,6 +20,4 @@ void begin_dock(const char* name, const ScreenRect& area, bool opaque, ImGuiWind
   ImGui::PopStyleColor();
 }
 
-void end_dock() { ImGui::End(); }
-
 }  // namespace app::ui

@@ -5,10 +5,9 @@
 
 namespace app::ui {
 
-/// Begins a docked window over the whole of `area`; end_dock() must follow. Unless `opaque`, it draws no background:
+/// Begins a docked window over the whole of `area`; ImGui::End() must follow. Unless `opaque`, it draws no background:
 /// the frame has been cleared to dock_colour(), which is much faster with software drivers.
 void begin_dock(const char* name, const ScreenRect& area, bool opaque, ImGuiWindowFlags flags = 0);
-void end_dock();
 
 /// The background of all that is not scene.
 ImVec4 dock_colour();

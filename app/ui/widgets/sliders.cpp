@@ -15,7 +15,7 @@
 
 namespace app::ui {
 
-void Widgets::register_number(const char* label, const char* tooltip) {
+void Widgets::register_number(std::string_view label, std::string_view tooltip) {
   // In an open field ImGui selects a word at a double-click. Newer versions end a word at the decimal point.
   if (ImGuiInputTextState* field = ImGui::GetInputTextState(ImGui::GetActiveID());
       field && ImGui::IsItemActive() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
@@ -23,7 +23,7 @@ void Widgets::register_number(const char* label, const char* tooltip) {
     field->SelectedAllMouseLock = true;  // until the button is up
   }
   constexpr const char* how = "Drag it sideways, or double-click it to type a value.";
-  register_item(label, tooltip ? fmt::format("{}\n{}", tooltip, how).c_str() : how);
+  register_item(label, fmt::format("{}\n{}", tooltip, how));
 }
 
 namespace {
@@ -75,7 +75,7 @@ constexpr ImGuiDataType imgui_type = std::is_same_v<Value, float> ? ImGuiDataTyp
                                      : std::is_signed_v<Value>    ? ImGuiDataType_S32
                                                                   : ImGuiDataType_U32;
 
-std::string id_of(const char* label) { return fmt::format("##{}", label); }
+std::string id_of(std::string_view label) { return fmt::format("##{}", label); }
 
 /// Returns the value as a field for typing shows it: without what stands round the number in `format`.
 template <class Value>
@@ -131,47 +131,44 @@ bool Widgets::drag_or_type(const Number<Value>& n, const Show& show) {
 }
 
 template <class Value>
-bool Widgets::slide(const Number<Value>& n, bool logarithmic, const char* shown_format, const char* tooltip) {
-  const Value now = n.value;
-  const bool double_clicked = opens_field() && input_.pressed == n.label;
-  if (double_clicked) n.value = static_cast<Value>(input_.value_before);
+bool Widgets::slider(std::string_view label, Value& value, std::type_identity_t<Value> min,
+                     std::type_identity_t<Value> max, const char* format, std::string_view tooltip, bool logarithmic) {
+  assert(min > 0 || !logarithmic || !std::is_integral_v<Value>);
+  const Number<Value> n{label, value, min, max, *format ? format : "%u"};
+  const Value now = value;
+  const bool double_clicked = opens_field() && input_.pressed == label;
+  if (double_clicked) value = static_cast<Value>(input_.value_before);
   const bool changed = [&] {
     const HiddenGrab hide;
     const OpenByDoubleClick opens;
     return drag_or_type(n, [&](const char* id) {
-      return ImGui::SliderScalar(id, imgui_type<Value>, &n.value, &n.min, &n.max,
-                                 double_clicked ? n.format : shown_format,
+      return ImGui::SliderScalar(id, imgui_type<Value>, &value, &min, &max, double_clicked ? n.format : format,
                                  clamped | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
     });
   }();
   if (double_clicked) {
-    if (!ImGui::IsItemActive()) n.value = now;  // the second click missed the slider
+    if (!ImGui::IsItemActive()) value = now;  // the second click missed the slider
     input_.pressed.clear();
   } else if (ImGui::IsItemActivated()) {
-    input_.pressed = n.label;
+    input_.pressed = label;
     input_.value_before = static_cast<double>(now);
   }
-  const auto min = static_cast<double>(n.min), max = static_cast<double>(n.max);
+  const auto first = static_cast<double>(min), last = static_cast<double>(max);
   // A logarithmic slider from 0 begins at the smallest number that ImGui shows.
-  const double begin = logarithmic ? std::max(min, std::pow(0.1, ImParseFormatPrecision(n.format, 3))) : min;
-  const double steps = std::is_integral_v<Value> && !logarithmic ? max - min : 0;
-  draw_grab(relative_position(static_cast<double>(n.value), begin, max, logarithmic), static_cast<float>(steps),
+  const double begin = logarithmic ? std::max(first, std::pow(0.1, ImParseFormatPrecision(n.format, 3))) : first;
+  const double steps = std::is_integral_v<Value> && !logarithmic ? last - first : 0;
+  draw_grab(relative_position(static_cast<double>(value), begin, last, logarithmic), static_cast<float>(steps),
             px(slider_bar));
-  register_number(n.label, tooltip);
-  return changed || n.value != now;
+  register_number(label, tooltip);
+  return changed || value != now;
 }
+template bool Widgets::slider(std::string_view, int&, int, int, const char*, std::string_view, bool);
+template bool Widgets::slider(std::string_view, float&, float, float, const char*, std::string_view, bool);
+template bool Widgets::slider(std::string_view, std::uint32_t&, std::uint32_t, std::uint32_t, const char*,
+                              std::string_view, bool);
 
-bool Widgets::slider(const char* label, int& value, int min, int max, const char* format, const char* tooltip) {
-  return slide<int>({label, value, min, max, format}, false, format, tooltip);
-}
-
-bool Widgets::slider(const char* label, float& value, float min, float max, const char* format, const char* tooltip,
-                     bool logarithmic) {
-  return slide<float>({label, value, min, max, format}, logarithmic, format, tooltip);
-}
-
-bool Widgets::slider(const char* label, double& value, double min, double max, const char* format, const char* tooltip,
-                     bool logarithmic) {
+bool Widgets::slider(std::string_view label, double& value, double min, double max, const char* format,
+                     std::string_view tooltip, bool logarithmic) {
   auto shown = static_cast<float>(value);
   const bool changed =
       slider(label, shown, static_cast<float>(min), static_cast<float>(max), format, tooltip, logarithmic);
@@ -179,13 +176,7 @@ bool Widgets::slider(const char* label, double& value, double min, double max, c
   return changed;
 }
 
-bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
-                     const char* tooltip) {
-  assert(min > 0);
-  return slide<std::uint32_t>({label, value, min, max, "%u"}, true, "", tooltip);
-}
-
-bool Widgets::drag(const char* label, glm::dvec3& value, float min, float max, const char* tooltip) {
+bool Widgets::drag(std::string_view label, glm::dvec3& value, float min, float max, std::string_view tooltip) {
   constexpr float metres_per_pixel = 0.01f;
   bool changed = false;
   ImGui::BeginGroup();
@@ -194,7 +185,7 @@ bool Widgets::drag(const char* label, glm::dvec3& value, float min, float max, c
     if (axis > 0) ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     const std::string name = fmt::format("{}, {}", label, "xyz"[axis]);
     auto shown = static_cast<float>(value[axis]);
-    const Number<float> number{name.c_str(), shown, min, max, "%.2f"};
+    const Number<float> number{name, shown, min, max, "%.2f"};
     if (drag_or_type(number, [&](const char* id) {
           return ImGui::DragFloat(id, &shown, metres_per_pixel, min, max, number.format, clamped);
         })) {
@@ -208,8 +199,8 @@ bool Widgets::drag(const char* label, glm::dvec3& value, float min, float max, c
   return changed;
 }
 
-bool Widgets::number_field(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
-                           const char* tooltip) {
+bool Widgets::number_field(std::string_view label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
+                           std::string_view tooltip) {
   value = std::clamp(value, min, max);
   return register_item(type<std::uint32_t>({label, value, min, max, "%u"}), label, tooltip);
 }

@@ -33,26 +33,26 @@ std::string curve_tooltip(const Widgets::Quantity& quantity, const Axis& axis) {
 
 }  // namespace
 
-void Widgets::curve(const char* label, const std::string& text, const TimeSeries& series, const Axis& axis,
+void Widgets::curve(std::string_view label, const std::string& text, const TimeSeries& series, const Axis& axis,
                     const glm::vec3& colour, const Quantity& quantity) {
   constexpr float value_end = 170;  // design pixels: right end of the numbers
   const float end = px(value_end), start = ImGui::GetCursorPosX();
   ImGui::BeginGroup();
-  ImGui::TextDisabled("%s", label);
+  ImGui::TextDisabled("%s", std::string(label).c_str());
   ImGui::SameLine(end - ImGui::CalcTextSize(text.c_str()).x);
   ImGui::TextUnformatted(text.c_str());
   ImGui::EndGroup();
-  tooltip_if_hovered(label, curve_tooltip(quantity, axis).c_str());
+  tooltip_if_hovered(label, curve_tooltip(quantity, axis));
   ImGui::SameLine(start + end + px(10));
   sparkline(label, series, axis, colour, quantity);
 }
 
-void Widgets::sparkline(const char* label, const TimeSeries& series, const Axis& axis, const glm::vec3& colour,
+void Widgets::sparkline(std::string_view label, const TimeSeries& series, const Axis& axis, const glm::vec3& colour,
                         const Quantity& quantity, float width) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 size{width > 0 ? width : ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()};
   ImGui::InvisibleButton(fmt::format("##{}", label).c_str(), size);
-  register_item(label, curve_tooltip(quantity, axis).c_str());
+  register_item(label, curve_tooltip(quantity, axis));
 
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddLine({at.x, at.y + size.y}, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_Border));

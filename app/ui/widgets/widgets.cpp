@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include <fmt/core.h>
@@ -54,19 +53,18 @@ void InputState::update(float min_move) {
   }
 }
 
-void Widgets::register_item(const char* label, const char* tooltip) {
+void Widgets::register_item(std::string_view label, std::string_view tooltip) {
   if (recorder_) {
     const bool enabled = ImGui::GetStyle().Alpha >= usual_alpha_;  // ImGui::BeginDisabled() lowers it
-    const std::string_view whole(label);
-    const auto name = whole.rfind("###");  // in ImGui, the identifier of an item follows this mark
-    recorder_->widgets.push_back({std::string(whole.substr(name == whole.npos ? 0 : name + 3)), ImGui::GetItemRectMin(),
+    const auto name = label.rfind("###");  // in ImGui, the identifier of an item follows this mark
+    recorder_->widgets.push_back({std::string(label.substr(name == label.npos ? 0 : name + 3)), ImGui::GetItemRectMin(),
                                   ImGui::GetItemRectMax(), enabled});
   }
   tooltip_if_hovered(label, tooltip);
 }
 
-void Widgets::tooltip_if_hovered(const char* label, const char* tooltip) {
-  if (!tooltip || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+void Widgets::tooltip_if_hovered(std::string_view label, std::string_view tooltip) {
+  if (tooltip.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   if (input_.hovered != label || input_.clicked) {
     input_.hovered = label;
     input_.seconds = 0;
@@ -113,10 +111,11 @@ ImVec2 tooltip_position(const ImVec2& size, float gap, float max_shift, const st
 
 }  // namespace
 
-void Widgets::show_tooltip(const char* text) const {
+void Widgets::show_tooltip(std::string_view text) const {
   if (input_.clicked) return;
+  const char* end = text.data() + text.size();
   const float wrap = px(250);
-  const ImVec2 pad = ImGui::GetStyle().WindowPadding, lines = ImGui::CalcTextSize(text, nullptr, false, wrap);
+  const ImVec2 pad = ImGui::GetStyle().WindowPadding, lines = ImGui::CalcTextSize(text.data(), end, false, wrap);
   const ImVec2 size{lines.x + 2 * pad.x, lines.y + 2 * pad.y};
   // Far from the item only beside an open list, whose other lines stay legible.
   const bool list = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
@@ -130,34 +129,35 @@ void Widgets::show_tooltip(const char* text) const {
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, usual_alpha_);  // the tooltip of a disabled widget is not faint
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(wrap + pad.x);
-  ImGui::TextUnformatted(text);
+  ImGui::TextUnformatted(text.data(), end);
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
   ImGui::PopStyleVar();
 }
 
-bool Widgets::button(const char* label, const char* tooltip, float width) {
-  return register_item(ImGui::Button(label, {width, 0}), label, tooltip);
+bool Widgets::button(std::string_view label, std::string_view tooltip, float width, bool enabled) {
+  const Disabled off(!enabled);
+  return register_item(ImGui::Button(std::string(label).c_str(), {width, 0}), label, tooltip);
 }
 
-bool Widgets::radio(const char* label, bool active, const char* tooltip) {
-  return register_item(ImGui::RadioButton(label, active), label, tooltip);
+bool Widgets::radio(std::string_view label, bool active, std::string_view tooltip) {
+  return register_item(ImGui::RadioButton(std::string(label).c_str(), active), label, tooltip);
 }
 
-bool Widgets::checkbox(const char* label, bool value, const char* tooltip) {
-  return register_item(ImGui::Checkbox(label, &value), label, tooltip);
+bool Widgets::checkbox(std::string_view label, bool value, std::string_view tooltip) {
+  return register_item(ImGui::Checkbox(std::string(label).c_str(), &value), label, tooltip);
 }
 
-bool Widgets::section(const char* label, bool open_at_first) {
-  const auto stored = sections_.find(label);
+bool Widgets::section(std::string_view label, bool open_at_first) {
+  const std::string name(label);
+  const auto stored = sections_.find(name);
   if (stored != sections_.end()) ImGui::SetNextItemOpen(stored->second, ImGuiCond_Once);
-  const bool open = ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-  if (stored == sections_.end() || open != stored->second)
-    ask([name = std::string(label), open](UiState& ui) { ui.sections[name] = open; });
-  return register_item(open, label, nullptr);
+  const bool open = ImGui::CollapsingHeader(name.c_str(), open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+  if (stored == sections_.end() || open != stored->second) ask([name, open](UiState& ui) { ui.sections[name] = open; });
+  return register_item(open, label, "");
 }
 
-bool Widgets::text_field(const char* label, const std::string& value, const char* hint, const char* tooltip,
+bool Widgets::text_field(std::string_view label, const std::string& value, const char* hint, std::string_view tooltip,
                          std::string& (*place)(session::Session&, UiState&)) {
   std::array<char, 4096> typed{};  // the longest path
   value.copy(typed.data(), typed.size() - 1);
@@ -167,31 +167,34 @@ bool Widgets::text_field(const char* label, const std::string& value, const char
   return register_item(ImGui::IsItemDeactivated() && is_pressed(ImGuiKey_Enter), label, tooltip);
 }
 
-bool Widgets::begin_combo(const char* label, const char* preview, const char* tooltip, ImGuiComboFlags flags) {
-  const bool open = ImGui::BeginCombo(fmt::format("##{}", label).c_str(), preview, flags | ImGuiComboFlags_HeightLarge);
+bool Widgets::begin_combo(std::string_view label, std::string_view preview, std::string_view tooltip,
+                          ImGuiComboFlags flags) {
+  const bool open = ImGui::BeginCombo(fmt::format("##{}", label).c_str(), std::string(preview).c_str(),
+                                      flags | ImGuiComboFlags_HeightLarge);
   // While the list is open, the last item is inside it, so the combo itself is recorded only when closed.
   if (!open) register_item(label, tooltip);
   if (open && is_pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
   return open;
 }
 
-bool Widgets::combo_item(const char* label, bool selected, const char* tooltip) {
-  return register_item(ImGui::Selectable(label, selected), label, tooltip);
+bool Widgets::combo_item(std::string_view label, bool selected, std::string_view tooltip) {
+  return register_item(ImGui::Selectable(std::string(label).c_str(), selected), label, tooltip);
 }
 
-bool Widgets::closable_heading(const char* label, const char* tooltip) {
+bool Widgets::closable_heading(std::string_view label, std::string_view tooltip) {
   ImGui::Spacing();
   ImGui::AlignTextToFramePadding();
-  const char* id = std::strstr(label, "###");
-  ImGui::TextUnformatted(label, id);
+  const auto mark = label.find("###");
+  const std::string_view title = label.substr(0, mark), id = mark == label.npos ? label : label.substr(mark + 3);
+  ImGui::TextUnformatted(title.data(), title.data() + title.size());
   const float side = ImGui::GetFrameHeight();
   ImGui::SameLine(ImGui::GetContentRegionMax().x - side);
-  return button(fmt::format("x###Close {}", id ? id + 3 : label).c_str(), tooltip, side);
+  return button(fmt::format("x###Close {}", id), tooltip, side);
 }
 
-void Widgets::row_label(const char* label, float column) {
+void Widgets::row_label(std::string_view label, float column) {
   ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("%s", label);
+  ImGui::TextDisabled("%s", std::string(label).c_str());
   ImGui::SameLine(column);
   ImGui::SetNextItemWidth(-FLT_MIN);
 }
@@ -217,16 +220,16 @@ void Widgets::text_line(const std::string& text) {
 }
 void Widgets::right_text(const std::string& text) { draw_text_in_line(text, 1.0f); }
 
-void Widgets::wrapped_text(const char* label, const std::string& text, bool problem) {
+void Widgets::wrapped_text(std::string_view label, const std::string& text, bool problem) {
   if (problem) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
   ImGui::TextWrapped("%s", text.c_str());
   if (problem) ImGui::PopStyleColor();
-  register_item(label, nullptr);
+  register_item(label);
 }
 
-void Widgets::figure(const char* label, const std::string& value_text, const char* tooltip) {
+void Widgets::figure(std::string_view label, const std::string& value_text, std::string_view tooltip) {
   ImGui::BeginGroup();
-  ImGui::TextDisabled("%s", label);
+  ImGui::TextDisabled("%s", std::string(label).c_str());
   ImGui::SameLine();
   right_text(value_text);
   ImGui::EndGroup();

@@ -40,6 +40,12 @@ inline bool overlap(const ScreenRect& a, const ScreenRect& b) {
   return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y;
 }
 
+/// Greys out, while it lives, the items that are drawn, and keeps the mouse from them: if `off`.
+struct Disabled {
+  explicit Disabled(bool off) { ImGui::BeginDisabled(off); }
+  ~Disabled() { ImGui::EndDisabled(); }
+};
+
 /// What the mouse does, where tooltips may stand, and what is typed into a field, from frame to frame.
 struct InputState {
   static constexpr float tooltip_delay = 0.4f;  // s
@@ -110,44 +116,45 @@ class Widgets {
   /// Converts design pixels to ImGui units.
   float px(float design) const { return design * scale_; }
 
-  bool button(const char* label, const char* tooltip, float width = 0);
-  bool radio(const char* label, bool active, const char* tooltip);
+  bool button(std::string_view label, std::string_view tooltip, float width = 0, bool enabled = true);
+  bool radio(std::string_view label, bool active, std::string_view tooltip);
   /// Returns true if the value should be the other one.
-  bool checkbox(const char* label, bool value, const char* tooltip);
+  bool checkbox(std::string_view label, bool value, std::string_view tooltip);
   /// Draws a title with a close button, whose label is "Close " and the title's identifier. True if it is clicked.
-  bool closable_heading(const char* label, const char* tooltip);
+  bool closable_heading(std::string_view label, std::string_view tooltip);
   /// Draws the heading of a section that folds. True if it is open.
-  bool section(const char* label, bool open_at_first);
-  /// A double-click on a slider opens a field for typing.
-  bool slider(const char* label, int& value, int min, int max, const char* format, const char* tooltip);
-  bool slider(const char* label, float& value, float min, float max, const char* format, const char* tooltip,
-              bool logarithmic);
-  bool slider(const char* label, double& value, double min, double max, const char* format, const char* tooltip,
-              bool logarithmic);
-  /// A logarithmic slider for whole numbers; min > 0.
-  bool slider(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max, const char* tooltip);
+  bool section(std::string_view label, bool open_at_first);
+  /// A slider for an int, a float, a std::uint32_t or a double. A double-click opens a field for typing. With an empty
+  /// `format` only the field shows the value. A logarithmic one for whole numbers: min > 0.
+  template <class Value>
+  bool slider(std::string_view label, Value& value, std::type_identity_t<Value> min, std::type_identity_t<Value> max,
+              const char* format, std::string_view tooltip, bool logarithmic = false);
+  bool slider(std::string_view label, double& value, double min, double max, const char* format,
+              std::string_view tooltip, bool logarithmic = false);
   /// Three numbers within the limits, each to drag or to type.
-  bool drag(const char* label, glm::dvec3& value, float min, float max, const char* tooltip);
+  bool drag(std::string_view label, glm::dvec3& value, float min, float max, std::string_view tooltip);
   /// A field for typing a number within the limits.
-  bool number_field(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max, const char* tooltip);
+  bool number_field(std::string_view label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
+                    std::string_view tooltip);
   /// A field for typing text. True when Enter is pressed in it. It shows a grey `hint` while it is empty.
   /// Asks to put what is typed where `place` says.
-  bool text_field(const char* label, const std::string& value, const char* hint, const char* tooltip,
+  bool text_field(std::string_view label, const std::string& value, const char* hint, std::string_view tooltip,
                   std::string& (*place)(session::Session&, UiState&));
   /// A list to choose from. If true, it is open: combo_item() for each item and ImGui::EndCombo() must follow.
-  bool begin_combo(const char* label, const char* preview, const char* tooltip, ImGuiComboFlags flags = 0);
-  bool combo_item(const char* label, bool selected, const char* tooltip);
+  bool begin_combo(std::string_view label, std::string_view preview, std::string_view tooltip,
+                   ImGuiComboFlags flags = 0);
+  bool combo_item(std::string_view label, bool selected, std::string_view tooltip = "");
 
   /// Draws a grey label; the next widget begins at `column` and takes the rest of the line.
-  void row_label(const char* label, float column);
+  void row_label(std::string_view label, float column);
   /// Draws text that takes the rest of the line whatever its length, so that changing digits move no other widget.
   /// text_line() is flush left and wraps text that is too long; right_text() is flush right.
   void text_line(const std::string& text);
   void right_text(const std::string& text);
   /// Draws text that wraps, in red if it tells of a problem. Has no tooltip.
-  void wrapped_text(const char* label, const std::string& text, bool problem = false);
+  void wrapped_text(std::string_view label, const std::string& text, bool problem = false);
   /// Draws a line with a grey label and its value at the right.
-  void figure(const char* label, const std::string& value, const char* tooltip);
+  void figure(std::string_view label, const std::string& value, std::string_view tooltip);
   /// Draw a coloured square, or a dot, at the start of a line.
   void swatch(const glm::vec3& colour);
   void dot(const glm::vec3& colour);
@@ -156,33 +163,33 @@ class Widgets {
     const char *meaning, *unit;
   };
   /// Draws the last values as a curve without axes. Width 0: the rest of the line.
-  void sparkline(const char* label, const TimeSeries& series, const Axis& axis, const glm::vec3& colour,
+  void sparkline(std::string_view label, const TimeSeries& series, const Axis& axis, const glm::vec3& colour,
                  const Quantity& quantity, float width = 0);
   /// Draws a line with a grey label, a value and its sparkline.
-  void curve(const char* label, const std::string& value, const TimeSeries& series, const Axis& axis,
+  void curve(std::string_view label, const std::string& value, const TimeSeries& series, const Axis& axis,
              const glm::vec3& colour, const Quantity& quantity);
 
   /// Records the last ImGui item as the widget `label`, and shows the tooltip, if any, while the mouse rests on it.
-  void register_item(const char* label, const char* tooltip);
+  void register_item(std::string_view label, std::string_view tooltip = "");
   /// The same; returns `used`, which ImGui returned for the item.
-  bool register_item(bool used, const char* label, const char* tooltip) {
+  bool register_item(bool used, std::string_view label, std::string_view tooltip) {
     register_item(label, tooltip);
     return used;
   }
   /// Only the tooltip of register_item().
-  void tooltip_if_hovered(const char* label, const char* tooltip);
+  void tooltip_if_hovered(std::string_view label, std::string_view tooltip);
   /// Shows the tooltip beside the window of the last item, unless the mouse has just clicked.
-  void show_tooltip(const char* text) const;
+  void show_tooltip(std::string_view text) const;
   /// Makes tooltips of other windows keep off the current window, which shows results.
   void keep_tooltips_off();
 
  private:
   /// As register_item(); the tooltip also says how to change a number by dragging or typing.
-  void register_number(const char* label, const char* tooltip);
+  void register_number(std::string_view label, std::string_view tooltip);
   /// A number and how it is shown.
   template <class Value>
   struct Number {
-    const char* label;
+    std::string_view label;
     Value &value, min, max;
     const char* format;
   };
@@ -198,9 +205,6 @@ class Widgets {
   /// which drops what it cannot read, draws type().
   template <class Value, class Show>
   bool drag_or_type(const Number<Value>& number, const Show& show);
-  /// Draws a slider by drag_or_type(). shown_format: of the value, while the user is not about to type.
-  template <class Value>
-  bool slide(const Number<Value>& number, bool logarithmic, const char* shown_format, const char* tooltip);
 
   float scale_, usual_alpha_;
   InputState& input_;
