@@ -447,6 +447,7 @@ TEST(Tour, FitsEveryPageIntoSmallWindows) {
   scene.collision.cell_size = glm::vec3(0.13f);
   scene.collision.buckets = collide::max_buckets;
   PanelRig rig(1, scene);
+  rig.session.simulation.clock.paused = true;  // the bodies part soon
   const ui::FrameWork of_drop_3000{.bodies = 3125,
                                    .vertices = 506'250,
                                    .boxes = 25'000,
