@@ -199,7 +199,7 @@ TEST(RestingContacts, AreNoneAfterAFrameThatWasNotStored) {
   const auto kept = [&](bool stored) {
     search.find_bounds(frame, workers, non_finite);
     resting.observe(frame, settings, search.bounds(), workers);
-    search.find(frame, {settings.tolerance, true, 3, 1000}, resting, workers);
+    search.find(frame, settings, resting, workers);
     const bool any = resting.group(0, search.near()).has_value();
     std::vector<Contact> contacts;
     search.concatenate(workers, contacts);
