@@ -91,15 +91,6 @@ TEST(CellRange, IsListedInAtLeast27CellsAndInMoreWhileThereIsRoom) {
   }
 }
 
-TEST(BucketTable, GivesALargeTableBack) {
-  const std::vector<std::uint32_t> bucket{3, 0, 3};
-  BucketTable table;
-  table.build(bucket, max_buckets);
-  EXPECT_GE(table.bytes(), std::size_t{4} * max_buckets);
-  table.build(bucket, 101);
-  EXPECT_LE(table.bytes(), 10'000u);
-}
-
 TEST(BucketTable, SortsEntriesStablyTableAfterTable) {
   std::mt19937 random(3);
   BucketTable table;
