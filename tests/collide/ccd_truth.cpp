@@ -25,13 +25,15 @@ Rational value(const Polynomial& p, const Rational& t) {
   for (std::size_t k = p.size(); k-- > 0;) sum = sum * t + p[k];
   return sum;
 }
-Polynomial remainder(Polynomial a, const Polynomial& b) {
-  while (a.size() >= b.size()) {
-    const Rational factor = a.back() / b.back();
-    for (std::size_t k = 0; k < b.size(); ++k) a[a.size() - b.size() + k] -= factor * b[k];
-    a = trimmed(std::move(a));
+/// Returns a / b and leaves the remainder in a.
+Polynomial divide(Polynomial& a, const Polynomial& b) {
+  Polynomial quotient(a.size() < b.size() ? 0 : a.size() - b.size() + 1);
+  for (std::size_t at = quotient.size(); at-- > 0; a.pop_back()) {
+    quotient[at] = a.back() / b.back();
+    for (std::size_t k = 0; k < b.size(); ++k) a[at + k] -= quotient[at] * b[k];
   }
-  return a;
+  a = trimmed(std::move(a));
+  return quotient;
 }
 Polynomial derivative(const Polynomial& p) {
   Polynomial d;
@@ -40,7 +42,7 @@ Polynomial derivative(const Polynomial& p) {
 }
 Polynomial common_divisor(Polynomial a, Polynomial b) {
   while (!b.empty()) {
-    a = remainder(std::move(a), b);
+    divide(a, b);
     std::swap(a, b);
   }
   return a;
@@ -50,13 +52,7 @@ Polynomial common_divisor(Polynomial a, Polynomial b) {
 int count_roots(const Polynomial& p, const Rational& low, const Rational& high) {
   Polynomial a = p, b = derivative(p);
   if (const Polynomial divisor = common_divisor(a, b); divisor.size() > 1) {
-    Polynomial quotient;  // of p by the divisor, its last coefficient first
-    while (a.size() >= divisor.size()) {
-      quotient.push_back(a.back() / divisor.back());
-      for (std::size_t k = 0; k < divisor.size(); ++k) a[a.size() - divisor.size() + k] -= quotient.back() * divisor[k];
-      a.pop_back();
-    }
-    a = {quotient.rbegin(), quotient.rend()};
+    a = divide(a, divisor);
     b = derivative(a);
   }
   int changes[2] = {0, 0}, last[2] = {sgn(value(a, low)), sgn(value(a, high))};
@@ -66,7 +62,7 @@ int count_roots(const Polynomial& p, const Rational& low, const Rational& high) 
       if (sign != 0 && sign == -last[end]) ++changes[end];
       if (sign != 0) last[end] = sign;
     }
-    a = remainder(std::move(a), b);
+    divide(a, b);
     for (Rational& x : a) x = -x;
     std::swap(a, b);
   }

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <limits>
 #include <random>
 #include <vector>
@@ -14,10 +13,7 @@ using namespace collide::methods;
 namespace {
 
 CellHash hash_of(std::uint32_t buckets, const glm::vec3& cell = glm::vec3(1)) {
-  Settings settings;
-  settings.buckets = buckets;
-  settings.cell_size = cell;
-  return CellHash(settings);
+  return CellHash({.buckets = buckets, .cell_size = cell});
 }
 
 /// Worked out outside of the program with whole numbers of any length, primes 73856093, 19349669, 83492791.
@@ -46,8 +42,7 @@ TEST(CellHash, EqualsValuesComputedByHand) {
 }
 
 TEST(CellHash, DoesNotOverflowWithTheLargestPrimesAndCounts) {
-  Settings settings;
-  settings.cell_size = glm::vec3(1);
+  Settings settings{.cell_size = glm::vec3(1)};
   settings.buckets = max_buckets - 1;  // 2^24 - 1, so 2^32 - 1 = 255 modulo it
   settings.primes = {0xffffffffu, 0xffffffffu, 0xffffffffu};
   const std::int64_t last = settings.buckets - 1;  // -1 modulo the count
@@ -69,26 +64,7 @@ TEST(CellHash, ClampsWhatNoIntegerHolds) {
   EXPECT_EQ(hash.index(0, 1e38), limit);
   EXPECT_EQ(hash.index(1, -1e38), -limit);
   EXPECT_EQ(hash.index(2, std::numeric_limits<double>::infinity()), limit);
-}
-
-TEST(CellRange, CountsAndVisitsItsCellsMinimumFirst) {
-  const CellRange range{{-1, 4, 0}, {0, 4, 2}};
-  std::vector<CellHash::Cell> visited;
-  range.for_each([&](const CellHash::Cell& cell) { visited.push_back(cell); });
-  EXPECT_EQ(range.count(), 6.0);
-  EXPECT_EQ(visited.size(), 6u);
-  EXPECT_EQ(visited.front(), range.lo);
-  EXPECT_EQ(visited.back(), range.hi);
-  constexpr std::int64_t limit = std::int64_t{1} << 60;
   EXPECT_GT((CellRange{{-limit, -limit, -limit}, {limit, limit, limit}}.count()), 0x1p182);
-}
-
-TEST(CellRange, IsListedInAtLeast27CellsAndInMoreWhileThereIsRoom) {
-  for (const double vertices : {1.0, 1e4, 1e7, 4e9}) {
-    EXPECT_EQ(max_listed_cells(vertices, 0), 27);
-    EXPECT_EQ(max_listed_cells(vertices, 50), 50);
-    EXPECT_EQ(max_listed_cells(vertices), std::clamp(vertices / 32, 64.0, room_for_cells));
-  }
 }
 
 TEST(BucketTable, SortsEntriesStablyTableAfterTable) {

@@ -83,26 +83,6 @@ TEST(MeetingOf, CountsTheFirstAndTheLastInstant) {
   expect_meeting(query(above, {1, 1, std::numeric_limits<double>::denorm_min()}), std::nullopt);
 }
 
-TEST(MeetingOf, FindsFeaturesThatRestOrSlideInOnePlane) {
-  const glm::dvec3 a(0, 0, 0), b(4, 0, 0), c(0, 4, 0), far(8, 0, 0), on(1, 1, 0);
-  const auto vertex_face = [&](const glm::dvec3& from, const glm::dvec3& to) {
-    return Query{Kind::vertex_face, {{{from, to}, {a, a}, {b, b}, {c, c}}}};
-  };
-  expect_meeting(vertex_face(on, on), 0);
-  expect_meeting(vertex_face(far, far), std::nullopt);
-  expect_meeting(vertex_face(far, a), 0.5);
-  expect_meeting(vertex_face(glm::dvec3(8, 8, 0), a), 0.75);
-  const auto edges = [&](const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& by) {
-    return Query{Kind::edge_edge, {{{p, p + by}, {q, q + by}, {a, a}, {b, b}}}};
-  };
-  expect_meeting(edges({5, 0, 0}, {7, 0, 0}, {-2, 0, 0}), 0.5);             // in one line
-  expect_meeting(edges({0, 1, 0}, {4, 1, 0}, {0, -4, 0}), 0.25);            // side by side
-  expect_meeting(edges({5, 1, 0}, {9, 1, 0}, {0, -4, 0}), std::nullopt);    // beside it in one line, at 0.25
-  expect_meeting(edges({1, 1, 0}, {3, 2, 0}, {0, -2, 0}), 0.5);             // an end first
-  expect_meeting(edges({2, 1, 0}, {2, 1, 0}, {0, -1, 0}), 1);               // an edge of no length
-  expect_meeting(edges({2, 1, 0}, {2, 1, 0}, {1, -0.5, 0}), std::nullopt);  // an edge of no length
-}
-
 /// Returns a coordinate.
 using Coordinate = std::function<double(std::mt19937_64&)>;
 

@@ -113,8 +113,7 @@ TEST(Methods, TakeBoundedTimeForSettingsWithoutSense) {
     const float lo = uniform(random, 0, 3);
     state.add(random_points(random, 162, lo, lo + 1));
   }
-  Settings settings;
-  settings.tolerance = 0.02f;
+  Settings settings{.tolerance = 0.02f};
   const std::vector<Contact> expected = oracle(state, settings);
   for (const Method& method : method_table()) {
     for (const float cell : {1e-30f, 1e-6f, 1e30f}) {

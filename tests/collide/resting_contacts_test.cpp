@@ -191,8 +191,7 @@ TEST(RestingContacts, AreNoneAfterAFrameThatWasNotStored) {
   const State state = pile(2);
   const Frame frame = state.frame();
   Workers workers(1);
-  Settings settings;
-  settings.tolerance = state.tolerance;
+  const Settings settings{.tolerance = state.tolerance};
   BodyPairSearch search;
   RestingContacts resting;
   std::vector<Index> non_finite;

@@ -290,18 +290,22 @@ const std::vector<NamedState>& named_states() {
   return states;
 }
 
+bool finite(const State& state, Index body) {
+  bool all = true;
+  for (Index v = state.bodies.first[body]; v < state.bodies.first[body + 1]; ++v) {
+    all = all && std::isfinite(state.x[v]) && std::isfinite(state.y[v]) && std::isfinite(state.z[v]);
+  }
+  return all;
+}
+
 std::vector<Contact> oracle(const State& state, const Settings& settings) {
   const float tolerance2 = settings.tolerance * settings.tolerance;
   const Bodies& bodies = state.bodies;
   std::vector<Index> body_of;
-  std::vector<bool> finite;
+  std::vector<bool> finite_bodies;
   for (Index body = 0; body < bodies.count(); ++body) {
-    bool all = true;
-    for (Index v = bodies.first[body]; v < bodies.first[body + 1]; ++v) {
-      all = all && std::isfinite(state.x[v]) && std::isfinite(state.y[v]) && std::isfinite(state.z[v]);
-    }
     body_of.insert(body_of.end(), bodies.size(body), body);
-    finite.push_back(all);
+    finite_bodies.push_back(finite(state, body));
   }
   std::vector<Contact> contacts;
   for (Index i = 0; i < state.x.size(); ++i) {
@@ -309,7 +313,7 @@ std::vector<Contact> oracle(const State& state, const Settings& settings) {
       const float dx = state.x[i] - state.x[j], dy = state.y[i] - state.y[j], dz = state.z[i] - state.z[j];
       if (!(dx * dx + dy * dy + dz * dz < tolerance2)) continue;
       const Index a = body_of[i], b = body_of[j];
-      if (!finite[a] || !finite[b]) continue;
+      if (!finite_bodies[a] || !finite_bodies[b]) continue;
       if (a == b && !settings.self_collision) continue;
       if (a == b && bodies.shape[a]->excludes(i - bodies.first[a], j - bodies.first[a], tolerance2)) continue;
       contacts.push_back({i, j});
