@@ -1,10 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
-#include <random>
-#include <vector>
 
-#include "collide/methods/bucket_table.h"
 #include "collide/methods/cell_hash.h"
 
 namespace collide::test {
@@ -65,28 +63,6 @@ TEST(CellHash, ClampsWhatNoIntegerHolds) {
   EXPECT_EQ(hash.index(1, -1e38), -limit);
   EXPECT_EQ(hash.index(2, std::numeric_limits<double>::infinity()), limit);
   EXPECT_GT((CellRange{{-limit, -limit, -limit}, {limit, limit, limit}}.count()), 0x1p182);
-}
-
-TEST(BucketTable, SortsEntriesStablyTableAfterTable) {
-  std::mt19937 random(3);
-  BucketTable table;
-  for (const std::uint32_t buckets : {7u, 7u, 1000u, 1000u, 3u, 3u, 1u, 7u}) {
-    std::vector<std::uint32_t> bucket(random() % 200);
-    for (std::uint32_t& b : bucket) b = random() % buckets;
-    table.build(bucket, buckets);
-    EXPECT_EQ(table.buckets(), buckets);
-    std::vector<std::uint32_t> load(buckets, 0);
-    for (const BucketLoad& one : table.loads()) load[one.bucket] = one.load;
-    for (std::uint32_t b = 0; b < buckets; ++b) {
-      std::uint32_t slot = table.slots(b).begin;
-      for (std::size_t e = 0; e < bucket.size(); ++e)
-        if (bucket[e] == b) {
-          EXPECT_EQ(table.slot(e), slot++);
-        }
-      EXPECT_EQ(table.slots(b).end, slot);
-      EXPECT_EQ(table.slots(b).size(), load[b]);
-    }
-  }
 }
 
 }  // namespace

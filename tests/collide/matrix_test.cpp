@@ -70,6 +70,9 @@ TEST_P(Matrix, FindsWhatTheOracleFinds) {
   const std::vector<Contact> between = oracle(state, settings);
   const std::size_t inside = inside_bodies(state, with_self).size();
   ASSERT_EQ(inside, with_self.size() - between.size());
+  std::vector<Index> non_finite;
+  for (Index body = 0; body < state.bodies.count(); ++body)
+    if (!finite(state, body)) non_finite.push_back(body);
 
   for (std::size_t m = 0; m < method_table().size(); ++m) {
     const Method& method = method_table()[m];
@@ -79,6 +82,7 @@ TEST_P(Matrix, FindsWhatTheOracleFinds) {
       const std::vector<Contact>& expected = tried.self_collision ? with_self : between;
       Result result;
       bench_->detectors[m]->detect(state.frame(), tried, workers, result);
+      ASSERT_EQ(result.non_finite_bodies, non_finite) << describe(method, tried);
       if (method.exact) {
         ASSERT_EQ(result.contacts, expected) << describe(method, tried);
         ASSERT_EQ(result.self_contacts, tried.self_collision ? inside : 0) << describe(method, tried);

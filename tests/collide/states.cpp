@@ -324,11 +324,8 @@ std::vector<Contact> oracle(const State& state, const Settings& settings) {
 
 std::vector<Contact> inside_bodies(const State& state, const std::vector<Contact>& contacts) {
   std::vector<Contact> inside;
-  for (const Contact& contact : contacts) {
-    Index body = 0;
-    while (state.bodies.first[body + 1] <= contact.a) ++body;
-    if (contact.b < state.bodies.first[body + 1]) inside.push_back(contact);
-  }
+  for (const Contact& contact : contacts)
+    if (state.bodies.body_of(contact.a) == state.bodies.body_of(contact.b)) inside.push_back(contact);
   return inside;
 }
 
