@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -168,14 +169,8 @@ TEST(SelfCollisionCulling, HoldsForABodyFarLargerThanItsReference) {
   std::vector<glm::vec3> points = ball.vertices;
   for (glm::vec3& p : points) p *= 5e18f;
   const Index unsampled = 20;  // not one of for_samples()
-  Index opposite = 0;
-  for (Index v = 0; v < 162; ++v) {
-    if (points[v].x * points[unsampled].x + points[v].y * points[unsampled].y + points[v].z * points[unsampled].z <
-        -2e37f) {
-      opposite = v;
-    }
-  }
-  points[unsampled] = points[opposite];
+  points[unsampled] = *std::ranges::min_element(
+      points, {}, [at = points[unsampled]](const glm::vec3& p) { return glm::dot(p, at); });  // the opposite one
   culled(reference, topology, points, 0.1f);
 }
 

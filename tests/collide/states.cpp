@@ -56,20 +56,14 @@ State crumpled() {
 }
 
 /// Whole numbers: vertices, midpoints and cell borders fall on each other, and distances equal the tolerance exactly.
-State lattice() {
+State lattice(float tolerance) {
   State state;
   std::vector<glm::vec3> cube;
   for (int i = 0; i < 125; ++i) {
     cube.push_back(glm::vec3(static_cast<float>(i % 5), static_cast<float>(i / 5 % 5), static_cast<float>(i / 25)));
   }
   for (const float offset : {-4.0f, 0.0f, 3.0f, 5.0f}) state.add(moved(cube, glm::vec3(offset, 0, -offset)));
-  state.tolerance = 1.0f;  // neighbours are 1 apart and no contact
-  return state;
-}
-
-State lattice_just_reached() {
-  State state = lattice();
-  state.tolerance = std::nextafter(1.0f, 2.0f);
+  state.tolerance = tolerance;
   return state;
 }
 
@@ -104,8 +98,6 @@ State small_bodies() {
   state.tolerance = 0.3f;
   return state;
 }
-
-State no_bodies() { return {}; }
 
 State empty_bodies() {
   State state;
@@ -269,12 +261,12 @@ const std::vector<NamedState>& named_states() {
       {"settled_at_1e6", [] { return settled(1, 2, true, glm::vec3(1e6f, -1e6f, 0), 0.5f); }},
       {"settled_at_4e19", [] { return settled(1, 2, true, glm::vec3(-4e19f, 4e19f, 4e19f), 4e18f); }},
       {"crumpled", crumpled},
-      {"lattice", lattice},
-      {"lattice_just_reached", lattice_just_reached},
+      {"lattice", [] { return lattice(1); }},  // neighbours are 1 apart and no contact
+      {"lattice_just_reached", [] { return lattice(std::nextafter(1.0f, 2.0f)); }},
       {"coincident", coincident},
       {"flat", flat},
       {"small_bodies", small_bodies},
-      {"no_bodies", no_bodies},
+      {"no_bodies", [] { return State(); }},
       {"empty_bodies", empty_bodies},
       {"not_finite", not_finite},
       {"scattered", scattered},
