@@ -24,7 +24,6 @@ std::vector<Method> built_in() {
            "Tests every vertex against every other. Choose it as the reference, or for a few hundred vertices. Cost: "
            "n²/2 tests. It builds nothing and keeps nothing.",
        .group = MethodGroup::rivals,
-       .exact = true,
        .tests = PairTests::all,
        .make = methods::make_brute_force},
       {.key = "grid-hash",
@@ -37,7 +36,6 @@ std::vector<Method> built_in() {
            "around each vertex; linear in n if there are more buckets than vertices, else n². It rebuilds its table "
            "in every frame. Source: the paper's §3; Teschner et al. 2003.",
        .group = MethodGroup::rivals,
-       .exact = true,
        .uses_hash = true,
        .make = methods::make_grid_hash},
       {.key = "bounding-box",
@@ -48,7 +46,6 @@ std::vector<Method> built_in() {
            "Choose it for small bodies that seldom meet. Cost: linear in the number of bodies that stay apart, but "
            "quadratic in the vertices of a body. It rebuilds the boxes in every frame. Source: the paper's §3.",
        .group = MethodGroup::rivals,
-       .exact = true,
        .tests = PairTests::of_near_bodies,
        .make = methods::make_bounding_box},
       {.key = "bounding-box-grid-hash",
@@ -59,7 +56,6 @@ std::vector<Method> built_in() {
            "all bodies. Choose it over Grid Hash where most bodies are alone and none can touch itself. Cost: as "
            "Grid Hash, for these vertices. It rebuilds boxes and table in every frame. Source: the paper's §3.",
        .group = MethodGroup::rivals,
-       .exact = true,
        .uses_hash = true,
        .make = methods::make_bounding_box_grid_hash},
       {.key = "multi-level-sb",
@@ -87,7 +83,6 @@ std::vector<Method> built_in() {
            "box at the default cell size, and many more where cells are small; else as the paper's method. It "
            "rebuilds everything in every frame. Source: the paper's §2; the change is ours.",
        .group = MethodGroup::paper,
-       .exact = true,
        .uses_levels = true,
        .uses_hash = true,
        .make = methods::make_multi_level_sb_complete},
@@ -102,7 +97,6 @@ std::vector<Method> built_in() {
            "pairs of near bodies. It searches from scratch in every frame, but bodies at rest keep their contacts, "
            "and large bodies the patches that they are cut into. Source: the paper's §2.1 and §5; the rest is ours.",
        .group = MethodGroup::paper,
-       .exact = true,
        .uses_levels = true,
        .make = exact::make_multi_level_sb_exact},
       {.key = "sorted-grid",
@@ -115,7 +109,6 @@ std::vector<Method> built_in() {
            "in the pairs that are about as close as the tolerance. It rebuilds the grid in every frame. Source: "
            "Green 2008, \"CUDA Particles\"; the grid is rolled up so that its size follows n alone.",
        .group = MethodGroup::sorted,
-       .exact = true,
        .make = methods::make_sorted_grid},
       {.key = "sweep-and-prune",
        .name = "Sweep and prune",
@@ -128,7 +121,6 @@ std::vector<Method> built_in() {
            "one axis, so more than linear in the number of bodies of a heap. It cuts the patches once, refits their "
            "boxes and rebuilds the order in every frame. Source: Baraff 1992; Cohen et al. 1995.",
        .group = MethodGroup::sorted,
-       .exact = true,
        .make = methods::make_sweep_and_prune},
       {.key = "aabb-tree",
        .name = "AABB tree",
@@ -141,7 +133,6 @@ std::vector<Method> built_in() {
            "cuts the bodies once, refits their trees and rebuilds the one over the bodies in every frame. Source: "
            "van den Bergen 1997.",
        .group = MethodGroup::trees,
-       .exact = true,
        .make = methods::make_aabb_tree},
       {.key = "kd-tree",
        .name = "k-d tree",
@@ -152,7 +143,6 @@ std::vector<Method> built_in() {
            "points of very uneven density. Cost: n log n to build, and about log n for each pair of near leaves. It "
            "rebuilds the tree in every frame. Source: Bentley 1975.",
        .group = MethodGroup::trees,
-       .exact = true,
        .make = methods::make_kd_tree},
       {.key = "octree",
        .name = "Octree",
@@ -164,7 +154,6 @@ std::vector<Method> built_in() {
            "points of even density, and about log n for each pair of near leaves. It rebuilds the tree in every "
            "frame. Source: Meagher 1980.",
        .group = MethodGroup::trees,
-       .exact = true,
        .make = methods::make_octree},
   };
 }

@@ -36,7 +36,7 @@ struct Method {
   // of the panel and of collide/README.md.
   std::string description;
   MethodGroup group;
-  bool exact;                // cannot miss a contact
+  bool exact = true;         // cannot miss a contact
   bool uses_levels = false;  // has use for Settings::levels
   bool uses_hash = false;    // has use for buckets, cell_size, primes
   PairTests tests = PairTests::of_near_vertices;

@@ -51,9 +51,10 @@ void BodyPairSearch::find_bounds(const Frame& frame, Workers& workers, std::vect
   }
 }
 
-void BodyPairSearch::find(const Frame& frame, const Query& query, const RestingContacts& resting, Workers& workers) {
+void BodyPairSearch::find(const Frame& frame, const Settings& settings, const RestingContacts& resting,
+                          Workers& workers) {
   assert(bounds_.size() == frame.bodies->count());
-  begin(frame, query);
+  begin(frame, settings);
   near_.find(bounds_, live_, cutoff_, workers);
   deal(resting, workers);
   const auto parts = static_cast<int>(threads_.size());
@@ -68,17 +69,18 @@ void BodyPairSearch::find(const Frame& frame, const Query& query, const RestingC
     check_contact_limit(thread);  // the rest, so that no more pass on many threads than on one
 }
 
-void BodyPairSearch::begin(const Frame& frame, const Query& query) {
+void BodyPairSearch::begin(const Frame& frame, const Settings& settings) {
   frame_ = &frame;
-  query_ = query;
-  cutoff_ = contact_cutoff(query.tolerance);
-  tolerance2_ = query.tolerance * query.tolerance;
-  if (query.self) references_.update(frame, live_, cutoff_);
+  self_collision_ = settings.self_collision;
+  levels_ = settings.levels;
+  cutoff_ = contact_cutoff(settings.tolerance);
+  tolerance2_ = settings.tolerance * settings.tolerance;
+  if (self_collision_) references_.update(frame, live_, cutoff_);
   found_ = 0;
 }
 
 void BodyPairSearch::begin(Thread& own) const {
-  own.tree.begin(query_.levels, cutoff_, tolerance2_, query_.max_contacts);
+  own.tree.begin(levels_, cutoff_, tolerance2_, contact_limit);
   own.pairs.clear();
   own.loose.clear();
   own.segments.clear();
@@ -104,7 +106,7 @@ void BodyPairSearch::deal(const RestingContacts& resting, Workers& workers) {
   if (loose_.empty()) return;
   patches_.begin(*frame_, large_, tolerance2_, workers);
   for (const Index a : loose_) {
-    if (query_.self) patches_.add(a, a);
+    if (self_collision_) patches_.add(a, a);
     for (const Index b : near_.later_neighbours(a)) {
       if (is_large(b)) patches_.add(a, b);
     }
@@ -116,7 +118,7 @@ void BodyPairSearch::deal(const RestingContacts& resting, Workers& workers) {
 void BodyPairSearch::find_patch_contacts(int thread, int threads) {
   Thread& own = threads_[static_cast<std::size_t>(thread)];
   for (auto task = static_cast<std::size_t>(thread); task < patch_tasks_; task += static_cast<std::size_t>(threads)) {
-    const PatchSearch::Found found = patches_.find(task, query_.max_contacts, own.loose);
+    const PatchSearch::Found found = patches_.find(task, contact_limit, own.loose);
     own.pair_tests += found.pair_tests;
     own.self_contacts += found.self_contacts;
     check_contact_limit(own);
@@ -137,7 +139,7 @@ void BodyPairSearch::find_part(int thread, int threads, const RestingContacts& r
     } else {
       find_group(own, body);
     }
-    if (own.pairs.size() + own.loose.size() - own.checked >= std::min(max_uncounted_pairs, query_.max_contacts / 8))
+    if (own.pairs.size() + own.loose.size() - own.checked >= std::min(max_uncounted_pairs, contact_limit / 8))
       check_contact_limit(own);
   }
 }
@@ -162,14 +164,14 @@ void BodyPairSearch::find_loose_group(Thread& own, Index a) {
 
 void BodyPairSearch::find_group(Thread& own, Index a) {
   own.group.clear();
-  if (query_.self) find_self(own, a);
+  if (self_collision_) find_self(own, a);
   std::size_t runs = own.group.empty() ? 0 : 1;
   own.self_contacts += own.group.size();
   bool ordered = true;
   for (const Index b : near_.later_neighbours(a)) {
     const std::size_t before = own.group.size(), leaves = own.tree.leaves();
     find_between(own, a, b);
-    if (own.group.size() > query_.max_contacts) throw_too_many_contacts(query_.max_contacts);
+    if (own.group.size() > contact_limit) throw_too_many_contacts(contact_limit);
     if (own.group.size() == before) continue;
     ++runs;
     ordered = ordered && own.tree.leaves() == leaves;
@@ -181,8 +183,8 @@ void BodyPairSearch::find_group(Thread& own, Index a) {
 void BodyPairSearch::check_contact_limit(Thread& own) {
   const std::size_t added = own.pairs.size() + own.loose.size() - own.checked;
   own.checked += added;
-  if (found_.fetch_add(added, std::memory_order_relaxed) + added > query_.max_contacts) {
-    throw_too_many_contacts(query_.max_contacts);
+  if (found_.fetch_add(added, std::memory_order_relaxed) + added > contact_limit) {
+    throw_too_many_contacts(contact_limit);
   }
 }
 

@@ -16,13 +16,6 @@ namespace collide::exact {
 
 class BodyPairSearch {
  public:
-  struct Query {
-    float tolerance;  // m
-    bool self;        // also find contacts inside one body
-    int levels;       // depth of the cuts, see OverlapTree::begin()
-    std::size_t max_contacts;
-  };
-
   /// Computes bounds() of the frame's bodies. Lists the bodies with a coordinate that is not finite; these have no
   /// group.
   void find_bounds(const Frame& frame, Workers& workers, std::vector<Index>& non_finite_bodies);
@@ -30,8 +23,8 @@ class BodyPairSearch {
   std::span<const BodyBounds> bounds() const { return bounds_; }
 
   /// Runs the broad phase, then finds all groups except those that `resting` has kept. Call find_bounds() and
-  /// resting.observe() on the same frame before. Throws std::length_error at more than query.max_contacts contacts.
-  void find(const Frame& frame, const Query& query, const RestingContacts& resting, Workers& workers);
+  /// resting.observe() on the same frame before. Throws std::length_error at more than contact_limit contacts.
+  void find(const Frame& frame, const Settings& settings, const RestingContacts& resting, Workers& workers);
 
   const BodyBroadPhase& near() const { return near_; }
 
@@ -69,7 +62,7 @@ class BodyPairSearch {
     std::uint64_t self_contacts = 0, pair_tests = 0, separated = 0, unfolded = 0, kept = 0;
   };
 
-  void begin(const Frame& frame, const Query& query);
+  void begin(const Frame& frame, const Settings& settings);
   void begin(Thread& own) const;
   bool is_large(Index body) const { return frame_->bodies->size(body) > CullingReference::max_vertices; }
   void deal(const RestingContacts& resting, Workers& workers);
@@ -88,7 +81,8 @@ class BodyPairSearch {
   void check_contact_limit(Thread& own);
 
   const Frame* frame_ = nullptr;
-  Query query_{};
+  bool self_collision_ = true;
+  int levels_ = 0;
   float cutoff_ = 0, tolerance2_ = 0;
   std::vector<BodyBounds> bounds_;  // of every body
   std::vector<Index> live_;

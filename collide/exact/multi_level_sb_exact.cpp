@@ -17,12 +17,7 @@ class MultiLevelSbExact final : public Detector {
     result.start();
     search_.find_bounds(frame, workers, result.non_finite_bodies);
     resting_.observe(frame, settings, search_.bounds(), workers);
-    search_.find(frame,
-                 {.tolerance = settings.tolerance,
-                  .self = settings.self_collision,
-                  .levels = settings.levels,
-                  .max_contacts = contact_limit},
-                 resting_, workers);
+    search_.find(frame, settings, resting_, workers);
     search_.concatenate(workers, result.contacts);
     search_.count(result);
     resting_.store(frame, search_.near(), result.contacts);

@@ -133,7 +133,7 @@ FacingResult FindFacingContacts(const VertexRun& a, Index first_a, const VertexR
   return {tests, true};
 }
 
-/// Bits of the vertices of a set, from the block of `begin` on, that are close to one point.
+/// Writes one bit for each vertex of a set from `begin` on, which begins a block: set if it is close to the point.
 HWY_INLINE void close_bits(float px, float py, float pz, const VertexSet& set, Index begin, float tolerance2,
                            std::uint64_t* words) {
   const V x = all(px), y = all(py), z = all(pz), limit = all(tolerance2);
@@ -147,28 +147,16 @@ HWY_INLINE void close_bits(float px, float py, float pz, const VertexSet& set, I
   bits.end();
 }
 
-void ContactsBetween(const VertexSet& a, const VertexSet& b, float tolerance2, std::size_t max_contacts, Words& words,
-                     std::vector<Contact>& contacts, const Exclusion& excluded) {
+/// within: a and b are one set, and vertex i is tested with those behind it.
+void ContactsOfSets(const VertexSet& a, const VertexSet& b, bool within, float tolerance2, std::size_t max_contacts,
+                    Words& words, std::vector<Contact>& contacts, const Exclusion& excluded) {
   if (words.size() < b.size / 64 + 2) words.resize(b.size / 64 + 2);
   for (Index i = 0; i < a.size; ++i) {
-    close_bits(a.x[i], a.y[i], a.z[i], b, 0, tolerance2, words.data());
-    for_bits(words.data(), b.size, [&](Index bit) HWY_ATTR {
-      const Contact pair{a.vertex[i], b.vertex[bit]};
-      if (!excluded(pair.a, pair.b)) contacts.push_back(pair);
-    });
-    if (contacts.size() > max_contacts) throw_too_many_contacts(max_contacts);
-  }
-}
-
-void ContactsWithin(const VertexSet& set, float tolerance2, std::size_t max_contacts, Words& words,
-                    std::vector<Contact>& contacts, const Exclusion& excluded) {
-  if (words.size() < set.size / 64 + 2) words.resize(set.size / 64 + 2);
-  for (Index i = 0; i + 1 < set.size; ++i) {
-    const Index begin = (i + 1) / lanes * lanes;
-    close_bits(set.x[i], set.y[i], set.z[i], set, begin, tolerance2, words.data());
-    words[0] &= ~std::uint64_t{0} << (i + 1 - begin);
-    for_bits(words.data(), set.size - begin, [&](Index bit) HWY_ATTR {
-      const Contact pair{set.vertex[i], set.vertex[begin + bit]};
+    const Index first = within ? i + 1 : 0, begin = first / lanes * lanes;
+    close_bits(a.x[i], a.y[i], a.z[i], b, begin, tolerance2, words.data());
+    words[0] &= ~std::uint64_t{0} << (first - begin);
+    for_bits(words.data(), b.size - begin, [&](Index bit) HWY_ATTR {
+      const Contact pair{a.vertex[i], b.vertex[begin + bit]};
       if (!excluded(pair.a, pair.b)) contacts.push_back(pair);
     });
     if (contacts.size() > max_contacts) throw_too_many_contacts(max_contacts);
@@ -200,8 +188,7 @@ HWY_AFTER_NAMESPACE();
 namespace collide::exact {
 
 HWY_EXPORT(FindFacingContacts);
-HWY_EXPORT(ContactsBetween);
-HWY_EXPORT(ContactsWithin);
+HWY_EXPORT(ContactsOfSets);
 HWY_EXPORT(ContactsOf);
 
 FacingResult find_facing_contacts(const VertexRun& a, Index first_a, const VertexRun& b, Index first_b,
@@ -224,12 +211,12 @@ void FacingScratch::reserve(Index size_a, Index size_b) {
 
 void contacts_between(const VertexSet& a, const VertexSet& b, float tolerance2, std::size_t max_contacts, Words& words,
                       std::vector<Contact>& contacts, const Exclusion& excluded) {
-  HWY_DYNAMIC_DISPATCH(ContactsBetween)(a, b, tolerance2, max_contacts, words, contacts, excluded);
+  HWY_DYNAMIC_DISPATCH(ContactsOfSets)(a, b, false, tolerance2, max_contacts, words, contacts, excluded);
 }
 
 void contacts_within(const VertexSet& set, float tolerance2, std::size_t max_contacts, Words& words,
                      std::vector<Contact>& contacts, const Exclusion& excluded) {
-  HWY_DYNAMIC_DISPATCH(ContactsWithin)(set, tolerance2, max_contacts, words, contacts, excluded);
+  HWY_DYNAMIC_DISPATCH(ContactsOfSets)(set, set, true, tolerance2, max_contacts, words, contacts, excluded);
 }
 
 void contacts_of(const VertexRun& run, Index first, Index i, float tolerance2, Words& words,

@@ -61,7 +61,6 @@ Index sweep_strip(const SweepStrips& boxes, Index i, Index begin, Index end, flo
 }
 
 void SweepStrips::resize(Index count) {
-  size = count;
   for (auto* bounds : {&lo, &hi, &centre}) {
     for (auto& values : *bounds) values.resize(std::size_t{count} + max_lanes);
   }

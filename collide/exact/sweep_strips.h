@@ -14,7 +14,6 @@ namespace collide::exact {
 struct SweepStrips {
   std::array<std::vector<float>, 3> lo, hi, centre;
   std::vector<float> radius;
-  Index size = 0;
 
   void resize(Index count);
 };

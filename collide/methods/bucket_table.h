@@ -21,9 +21,6 @@ class BucketTable {
     return run == 0 ? Range{0, 0} : Range{used_buckets_[run - 1].begin, used_buckets_[run].begin};
   }
 
-  std::size_t bytes() const {
-    return sizeof(Index) * (place_of_.capacity() + slot_.capacity()) + sizeof(UsedBucket) * used_buckets_.capacity();
-  }
   std::uint32_t buckets() const { return static_cast<std::uint32_t>(place_of_.size()); }
   /// Returns the loads of the used buckets, in the order of their slots.
   std::vector<BucketLoad> loads() const;

@@ -2,6 +2,8 @@
 // between its corners, and boxes are not padded by the tolerance, so contacts can be missed. And the same method made
 // complete: only its §2.2 differs, which says into which buckets a box goes.
 
+#include <glm/vector_relational.hpp>
+
 #include "collide/core/contact_search.h"
 #include "collide/core/cutoff.h"
 #include "collide/methods/box_table.h"
@@ -27,7 +29,7 @@ void for_each_corner(const Sides<T>& sides, const Visit& visit) {
   }
 }
 
-/// The cells' indices of its corners.
+/// Returns the indices of the cells that its corners lie in.
 Sides<std::int64_t> indices_of(const Aabb& box, const CellHash& hash) {
   Sides<std::int64_t> indices;
   for (int axis = 0; axis < 3; ++axis) {
@@ -37,10 +39,7 @@ Sides<std::int64_t> indices_of(const Aabb& box, const CellHash& hash) {
 }
 
 bool exceeds_cell(const Aabb& box, const glm::vec3& cell) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (double{box.hi[axis]} - double{box.lo[axis]} > double{cell[axis]}) return true;
-  }
-  return false;
+  return glm::any(glm::greaterThan(glm::dvec3(box.hi) - glm::dvec3(box.lo), glm::dvec3(cell)));
 }
 
 /// §2.2 to the letter: a box goes into the buckets of its eight corners. Corners lie on the borders of the body's cuts

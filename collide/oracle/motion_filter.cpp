@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+
+#include "collide/surface/box_tree.h"
 
 namespace collide::oracle {
 
@@ -11,25 +12,13 @@ namespace {
 
 using Answer = Filtered::Answer;
 
-/// Returns true if an axis separates the boxes of the two features, in the same order at both ends of the motion and
-/// therefore at all times.
+/// Returns true if the boxes of the two features prove that they do not meet.
 template <class Kind>
 bool boxes_are_separate(const Points& points) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  for (glm::length_t axis = 0; axis < 3; ++axis) {
-    double min[2][2] = {{inf, inf}, {inf, inf}}, max[2][2] = {{-inf, -inf}, {-inf, -inf}};  // of a feature, at a time
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      const std::size_t feature = k < Kind::first_size ? 0 : 1;
-      for (const std::size_t time : {0u, 1u}) {
-        const double x = (time == 0 ? points[k].from : points[k].to)[axis];
-        min[feature][time] = std::min(min[feature][time], x);
-        max[feature][time] = std::max(max[feature][time], x);
-      }
-    }
-    if (max[0][0] < min[1][0] && max[0][1] < min[1][1]) return true;
-    if (max[1][0] < min[0][0] && max[1][1] < min[0][1]) return true;
-  }
-  return false;
+  surface::MovingBox first, second;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    (k < Kind::first_size ? first : second).add(points[k].from, points[k].to);
+  return !overlap(first, second);
 }
 
 /// The filter halves the time of weights at most this often. What is still open then is nearly always so because of

@@ -34,6 +34,7 @@ struct Penetration {
   double depth;       // m: distance to the nearest point of the surface; > 0 unless it underflows; rounded
   glm::dvec3 point;   // m: the nearest point; rounded
   glm::dvec3 normal;  // unit vector from the vertex to that point: the shortest way out; rounded
+  bool operator==(const Penetration&) const = default;
 };
 
 /// An edge that passes through a face, of another body or of its own, with which it shares no vertex. If it passes
@@ -44,6 +45,7 @@ struct Piercing {
   Index triangle_body;
   Index triangle;    // of the surface of triangle_body
   glm::dvec3 point;  // m; rounded
+  bool operator==(const Piercing&) const = default;
 };
 
 /// All overlaps at one instant.
@@ -62,6 +64,7 @@ struct Crossing : MovingPair {  // vertices as numbers in the frame
   Index body, other;            // of `feature` and of `against`; edge_edge: body <= other
   double time;                  // 0 .. 1: of the first passage
   bool inward;                  // vertex_face: from the outer side of the face to its inner side
+  bool operator==(const Crossing&) const = default;
 };
 
 /// Finds all crossings between two frames, ascending, exactly: no passage is missed, and none is reported without a

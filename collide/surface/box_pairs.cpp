@@ -129,15 +129,16 @@ void BoxPairs::pick(const BoxList& list, const Aabb& box, BoxList& picked) {
 }
 
 void BoxPairs::between(const BoxList& a, const BoxList& b, std::vector<ItemPair>& pairs, std::size_t max_pairs) {
+  assert(&a != &b);
   pairs_ = &pairs;
   max_pairs_ = max_pairs;
-  cut_between(a, b, lowest_corner, 0);
+  cut(a, b, lowest_corner, 0);
 }
 
 void BoxPairs::within(const BoxList& list, std::vector<ItemPair>& pairs, std::size_t max_pairs) {
   pairs_ = &pairs;
   max_pairs_ = max_pairs;
-  cut_within(list, lowest_corner, 0);
+  cut(list, list, lowest_corner, 0);
 }
 
 /// Appends the pairs of box i of a with the boxes k >= begin of b. A pair belongs to the cell that contains the minimum
@@ -160,35 +161,28 @@ BoxPairs::Level& BoxPairs::level(std::size_t depth) {
   return *levels_[depth];
 }
 
-void BoxPairs::cut_between(const BoxList& a, const BoxList& b, const glm::vec3& cell_lo, std::size_t depth) {
-  const auto tests = [](const BoxList& one, const BoxList& other) { return std::uint64_t{one.size} * other.size; };
+void BoxPairs::cut(const BoxList& a, const BoxList& b, const glm::vec3& cell_lo, std::size_t depth) {
+  const bool within = &a == &b;
+  const auto tests = [&](const BoxList& one, const BoxList& other) {
+    return std::uint64_t{one.size} * other.size / (within ? 2 : 1);
+  };
   if (tests(a, b) > leaf_tests && depth < max_depth) {
-    const MidpointCut cut = cut_of(a.bounds());
+    const MidpointCut cut_here = cut_of(a.bounds());
     Level& own = level(depth);
-    filter_side(a, cut, true, own.low_a), filter_side(b, cut, true, own.low_b);
-    filter_side(a, cut, false, own.up_a), filter_side(b, cut, false, own.up_b);
-    if (tests(own.low_a, own.low_b) + tests(own.up_a, own.up_b) < tests(a, b) / 8 * 7) {
-      cut_between(own.low_a, own.low_b, cell_lo, depth + 1);
-      cut_between(own.up_a, own.up_b, above(cell_lo, cut), depth + 1);
+    filter_side(a, cut_here, true, own.low_a);
+    filter_side(a, cut_here, false, own.up_a);
+    if (!within) {
+      filter_side(b, cut_here, true, own.low_b);
+      filter_side(b, cut_here, false, own.up_b);
+    }
+    const BoxList &low_b = within ? own.low_a : own.low_b, &up_b = within ? own.up_a : own.up_b;
+    if (tests(own.low_a, low_b) + tests(own.up_a, up_b) < tests(a, b) / 8 * 7) {
+      cut(own.low_a, low_b, cell_lo, depth + 1);
+      cut(own.up_a, up_b, above(cell_lo, cut_here), depth + 1);
       return;
     }
   }
-  for (Index i = 0; i < a.size; ++i) test(a, i, b, 0, cell_lo);
-}
-
-void BoxPairs::cut_within(const BoxList& list, const glm::vec3& cell_lo, std::size_t depth) {
-  const auto tests = [](const BoxList& one) { return std::uint64_t{one.size} * one.size / 2; };
-  if (tests(list) > leaf_tests && depth < max_depth) {
-    const MidpointCut cut = cut_of(list.bounds());
-    Level& own = level(depth);
-    filter_side(list, cut, true, own.low_a), filter_side(list, cut, false, own.up_a);
-    if (tests(own.low_a) + tests(own.up_a) < tests(list) / 8 * 7) {
-      cut_within(own.low_a, cell_lo, depth + 1);
-      cut_within(own.up_a, above(cell_lo, cut), depth + 1);
-      return;
-    }
-  }
-  for (Index i = 0; i < list.size; ++i) test(list, i, list, i + 1, cell_lo);
+  for (Index i = 0; i < a.size; ++i) test(a, i, b, within ? i + 1 : 0, cell_lo);
 }
 
 }  // namespace collide::surface

@@ -54,8 +54,8 @@ class BoxPairs {
   struct Level {
     BoxList low_a, low_b, up_a, up_b;
   };
-  void cut_between(const BoxList& a, const BoxList& b, const glm::vec3& cell_lo, std::size_t depth);
-  void cut_within(const BoxList& list, const glm::vec3& cell_lo, std::size_t depth);
+  /// a and b: the same list for the pairs within it.
+  void cut(const BoxList& a, const BoxList& b, const glm::vec3& cell_lo, std::size_t depth);
   void test(const BoxList& a, Index i, const BoxList& b, Index begin, const glm::vec3& cell_lo);
   Level& level(std::size_t depth);
 

@@ -28,10 +28,7 @@ class ClosedShell {
   Nearest nearest_face(const glm::vec3& point) const;
 
  private:
-  glm::vec3 corner(Index face, std::size_t k) const {
-    const Index v = surface_.triangles()[face][k];
-    return {at_.x[v], at_.y[v], at_.z[v]};
-  }
+  glm::vec3 corner(Index face, std::size_t k) const { return at_[surface_.triangles()[face][k]]; }
 
   const Surface& surface_;
   VertexRun at_;

@@ -9,10 +9,9 @@
 #include <glm/matrix.hpp>
 
 namespace collide::surface {
-namespace {
 
 template <std::size_t corners>
-void join_features(const BoxList& vertices, const std::vector<std::array<Index, corners>>& features, BoxList& boxes) {
+void join(const BoxList& vertices, const std::vector<std::array<Index, corners>>& features, BoxList& boxes) {
   boxes.clear();
   boxes.reserve(static_cast<Index>(features.size()));
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -32,19 +31,8 @@ void join_features(const BoxList& vertices, const std::vector<std::array<Index, 
   boxes.end();
 }
 
-constexpr float max_deformation_share = 0.5f;  // of the mean edge, within one prediction
-
-glm::vec3 negative_part(const glm::vec3& v) { return glm::min(v, glm::vec3(0.0f)); }
-glm::vec3 positive_part(const glm::vec3& v) { return glm::max(v, glm::vec3(0.0f)); }
-
-}  // namespace
-
-void join(const BoxList& vertices, const std::vector<Triangle>& features, BoxList& boxes) {
-  join_features(vertices, features, boxes);
-}
-void join(const BoxList& vertices, const std::vector<Edge>& features, BoxList& boxes) {
-  join_features(vertices, features, boxes);
-}
+template void join(const BoxList& vertices, const std::vector<Edge>& features, BoxList& boxes);
+template void join(const BoxList& vertices, const std::vector<Triangle>& features, BoxList& boxes);
 
 void SweptBody::predict(const Motion& now, Index body, const SurfaceBody& traits, float begin, float end,
                         float min_seconds) {
@@ -66,7 +54,8 @@ void SweptBody::predict(const Motion& now, Index body, const SurfaceBody& traits
     for (auto& v : velocity_) v.assign(count_, 0.0f);
   fit_rigid_motion();
   bound_velocities();
-  limit_deformation(max_deformation_share * traits.mean_edge, min_seconds);
+  constexpr float max_share = 0.5f;  // of the mean edge
+  limit_deformation(max_share * traits.mean_edge, min_seconds);
 }
 
 void SweptBody::fit_rigid_motion() {
@@ -117,7 +106,8 @@ void SweptBody::bound_path() {
     hi = glm::max(hi, glm::max(x, x + seconds * relative));
   }
   local_box_ = {lo - traits_.skin, hi + traits_.skin};
-  world_box_ = {local_box_.lo + negative_part(drift(end_)), local_box_.hi + positive_part(drift(end_))};
+  const glm::vec3 none(0.0f), last = drift(end_);
+  world_box_ = {local_box_.lo + glm::min(last, none), local_box_.hi + glm::max(last, none)};
   // The boxes alone do not show a NaN: min and max may drop it.
   const glm::vec3 all = centre_ + mean_velocity_ + (world_box_.hi - world_box_.lo);
   live_ = std::isfinite(all.x + all.y + all.z + velocity_spread_);

@@ -116,8 +116,8 @@ class SweptBody {
   std::vector<MovingPoint> points_, deforming_points_;
 };
 
-/// Compute the boxes of faces or edges from the boxes of their vertices.
-void join(const BoxList& vertices, const std::vector<Triangle>& features, BoxList& boxes);
-void join(const BoxList& vertices, const std::vector<Edge>& features, BoxList& boxes);
+/// Computes the boxes of faces or edges from the boxes of their vertices.
+template <std::size_t corners>
+void join(const BoxList& vertices, const std::vector<std::array<Index, corners>>& features, BoxList& boxes);
 
 }  // namespace collide::surface

@@ -150,31 +150,30 @@ State pile(softbody::Scene scene, int threads) {
 constexpr std::array one_size{0.5};
 constexpr std::array mixed_sizes{0.25, 0.5, 0.75, 1.0};
 
-State pile_47(int threads) {
+softbody::Scene block_47() {
   softbody::Scene scene = block(4, 3, 4, one_size);
   scene.bodies.pop_back();
-  return in_motion(pile(std::move(scene), threads));
+  return scene;
 }
-State pile_500(int threads) { return in_motion(pile(block(10, 5, 10, one_size), threads)); }
-State overlap_500(int threads) { return in_motion(squeezed(pile(block(10, 5, 10, one_size), threads), 0.2)); }
-State mixed_500(int threads) { return in_motion(pile(block(10, 5, 10, mixed_sizes), threads)); }
-State pile_3125(int threads) { return in_motion(pile(block(25, 5, 25, one_size), threads)); }
-
-State falling_d(int threads) { return recorded("D", 19, threads); }
-State heap_d(int threads) { return recorded("D", 149, threads); }
-State asleep_d(int threads) { return recorded("D", 399, threads); }
-State full_container(int threads) { return recorded("container", 159, threads); }
+State pile_500(int threads) { return pile(block(10, 5, 10, one_size), threads); }
 
 constexpr std::array<Pile, 9> table{{
-    {"pile-47", "47 bodies at rest", 47, pile_47},
-    {"pile-500", "500 bodies at rest", 500, pile_500},
-    {"overlap-500", "the same, pulled together: neighbours overlap by 20 % of their diameter", 500, overlap_500},
-    {"mixed-500", "500 bodies of radius 0.25 to 1 m at rest", 500, mixed_500},
-    {"pile-3125", "3,125 bodies at rest", 3125, pile_3125},
-    {"D-20", "frames 20 to 59 of scene D: bodies hit the solid sphere and one another", 47, falling_d},
-    {"D-150", "frames 150 to 189 of scene D: a heap that moves slowly", 47, heap_d},
-    {"D-400", "frames 400 to 439 of scene D: most bodies sleep", 47, asleep_d},
-    {"container-160", "frames 160 to 199 of scene container: a crowd that settles", 47, full_container},
+    {"pile-47", "47 bodies at rest", 47, [](int threads) { return in_motion(pile(block_47(), threads)); }},
+    {"pile-500", "500 bodies at rest", 500, [](int threads) { return in_motion(pile_500(threads)); }},
+    {"overlap-500", "the same, pulled together: neighbours overlap by 20 % of their diameter", 500,
+     [](int threads) { return in_motion(squeezed(pile_500(threads), 0.2)); }},
+    {"mixed-500", "500 bodies of radius 0.25 to 1 m at rest", 500,
+     [](int threads) { return in_motion(pile(block(10, 5, 10, mixed_sizes), threads)); }},
+    {"pile-3125", "3,125 bodies at rest", 3125,
+     [](int threads) { return in_motion(pile(block(25, 5, 25, one_size), threads)); }},
+    {"D-20", "frames 20 to 59 of scene D: bodies hit the solid sphere and one another", 47,
+     [](int threads) { return recorded("D", 19, threads); }},
+    {"D-150", "frames 150 to 189 of scene D: a heap that moves slowly", 47,
+     [](int threads) { return recorded("D", 149, threads); }},
+    {"D-400", "frames 400 to 439 of scene D: most bodies sleep", 47,
+     [](int threads) { return recorded("D", 399, threads); }},
+    {"container-160", "frames 160 to 199 of scene container: a crowd that settles", 47,
+     [](int threads) { return recorded("container", 159, threads); }},
 }};
 
 }  // namespace

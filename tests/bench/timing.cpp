@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <random>
 
+#include <fmt/core.h>
 #include <time.h>
 
 #include "collide/methods.h"
@@ -69,14 +70,10 @@ void compare(const Runner& runner, const Runner& truth, const Course& course, st
   const auto [f, w] = std::mismatch(found.begin(), found.end(), wanted.begin(), wanted.end());
   const bool extra = w == wanted.end() || (f != found.end() && *f < *w);
   const collide::Contact at = extra ? *f : *w;
-  std::string line(runner.candidate().key);
-  line.append(": state ").append(course.state->key).append(", frame ").append(std::to_string(k));
-  line.append(", tolerance ").append(std::to_string(course.tolerance)).append(" edges: ");
-  line.append(std::to_string(found.size())).append(" contacts where ").append(truth.candidate().key);
-  line.append(" finds ").append(std::to_string(wanted.size())).append("; first ");
-  line.append(extra ? "too many" : "missing").append(": ");
-  line.append(std::to_string(at.a)).append(", ").append(std::to_string(at.b));
-  throw Difference(line);
+  throw Difference(
+      fmt::format("{}: state {}, frame {}, tolerance {:f} edges: {} contacts where {} finds {}; first {}: {}, {}",
+                  runner.candidate().key, course.state->key, k, course.tolerance, found.size(), truth.candidate().key,
+                  wanted.size(), extra ? "too many" : "missing", at.a, at.b));
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "ccd_truth.h"
 
 #include <algorithm>
-#include <functional>
 
 #include <gmpxx.h>
 
@@ -10,28 +9,41 @@ namespace collide::test {
 namespace {
 
 using Rational = mpq_class;
-using Point = std::array<Rational, 3>;
-using Points = std::array<Point, 4>;
-
 /// The coefficients of 1, t, t^2 ...; the last one is not 0.
 using Polynomial = std::vector<Rational>;
+using Point = std::array<Polynomial, 3>;
+using Points = std::array<Point, 4>;
 
 Polynomial trimmed(Polynomial p) {
   while (!p.empty() && p.back() == 0) p.pop_back();
   return p;
+}
+Polynomial operator-(Polynomial a, const Polynomial& b) {
+  a.resize(std::max(a.size(), b.size()));
+  for (std::size_t k = 0; k < b.size(); ++k) a[k] -= b[k];
+  return trimmed(std::move(a));
+}
+Polynomial operator*(const Polynomial& a, const Polynomial& b) {
+  Polynomial product(a.empty() || b.empty() ? 0 : a.size() + b.size() - 1);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t k = 0; k < b.size(); ++k) product[i + k] += a[i] * b[k];
+  }
+  return product;
 }
 Rational value(const Polynomial& p, const Rational& t) {
   Rational sum = 0;
   for (std::size_t k = p.size(); k-- > 0;) sum = sum * t + p[k];
   return sum;
 }
-Polynomial remainder(Polynomial a, const Polynomial& b) {
-  while (a.size() >= b.size()) {
-    const Rational factor = a.back() / b.back();
-    for (std::size_t k = 0; k < b.size(); ++k) a[a.size() - b.size() + k] -= factor * b[k];
-    a = trimmed(std::move(a));
+/// Returns a / b and leaves the remainder in a.
+Polynomial divide(Polynomial& a, const Polynomial& b) {
+  Polynomial quotient(a.size() < b.size() ? 0 : a.size() - b.size() + 1);
+  for (std::size_t at = quotient.size(); at-- > 0; a.pop_back()) {
+    quotient[at] = a.back() / b.back();
+    for (std::size_t k = 0; k < b.size(); ++k) a[at + k] -= quotient[at] * b[k];
   }
-  return a;
+  a = trimmed(std::move(a));
+  return quotient;
 }
 Polynomial derivative(const Polynomial& p) {
   Polynomial d;
@@ -40,7 +52,7 @@ Polynomial derivative(const Polynomial& p) {
 }
 Polynomial common_divisor(Polynomial a, Polynomial b) {
   while (!b.empty()) {
-    a = remainder(std::move(a), b);
+    divide(a, b);
     std::swap(a, b);
   }
   return a;
@@ -50,13 +62,7 @@ Polynomial common_divisor(Polynomial a, Polynomial b) {
 int count_roots(const Polynomial& p, const Rational& low, const Rational& high) {
   Polynomial a = p, b = derivative(p);
   if (const Polynomial divisor = common_divisor(a, b); divisor.size() > 1) {
-    Polynomial quotient;  // of p by the divisor, its last coefficient first
-    while (a.size() >= divisor.size()) {
-      quotient.push_back(a.back() / divisor.back());
-      for (std::size_t k = 0; k < divisor.size(); ++k) a[a.size() - divisor.size() + k] -= quotient.back() * divisor[k];
-      a.pop_back();
-    }
-    a = {quotient.rbegin(), quotient.rend()};
+    a = divide(a, divisor);
     b = derivative(a);
   }
   int changes[2] = {0, 0}, last[2] = {sgn(value(a, low)), sgn(value(a, high))};
@@ -66,7 +72,7 @@ int count_roots(const Polynomial& p, const Rational& low, const Rational& high) 
       if (sign != 0 && sign == -last[end]) ++changes[end];
       if (sign != 0) last[end] = sign;
     }
-    a = remainder(std::move(a), b);
+    divide(a, b);
     for (Rational& x : a) x = -x;
     std::swap(a, b);
   }
@@ -105,36 +111,15 @@ void find_roots(const Polynomial& p, const Rational& low, const Rational& high, 
   find_roots(p, middle, high, roots);
 }
 
-Points points_at(const Query& query, const Rational& t) {
+Points points_of(const Query& query) {
   Points points;
   for (std::size_t k = 0; k < 4; ++k) {
     for (glm::length_t axis = 0; axis < 3; ++axis) {
       const Rational from = query.points[k].from[axis], to = query.points[k].to[axis];
-      points[k][static_cast<std::size_t>(axis)] = from + t * (to - from);
+      points[k][static_cast<std::size_t>(axis)] = trimmed({from, Rational(to - from)});
     }
   }
   return points;
-}
-
-/// Interpolates a function of the points that is a polynomial of the time of at most that degree (Newton).
-Polynomial polynomial_of(const Query& query, const std::function<Rational(const Points&)>& f, int degree) {
-  std::vector<Rational> differences;
-  for (int k = 0; k <= degree; ++k) differences.push_back(f(points_at(query, k)));
-  Polynomial p, product{1};
-  for (int k = 0; k <= degree; ++k) {
-    p.resize(product.size());
-    for (std::size_t i = 0; i < product.size(); ++i) p[i] += differences[0] * product[i];
-    // The next product is this one times (t - k) / (k + 1).
-    Polynomial next(product.size() + 1);
-    for (std::size_t i = 0; i < product.size(); ++i) {
-      next[i + 1] += product[i] / (k + 1);
-      next[i] -= product[i] * k / (k + 1);
-    }
-    product = std::move(next);
-    for (std::size_t i = 0; i + 1 < differences.size(); ++i) differences[i] = differences[i + 1] - differences[i];
-    differences.pop_back();
-  }
-  return trimmed(std::move(p));
 }
 
 /// Returns the values of a polynomial shortly before and after its root.
@@ -149,13 +134,13 @@ std::array<Rational, 2> around(Root root, const Polynomial& p) {
 }
 
 /// Returns twice the area of three points, seen along an axis.
-Rational area(const Point& a, const Point& b, const Point& c, std::size_t axis) {
+Polynomial area(const Point& a, const Point& b, const Point& c, std::size_t axis) {
   const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
   return (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
 }
-Rational volume(const Points& p) {
-  Rational sum = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) sum += (p[0][axis] - p[1][axis]) * area(p[1], p[2], p[3], axis);
+Polynomial volume(const Points& p) {
+  Polynomial sum;
+  for (std::size_t axis = 0; axis < 3; ++axis) sum = sum - (p[1][axis] - p[0][axis]) * area(p[1], p[2], p[3], axis);
   return sum;
 }
 
@@ -167,25 +152,15 @@ struct Signs {
   std::array<std::array<std::array<Polynomial, 4>, 4>, 3> differences;  // by axis, of point i less point k
   std::array<Polynomial, 3> normals;                                    // of two edges
 
-  explicit Signs(const Query& query) {
-    side = polynomial_of(query, volume, 3);
+  explicit Signs(const Points& p) : side(volume(p)) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (std::size_t k = 0; k < 4; ++k) {
         const std::size_t a = k == 0 ? 1 : 0, b = k <= 1 ? 2 : 1, c = k <= 2 ? 3 : 2;
-        areas[axis][k] = polynomial_of(
-            query, [&](const Points& p) { return area(p[a], p[b], p[c], axis); }, 2);
-        for (std::size_t i = 0; i < 4; ++i) {
-          differences[axis][i][k] = polynomial_of(
-              query, [&](const Points& p) { return Rational(p[i][axis] - p[k][axis]); }, 1);
-        }
+        areas[axis][k] = area(p[a], p[b], p[c], axis);
+        for (std::size_t i = 0; i < 4; ++i) differences[axis][i][k] = p[i][axis] - p[k][axis];
       }
-      normals[axis] = polynomial_of(
-          query,
-          [&](const Points& p) {
-            const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-            return Rational((p[1][u] - p[0][u]) * (p[3][v] - p[2][v]) - (p[1][v] - p[0][v]) * (p[3][u] - p[2][u]));
-          },
-          2);
+      const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+      normals[axis] = (p[1][u] - p[0][u]) * (p[3][v] - p[2][v]) - (p[1][v] - p[0][v]) * (p[3][u] - p[2][u]);
     }
   }
 
@@ -241,7 +216,7 @@ struct Signs {
 
 /// The times of meetings are a closed set, and where they begin, one of the polynomials has a root.
 Truth truth_of(const Query& query) {
-  const Signs signs(query);
+  const Signs signs(points_of(query));
   Truth truth;
   const bool planar = signs.side.empty();
   std::vector<Root> times{{{}, 0, 0}};

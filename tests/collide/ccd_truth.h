@@ -1,7 +1,6 @@
 #pragma once
 // The truth about a query of continuous collision detection, in rational numbers, slow and written apart from the code
-// under test: polynomials in t by interpolation, roots by Sturm's theorem, features compared in projections along the
-// axes.
+// under test: polynomials in t, roots by Sturm's theorem, features compared in projections along the axes.
 
 #include "ccd_queries.h"
 

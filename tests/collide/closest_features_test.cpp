@@ -17,21 +17,6 @@ namespace {
 
 using glm::dvec3;
 
-double distance_to_segment(const dvec3& p, const dvec3& a, const dvec3& b) {
-  const double length2 = glm::dot(b - a, b - a);
-  const double t = length2 > 0 ? std::clamp(glm::dot(p - a, b - a) / length2, 0.0, 1.0) : 0;
-  return glm::length(p - (a + t * (b - a)));
-}
-
-double distance_to_face(const dvec3& p, const dvec3& a, const dvec3& b, const dvec3& c) {
-  const double border =
-      std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
-  const dvec3 n = glm::cross(b - a, c - a);
-  const bool inside = glm::dot(glm::cross(b - a, p - a), n) > 0 && glm::dot(glm::cross(c - b, p - b), n) > 0 &&
-                      glm::dot(glm::cross(a - c, p - c), n) > 0;
-  return inside ? std::min(border, std::abs(glm::dot(p - a, n)) / glm::length(n)) : border;
-}
-
 double distance_of_edges(const dvec3& p, const dvec3& q, const dvec3& r, const dvec3& s) {
   const double ends = std::min({distance_to_segment(p, r, s), distance_to_segment(q, r, s),
                                 distance_to_segment(r, p, q), distance_to_segment(s, p, q)});

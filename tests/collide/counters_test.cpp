@@ -22,10 +22,7 @@ State cube(float at) {
 }
 
 Settings cells_of(float size, std::uint32_t buckets = 1001) {
-  Settings settings;
-  settings.cell_size = glm::vec3(size);
-  settings.buckets = buckets;
-  return settings;
+  return {.buckets = buckets, .cell_size = glm::vec3(size)};
 }
 
 struct Case {
@@ -114,8 +111,7 @@ TEST(Counters, ShowThatABodyFarAwayTakesNoCellsOfTheSortedGridFromAPile) {
   std::mt19937 random(3);
   State pile;
   for (const glm::vec3& at : random_points(random, 60, -1, 1)) pile.add(moved(ball, at));
-  Settings settings;
-  settings.tolerance = 0.02f;
+  const Settings settings{.tolerance = 0.02f};
   const std::uint64_t alone = detect("sorted-grid", pile, settings).counters.pair_tests;
   for (int axis = 0; axis < 3; ++axis) {
     State with_another = pile;

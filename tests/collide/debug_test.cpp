@@ -23,10 +23,7 @@ DebugGeometry picture(std::string_view method, const State& state, const Setting
 }
 
 Settings settings_of(const State& state, float cell) {
-  Settings settings;
-  settings.tolerance = state.tolerance;
-  settings.cell_size = glm::vec3(cell);
-  return settings;
+  return {.tolerance = state.tolerance, .cell_size = glm::vec3(cell)};
 }
 
 TEST(Debug, IsEmptyBeforeTheFirstFrame) {

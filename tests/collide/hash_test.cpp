@@ -1,11 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <array>
 #include <limits>
-#include <random>
-#include <vector>
 
-#include "collide/methods/bucket_table.h"
 #include "collide/methods/cell_hash.h"
 
 namespace collide::test {
@@ -14,10 +11,7 @@ using namespace collide::methods;
 namespace {
 
 CellHash hash_of(std::uint32_t buckets, const glm::vec3& cell = glm::vec3(1)) {
-  Settings settings;
-  settings.buckets = buckets;
-  settings.cell_size = cell;
-  return CellHash(settings);
+  return CellHash({.buckets = buckets, .cell_size = cell});
 }
 
 /// Worked out outside of the program with whole numbers of any length, primes 73856093, 19349669, 83492791.
@@ -46,8 +40,7 @@ TEST(CellHash, EqualsValuesComputedByHand) {
 }
 
 TEST(CellHash, DoesNotOverflowWithTheLargestPrimesAndCounts) {
-  Settings settings;
-  settings.cell_size = glm::vec3(1);
+  Settings settings{.cell_size = glm::vec3(1)};
   settings.buckets = max_buckets - 1;  // 2^24 - 1, so 2^32 - 1 = 255 modulo it
   settings.primes = {0xffffffffu, 0xffffffffu, 0xffffffffu};
   const std::int64_t last = settings.buckets - 1;  // -1 modulo the count
@@ -69,57 +62,7 @@ TEST(CellHash, ClampsWhatNoIntegerHolds) {
   EXPECT_EQ(hash.index(0, 1e38), limit);
   EXPECT_EQ(hash.index(1, -1e38), -limit);
   EXPECT_EQ(hash.index(2, std::numeric_limits<double>::infinity()), limit);
-}
-
-TEST(CellRange, CountsAndVisitsItsCellsMinimumFirst) {
-  const CellRange range{{-1, 4, 0}, {0, 4, 2}};
-  std::vector<CellHash::Cell> visited;
-  range.for_each([&](const CellHash::Cell& cell) { visited.push_back(cell); });
-  EXPECT_EQ(range.count(), 6.0);
-  EXPECT_EQ(visited.size(), 6u);
-  EXPECT_EQ(visited.front(), range.lo);
-  EXPECT_EQ(visited.back(), range.hi);
-  constexpr std::int64_t limit = std::int64_t{1} << 60;
   EXPECT_GT((CellRange{{-limit, -limit, -limit}, {limit, limit, limit}}.count()), 0x1p182);
-}
-
-TEST(CellRange, IsListedInAtLeast27CellsAndInMoreWhileThereIsRoom) {
-  for (const double vertices : {1.0, 1e4, 1e7, 4e9}) {
-    EXPECT_EQ(max_listed_cells(vertices, 0), 27);
-    EXPECT_EQ(max_listed_cells(vertices, 50), 50);
-    EXPECT_EQ(max_listed_cells(vertices), std::clamp(vertices / 32, 64.0, room_for_cells));
-  }
-}
-
-TEST(BucketTable, GivesALargeTableBack) {
-  const std::vector<std::uint32_t> bucket{3, 0, 3};
-  BucketTable table;
-  table.build(bucket, max_buckets);
-  EXPECT_GE(table.bytes(), std::size_t{4} * max_buckets);
-  table.build(bucket, 101);
-  EXPECT_LE(table.bytes(), 10'000u);
-}
-
-TEST(BucketTable, SortsEntriesStablyTableAfterTable) {
-  std::mt19937 random(3);
-  BucketTable table;
-  for (const std::uint32_t buckets : {7u, 7u, 1000u, 1000u, 3u, 3u, 1u, 7u}) {
-    std::vector<std::uint32_t> bucket(random() % 200);
-    for (std::uint32_t& b : bucket) b = random() % buckets;
-    table.build(bucket, buckets);
-    EXPECT_EQ(table.buckets(), buckets);
-    std::vector<std::uint32_t> load(buckets, 0);
-    for (const BucketLoad& one : table.loads()) load[one.bucket] = one.load;
-    for (std::uint32_t b = 0; b < buckets; ++b) {
-      std::uint32_t slot = table.slots(b).begin;
-      for (std::size_t e = 0; e < bucket.size(); ++e)
-        if (bucket[e] == b) {
-          EXPECT_EQ(table.slot(e), slot++);
-        }
-      EXPECT_EQ(table.slots(b).end, slot);
-      EXPECT_EQ(table.slots(b).size(), load[b]);
-    }
-  }
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <stdexcept>
 
 #include "collide/core/body_boxes.h"
@@ -45,43 +44,7 @@ TEST(Limits, PairsThatAreCloseAtRestDoNotCount) {
   EXPECT_TRUE(detect("multi-level-sb-exact", crowd, {}).contacts.empty());
 }
 
-/// Bodies of one vertex each: some in one place, some a hair more or less than the tolerance apart, some so near or far
-/// that a square of their distance is no float.
-State at_the_ends_of_floats(float tolerance) {
-  State state;
-  state.tolerance = tolerance;
-  std::mt19937 random(13);
-  for (const float place : {0.0f, 1e-45f, -1e-40f, 1e-30f, -1e-21f, 1e19f, -5e29f, 1e30f, 3.4e38f}) {
-    const glm::vec3 centre(place, -place, 0);
-    state.add({centre});
-    state.add({centre});
-    for (const float factor : {1e-5f, 0.9999f, 1.0001f, 1e5f}) {
-      const glm::vec3 direction = random_points(random, 1, 0.2f, 1)[0];
-      state.add({centre + direction * (tolerance * factor / std::hypot(direction.x, direction.y, direction.z))});
-    }
-  }
-  return state;
-}
-
-TEST(Limits, ContactsAreThoseOfTrueDistances) {
-  for (const float tolerance : {min_tolerance, 1e-9f, 1e9f, max_tolerance}) {
-    const State state = at_the_ends_of_floats(tolerance);
-    std::vector<Contact> expected;
-    for (Index a = 0; a < state.x.size(); ++a)
-      for (Index b = a + 1; b < state.x.size(); ++b)
-        if (distance(position(state.frame(), a), position(state.frame(), b)) < static_cast<long double>(tolerance))
-          expected.push_back({a, b});
-    Settings settings = metre_cells();
-    settings.tolerance = tolerance;
-    ASSERT_EQ(problem(settings), "");
-    for (const Method& method : method_table()) {
-      if (!method.exact) continue;
-      EXPECT_EQ(detect(method.key, state, settings).contacts, expected) << method.key << ", tolerance " << tolerance;
-    }
-  }
-}
-
-TEST(Limits, PairsOfNearBodies) {
+TEST(BodyPairs, ThrowsBeyondItsLimit) {
   State crowd;
   for (int body = 0; body < 20; ++body) crowd.add({glm::vec3(0)});
   Result result;

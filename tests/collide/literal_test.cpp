@@ -66,12 +66,11 @@ TEST(Literal, TestsExactlyTheVerticesOfBoxesThatShareABucket) {
     const State state = named.make();
     for (const int levels : {0, 2, 5, 9}) {
       for (const bool self : {true, false}) {
-        Settings settings;
-        settings.tolerance = state.tolerance;
-        settings.self_collision = self;
-        settings.levels = levels;
-        settings.buckets = 251;
-        settings.cell_size = glm::vec3(0.4f);
+        const Settings settings{.tolerance = state.tolerance,
+                                .self_collision = self,
+                                .levels = levels,
+                                .buckets = 251,
+                                .cell_size = glm::vec3(0.4f)};
         const auto detector = find_method("multi-level-sb")->make();
         Result result;
         detector->detect(state.frame(), settings, workers, result);
@@ -89,9 +88,7 @@ TEST(Literal, TestsExactlyTheVerticesOfBoxesThatShareABucket) {
 TEST(Literal, TellsAlongEachAxisWhetherABoxExceedsACell) {
   State state;
   state.add({glm::vec3(0), glm::vec3(1, 2, 3)});
-  Settings settings;
-  settings.levels = 0;
-  settings.cell_size = glm::vec3{1, 2, 3};
+  const Settings settings{.levels = 0, .cell_size = glm::vec3{1, 2, 3}};
   EXPECT_EQ(detect("multi-level-sb", state, settings).coverage, Coverage::covered);
   for (int axis = 0; axis < 3; ++axis) {
     Settings smaller = settings;

@@ -29,12 +29,7 @@ std::vector<Settings> all_settings(const State& state, const Method& method) {
     for (const std::uint32_t count :
          method.uses_hash ? std::vector(buckets.begin(), buckets.end()) : std::vector{101u}) {
       for (const glm::vec3& cell : cell_sizes(state, level)) {
-        Settings settings;
-        settings.tolerance = state.tolerance;
-        settings.levels = level;
-        settings.buckets = count;
-        settings.cell_size = cell;
-        all.push_back(settings);
+        all.push_back({.tolerance = state.tolerance, .levels = level, .buckets = count, .cell_size = cell});
         if (!method.uses_hash) break;
       }
     }
@@ -69,13 +64,15 @@ Bench* Matrix::bench_ = nullptr;
 
 TEST_P(Matrix, FindsWhatTheOracleFinds) {
   const State state = GetParam().make();
-  Settings settings;
-  settings.tolerance = state.tolerance;
+  Settings settings{.tolerance = state.tolerance};
   const std::vector<Contact> with_self = oracle(state, settings);
   settings.self_collision = false;
   const std::vector<Contact> between = oracle(state, settings);
   const std::size_t inside = inside_bodies(state, with_self).size();
   ASSERT_EQ(inside, with_self.size() - between.size());
+  std::vector<Index> non_finite;
+  for (Index body = 0; body < state.bodies.count(); ++body)
+    if (!finite(state, body)) non_finite.push_back(body);
 
   for (std::size_t m = 0; m < method_table().size(); ++m) {
     const Method& method = method_table()[m];
@@ -85,6 +82,7 @@ TEST_P(Matrix, FindsWhatTheOracleFinds) {
       const std::vector<Contact>& expected = tried.self_collision ? with_self : between;
       Result result;
       bench_->detectors[m]->detect(state.frame(), tried, workers, result);
+      ASSERT_EQ(result.non_finite_bodies, non_finite) << describe(method, tried);
       if (method.exact) {
         ASSERT_EQ(result.contacts, expected) << describe(method, tried);
         ASSERT_EQ(result.self_contacts, tried.self_collision ? inside : 0) << describe(method, tried);
@@ -106,9 +104,7 @@ TEST_P(Matrix, FindsTheSameOnAnyNumberOfThreadsAndTheNextTime) {
   const State other = named_states()[1].make();
   for (const Method& method : method_table()) {
     for (const float cell : {0.02f, 0.6f}) {
-      Settings settings;
-      settings.tolerance = state.tolerance;
-      settings.cell_size = glm::vec3(cell);
+      const Settings settings{.tolerance = state.tolerance, .cell_size = glm::vec3(cell)};
       const Result first = detect(method.key, state, settings);
       const std::unique_ptr<Detector> kept = method.make();
       for (Workers& workers : bench_->workers) {
@@ -130,9 +126,7 @@ TEST_P(Matrix, FindsTheSameOnAnyNumberOfThreadsAndTheNextTime) {
 /// Four frames each: from the third on, the exact method keeps the contacts of bodies at rest.
 TEST_P(Matrix, FindsTheSameContactsOnEveryTarget) {
   const State state = GetParam().make();
-  Settings settings;
-  settings.tolerance = state.tolerance;
-  settings.cell_size = glm::vec3(0.6f);
+  const Settings settings{.tolerance = state.tolerance, .cell_size = glm::vec3(0.6f)};
   for (const Method& method : method_table()) {
     const std::vector<Contact> expected = detect(method.key, state, settings).contacts;
     for (const std::int64_t target : targets()) {

@@ -44,6 +44,9 @@ inline Scene MovingScene::after(float time, std::mt19937& random) const {
   return later;
 }
 
+/// The velocity of what is at rest.
+inline glm::vec3 still(const glm::vec3&) { return glm::vec3(0); }
+
 /// A search, after find().
 struct SearchRun {
   SurfaceSearch search;

@@ -54,8 +54,7 @@ TEST(PatchSearch, FindsWhatTheOracleFindsOnEveryTargetAndNumberOfThreads) {
   for (int rest = 0; rest < 3; ++rest) frames.push_back(State(frames.back()));
   frames.back().x[frames.back().bodies.first[1] + 7] = nan;
   std::array<Workers, 3> workers{Workers(1), Workers(3, 0), Workers(7, 0)};
-  Settings settings;
-  settings.tolerance = frames.front().tolerance;
+  Settings settings{.tolerance = frames.front().tolerance};
   for (const bool self : {true, false}) {
     settings.self_collision = self;
     std::vector<std::vector<Contact>> expected;
@@ -88,8 +87,7 @@ class WideTolerance : public testing::Test {
     for (int body = 0; body < bodies; ++body) {
       state.add(shape, moved(ball_.vertices, glm::vec3(0.05f * static_cast<float>(body), 0, 0)));
     }
-    Settings settings;
-    settings.tolerance = tolerance;
+    const Settings settings{.tolerance = tolerance};
     Result result = detect("multi-level-sb-exact", state, settings, 2);
     EXPECT_TRUE(result.contacts == oracle(state, settings));
     return result;

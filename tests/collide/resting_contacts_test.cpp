@@ -115,17 +115,9 @@ TEST_P(KeptContacts, AreDroppedWithOtherBodiesOrShapes) {
   see(state, "another shape");
   EXPECT_GT(result_.contacts.size(), before);
   rest("another shape");
+  const State fewer = state;
   state.add(other_shape, moved(icosphere(1, 0.5f).vertices, glm::vec3(0.4f)));
   rest("one more");
-  State fewer;  // without the first
-  fewer.tolerance = tolerance;
-  for (Index body = 1; body < state.bodies.count(); ++body) {
-    std::vector<glm::vec3> vertices;
-    for (Index v = state.bodies.first[body]; v < state.bodies.first[body + 1]; ++v) {
-      vertices.push_back({state.x[v], state.y[v], state.z[v]});
-    }
-    fewer.add(state.bodies.shape[body], vertices);
-  }
   state = fewer;
   rest("one less");
 }
@@ -191,15 +183,14 @@ TEST(RestingContacts, AreNoneAfterAFrameThatWasNotStored) {
   const State state = pile(2);
   const Frame frame = state.frame();
   Workers workers(1);
-  Settings settings;
-  settings.tolerance = state.tolerance;
+  const Settings settings{.tolerance = state.tolerance};
   BodyPairSearch search;
   RestingContacts resting;
   std::vector<Index> non_finite;
   const auto kept = [&](bool stored) {
     search.find_bounds(frame, workers, non_finite);
     resting.observe(frame, settings, search.bounds(), workers);
-    search.find(frame, {settings.tolerance, true, 3, 1000}, resting, workers);
+    search.find(frame, settings, resting, workers);
     const bool any = resting.group(0, search.near()).has_value();
     std::vector<Contact> contacts;
     search.concatenate(workers, contacts);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -147,20 +148,15 @@ TEST(SelfCollisionCulling, HoldsWhereSquaresUnderflowOrOverflow) {
   const Ball ball = icosphere(1, 1);
   const Topology topology(42, ball.edges);
   std::mt19937 random(63);
+  const auto scaled = [](std::vector<glm::vec3> points, float by) {
+    for (glm::vec3& p : points) p *= by;
+    return points;
+  };
   for (const float scale : {1e-22f, 1e-20f, 1e-19f, 1e-18f, 1e17f, 1e18f, 1e19f, 3e19f, 1e25f}) {
-    std::vector<glm::vec3> rest = ball.vertices;
-    for (glm::vec3& p : rest) p *= scale;
-    const float tolerance = 0.2f * scale;
-    const Points3 positions(rest);
-    const CullingReference reference(positions.run(), topology, contact_cutoff(tolerance));
-    if (!reference.usable()) continue;
-    for (int kind = 0; kind < 10; ++kind) {
-      for (int trial = 0; trial < 20; ++trial) {
-        std::vector<glm::vec3> points = deformed(ball.vertices, kind, random);
-        for (glm::vec3& p : points) p *= scale;
-        culled(reference, topology, points, tolerance);
-      }
-    }
+    const Points3 rest(scaled(ball.vertices, scale));
+    const CullingReference reference(rest.run(), topology, contact_cutoff(0.2f * scale));
+    for (int trial = 0; reference.usable() && trial < 200; ++trial)
+      culled(reference, topology, scaled(deformed(ball.vertices, trial % 10, random), scale), 0.2f * scale);
   }
 }
 
@@ -173,14 +169,8 @@ TEST(SelfCollisionCulling, HoldsForABodyFarLargerThanItsReference) {
   std::vector<glm::vec3> points = ball.vertices;
   for (glm::vec3& p : points) p *= 5e18f;
   const Index unsampled = 20;  // not one of for_samples()
-  Index opposite = 0;
-  for (Index v = 0; v < 162; ++v) {
-    if (points[v].x * points[unsampled].x + points[v].y * points[unsampled].y + points[v].z * points[unsampled].z <
-        -2e37f) {
-      opposite = v;
-    }
-  }
-  points[unsampled] = points[opposite];
+  points[unsampled] = *std::ranges::min_element(
+      points, {}, [at = points[unsampled]](const glm::vec3& p) { return glm::dot(p, at); });  // the opposite one
   culled(reference, topology, points, 0.1f);
 }
 

@@ -80,10 +80,9 @@ TEST(AutomaticCellSize, IsAllowedAndCoversOnEveryState) {
   for (const NamedState& named : named_states()) {
     const State state = named.make();
     for (int levels = 0; levels <= max_levels; ++levels) {
-      Settings settings;
-      settings.tolerance = state.tolerance;
-      settings.levels = levels;
-      settings.cell_size = automatic_cell_size(state.frame(), levels, state.tolerance);
+      const Settings settings{.tolerance = state.tolerance,
+                              .levels = levels,
+                              .cell_size = automatic_cell_size(state.frame(), levels, state.tolerance)};
       EXPECT_EQ(problem(settings), "") << named.name;
       if (named.name.find("scattered") == 0 || named.name.find("toler") != std::string::npos) continue;  // beyond float
       EXPECT_EQ(detect("multi-level-sb", state, settings).coverage, Coverage::covered) << named.name << levels;

@@ -69,8 +69,7 @@ TEST(Skipped, NamesWhatEachSituationLetsTheExactMethodLeaveOut) {
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.what);
-    Settings settings;
-    settings.self_collision = c.self_collision;
+    const Settings settings{.self_collision = c.self_collision};
     const Result result = detect("multi-level-sb-exact", c.state, settings);
     EXPECT_EQ(result.skipped, c.skipped);
     EXPECT_LE(result.counters.pair_tests, c.most_tests);

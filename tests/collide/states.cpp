@@ -56,20 +56,14 @@ State crumpled() {
 }
 
 /// Whole numbers: vertices, midpoints and cell borders fall on each other, and distances equal the tolerance exactly.
-State lattice() {
+State lattice(float tolerance) {
   State state;
   std::vector<glm::vec3> cube;
   for (int i = 0; i < 125; ++i) {
     cube.push_back(glm::vec3(static_cast<float>(i % 5), static_cast<float>(i / 5 % 5), static_cast<float>(i / 25)));
   }
   for (const float offset : {-4.0f, 0.0f, 3.0f, 5.0f}) state.add(moved(cube, glm::vec3(offset, 0, -offset)));
-  state.tolerance = 1.0f;  // neighbours are 1 apart and no contact
-  return state;
-}
-
-State lattice_just_reached() {
-  State state = lattice();
-  state.tolerance = std::nextafter(1.0f, 2.0f);
+  state.tolerance = tolerance;
   return state;
 }
 
@@ -104,8 +98,6 @@ State small_bodies() {
   state.tolerance = 0.3f;
   return state;
 }
-
-State no_bodies() { return {}; }
 
 State empty_bodies() {
   State state;
@@ -269,12 +261,12 @@ const std::vector<NamedState>& named_states() {
       {"settled_at_1e6", [] { return settled(1, 2, true, glm::vec3(1e6f, -1e6f, 0), 0.5f); }},
       {"settled_at_4e19", [] { return settled(1, 2, true, glm::vec3(-4e19f, 4e19f, 4e19f), 4e18f); }},
       {"crumpled", crumpled},
-      {"lattice", lattice},
-      {"lattice_just_reached", lattice_just_reached},
+      {"lattice", [] { return lattice(1); }},  // neighbours are 1 apart and no contact
+      {"lattice_just_reached", [] { return lattice(std::nextafter(1.0f, 2.0f)); }},
       {"coincident", coincident},
       {"flat", flat},
       {"small_bodies", small_bodies},
-      {"no_bodies", no_bodies},
+      {"no_bodies", [] { return State(); }},
       {"empty_bodies", empty_bodies},
       {"not_finite", not_finite},
       {"scattered", scattered},
@@ -290,18 +282,22 @@ const std::vector<NamedState>& named_states() {
   return states;
 }
 
+bool finite(const State& state, Index body) {
+  bool all = true;
+  for (Index v = state.bodies.first[body]; v < state.bodies.first[body + 1]; ++v) {
+    all = all && std::isfinite(state.x[v]) && std::isfinite(state.y[v]) && std::isfinite(state.z[v]);
+  }
+  return all;
+}
+
 std::vector<Contact> oracle(const State& state, const Settings& settings) {
   const float tolerance2 = settings.tolerance * settings.tolerance;
   const Bodies& bodies = state.bodies;
   std::vector<Index> body_of;
-  std::vector<bool> finite;
+  std::vector<bool> finite_bodies;
   for (Index body = 0; body < bodies.count(); ++body) {
-    bool all = true;
-    for (Index v = bodies.first[body]; v < bodies.first[body + 1]; ++v) {
-      all = all && std::isfinite(state.x[v]) && std::isfinite(state.y[v]) && std::isfinite(state.z[v]);
-    }
     body_of.insert(body_of.end(), bodies.size(body), body);
-    finite.push_back(all);
+    finite_bodies.push_back(finite(state, body));
   }
   std::vector<Contact> contacts;
   for (Index i = 0; i < state.x.size(); ++i) {
@@ -309,7 +305,7 @@ std::vector<Contact> oracle(const State& state, const Settings& settings) {
       const float dx = state.x[i] - state.x[j], dy = state.y[i] - state.y[j], dz = state.z[i] - state.z[j];
       if (!(dx * dx + dy * dy + dz * dz < tolerance2)) continue;
       const Index a = body_of[i], b = body_of[j];
-      if (!finite[a] || !finite[b]) continue;
+      if (!finite_bodies[a] || !finite_bodies[b]) continue;
       if (a == b && !settings.self_collision) continue;
       if (a == b && bodies.shape[a]->excludes(i - bodies.first[a], j - bodies.first[a], tolerance2)) continue;
       contacts.push_back({i, j});
@@ -320,11 +316,8 @@ std::vector<Contact> oracle(const State& state, const Settings& settings) {
 
 std::vector<Contact> inside_bodies(const State& state, const std::vector<Contact>& contacts) {
   std::vector<Contact> inside;
-  for (const Contact& contact : contacts) {
-    Index body = 0;
-    while (state.bodies.first[body + 1] <= contact.a) ++body;
-    if (contact.b < state.bodies.first[body + 1]) inside.push_back(contact);
-  }
+  for (const Contact& contact : contacts)
+    if (state.bodies.body_of(contact.a) == state.bodies.body_of(contact.b)) inside.push_back(contact);
   return inside;
 }
 

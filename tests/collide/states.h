@@ -40,6 +40,8 @@ struct NamedState {
 };
 const std::vector<NamedState>& named_states();
 
+/// Whether all positions of a body are finite.
+bool finite(const State& state, Index body);
 /// All contacts by the plain double loop, written without the code under test except Shape::excludes.
 std::vector<Contact> oracle(const State& state, const Settings& settings);
 /// Those of the contacts that lie inside one body.

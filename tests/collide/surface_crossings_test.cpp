@@ -43,16 +43,6 @@ TEST(FindCrossings, FindsEntryAndExitOfASphereThroughASphere) {
   }
 }
 
-TEST(FindCrossings, FindsNoneInANearMiss) {
-  const SurfaceMesh cloth = sheet(8, 4);
-  const Scene before{moved(ball(0.5f), glm::vec3(0, 1, 0)), cloth};
-  EXPECT_EQ(figures_of(before, Scene{moved(ball(0.5f), glm::vec3(3, 0.501f, 0)), cloth}), SurfaceFigures{});
-  // Both move far in one step, one behind the other.
-  const Scene two{ball(0.5f), moved(ball(0.5f), glm::vec3(1.01f, 0, 0))};
-  const Scene flown{moved(ball(0.5f), glm::vec3(900, 0, 0)), moved(ball(0.5f), glm::vec3(901.01f, 0, 0))};
-  EXPECT_EQ(figures_of(two, flown), SurfaceFigures{});
-}
-
 /// Two narrow strips that cross, of two bodies or of one; one passes through the other.
 TEST(FindCrossings, FindsEdgesThatPassWithoutAnyVertex) {
   const SurfaceMesh strip{{{-5, 0, -0.1f}, {-5, 0, 0.1f}, {5, 0, 0.1f}, {5, 0, -0.1f}}, {{0, 1, 2}, {0, 2, 3}}};

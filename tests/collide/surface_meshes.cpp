@@ -72,6 +72,21 @@ SurfaceMesh turned(SurfaceMesh mesh, const glm::vec3& axis, float angle) {
   return mesh;
 }
 
+double distance_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b) {
+  const double length2 = glm::dot(b - a, b - a);
+  const double t = length2 > 0 ? std::clamp(glm::dot(p - a, b - a) / length2, 0.0, 1.0) : 0;
+  return glm::length(p - (a + t * (b - a)));
+}
+
+double distance_to_face(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const double border =
+      std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
+  const glm::dvec3 n = glm::cross(b - a, c - a);
+  const bool inside = glm::dot(glm::cross(b - a, p - a), n) > 0 && glm::dot(glm::cross(c - b, p - b), n) > 0 &&
+                      glm::dot(glm::cross(a - c, p - c), n) > 0;
+  return inside ? std::min(border, std::abs(glm::dot(p - a, n)) / glm::length(n)) : border;
+}
+
 void Scene::add(const SurfaceMesh& mesh) {
   state.add(mesh.vertices);
   surfaces.push_back(std::make_shared<const Surface>(static_cast<Index>(mesh.vertices.size()), mesh.triangles));

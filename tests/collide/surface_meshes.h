@@ -25,6 +25,9 @@ SurfaceMesh moved(SurfaceMesh mesh, const glm::vec3& by);
 /// Returns the mesh rotated by an angle (radians) about an axis through the origin.
 SurfaceMesh turned(SurfaceMesh mesh, const glm::vec3& axis, float angle);
 
+double distance_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b);
+double distance_to_face(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+
 /// Bodies with surfaces. Owns the positions and surfaces that the oracle only refers to.
 struct Scene {
   State state;

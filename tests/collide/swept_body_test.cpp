@@ -43,7 +43,7 @@ TEST(SweptBody, BodiesThatStayStarShapedDoNotPierceThemselves) {
 TEST(SweptBody, DetectsBodiesThatAreNotStarShaped) {
   const auto star_shaped = [](const SurfaceMesh& mesh, float slack = 0.001f) {
     MovingScene m;
-    m.add(mesh, glm::vec3(3, 1, 2), 0.01f, slack, [](const glm::vec3&) { return glm::vec3(0); });
+    m.add(mesh, glm::vec3(3, 1, 2), 0.01f, slack, still);
     return SearchRun(m, true).search.body(0).stays_star_shaped();
   };
   EXPECT_TRUE(star_shaped(ball(1)));

@@ -48,8 +48,7 @@ TEST(Octree, IsAsDeepAsFloatsCanMakeIt) {
   }
   state.add(points);
   for (const float tolerance : {1e-18f, 1.0f, 1e18f}) {
-    Settings settings;
-    settings.tolerance = tolerance;
+    const Settings settings{.tolerance = tolerance};
     for (const char* method : {"octree", "kd-tree"}) {
       EXPECT_EQ(detect(method, state, settings).contacts, oracle(state, settings)) << method << tolerance;
     }

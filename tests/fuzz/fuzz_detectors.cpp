@@ -3,7 +3,6 @@
 // threads, which take most of their time to wait for one another.
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -29,13 +28,8 @@ struct Truth {
 
   Truth(const collide::test::State& state, const collide::Settings& settings)
       : contacts(collide::test::oracle(state, settings)), inside(collide::test::inside_bodies(state, contacts).size()) {
-    for (collide::Index body = 0; body < state.bodies.count(); ++body) {
-      for (collide::Index v = state.bodies.first[body]; v < state.bodies.first[body + 1]; ++v) {
-        if (std::isfinite(state.x[v]) && std::isfinite(state.y[v]) && std::isfinite(state.z[v])) continue;
-        non_finite.push_back(body);
-        break;
-      }
-    }
+    for (collide::Index body = 0; body < state.bodies.count(); ++body)
+      if (!collide::test::finite(state, body)) non_finite.push_back(body);
   }
 };
 

@@ -97,10 +97,7 @@ struct Motion {
 /// Returns the motion of a world in its next frame.
 Motion next_frame(softbody::World& world) {
   Motion motion;
-  const auto position = [&](Index v) {
-    const collide::Frame now = world.positions();
-    return glm::dvec3(now.x[v], now.y[v], now.z[v]);
-  };
+  const auto position = [&](Index v) { return glm::dvec3(collide::position(world.positions(), v)); };
   for (Index v = 0; v < world.bodies().vertex_count(); ++v) motion.points.push_back({position(v), {}});
   world.step();
   for (Index v = 0; v < motion.points.size(); ++v) motion.points[v].to = position(v);

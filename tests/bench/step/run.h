@@ -7,13 +7,9 @@
 
 namespace bench {
 
-struct Times {
-  std::vector<double> cpu, wall;  // ms, one a frame: the least of the repetitions
-};
-
 struct Track {
   const Entrant* entrant;
-  Times times;
+  std::vector<double> times;  // ms of the processor, one a frame: the least of the repetitions
   Figures figures;
 };
 
