@@ -18,7 +18,7 @@ struct Options {
   int threads = 1, bodies = 0, repeat = 10;
   std::vector<float> tolerances{0.25f, 0.5f};
   std::vector<std::string> only;  // keys of candidates beside the first; empty: all
-  bool csv = false;
+  bool json = false, csv = false;
 };
 
 [[noreturn]] void fail_for_bodies(const Options& options) {
@@ -62,10 +62,11 @@ void run(const Options& options) {
     if (options.bodies > 0 && state.bodies.count() != collide::Index(options.bodies)) continue;
     for (const float tolerance : options.tolerances) {
       all.push_back(bench::measure({&state, tolerance, options.threads, options.repeat}, candidates));
-      if (!options.csv) bench::print_table(all.back());
+      if (!options.json && !options.csv) bench::print_table(all.back());
     }
   }
   if (all.empty()) fail_for_bodies(options);
+  if (options.json) bench::print_json(all);
   if (options.csv) bench::print_csv(all);
 }
 
@@ -91,7 +92,8 @@ int parse_and_run(int argc, char** argv) {
       ->check(CLI::Range(0.001, 10.0));
   run_command->add_option("--repeat", options.repeat, "rounds (default: 10)")->check(CLI::Range(1, 100'000));
   run_command->add_option("--only", options.only, "candidates, beside the first one (default: all)");
-  run_command->add_flag("--csv", options.csv, "print one table as CSV instead");
+  CLI::Option* json = run_command->add_flag("--json", options.json, "print one JSON document instead of tables");
+  run_command->add_flag("--csv", options.csv, "print one table as CSV instead")->excludes(json);
   try {
     cli.parse(argc, argv);
   } catch (const CLI::Success& asked) {

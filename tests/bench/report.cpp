@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "app/base/table.h"
 
@@ -42,6 +43,31 @@ void print_csv(const std::vector<Measured>& all) {
     table.add(row);
   }
   std::cout << table.csv();
+}
+
+void print_json(const std::vector<Measured>& all) {
+  using Json = nlohmann::ordered_json;
+  Json runs = Json::array();
+  for (const Measured& m : all) {
+    const State& state = *m.course.state;
+    Json rows = Json::array();
+    for (const Row& row : m.rows)
+      rows.push_back({{"key", row.candidate->key},
+                      {"ms", {{"median", row.median_ms}, {"min", row.min_ms}}},
+                      {"ns_per_vertex", ns_a_vertex(m, row)},
+                      {"ratio", ratio(m, row)},
+                      {"ratio_of_minimums", ratio_of_minimums(m, row)}});
+    runs.push_back({{"state", state.key},
+                    {"bodies", state.bodies.count()},
+                    {"vertices", state.bodies.vertex_count()},
+                    {"frames", state.frames.size()},
+                    {"motion", mean_displacement(state) / mean_edge},
+                    {"tolerance", m.course.tolerance},
+                    {"threads", m.course.threads},
+                    {"contacts", m.contacts},
+                    {"candidates", rows}});
+  }
+  std::cout << Json{{"mean_edge", mean_edge}, {"runs", runs}}.dump() << '\n';
 }
 
 }  // namespace bench

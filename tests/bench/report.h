@@ -1,5 +1,5 @@
 #pragma once
-// The figures as tables for people, and as one table for pages.
+// The figures as a table for people and as one JSON document for programs.
 
 #include "tests/bench/timing.h"
 
@@ -10,5 +10,6 @@ void print_table(const Measured& measured);
 
 /// Prints a row for each state and tolerance: the time of the first candidate, and those of the others as multiples.
 void print_csv(const std::vector<Measured>& all);
+void print_json(const std::vector<Measured>& all);
 
 }  // namespace bench

@@ -14,7 +14,7 @@ namespace {
 struct Options {
   int frames = 120, repeat = 1;
   std::vector<std::string> only, gases;
-  bool csv = false;
+  bool json = false, csv = false;
 };
 
 template <class Known>
@@ -40,8 +40,9 @@ void compare(const Options& options) {
     if (!asked_for(options.gases, gas.key)) continue;
     const bench::Course course{&gas, options.frames, options.repeat};
     all.push_back({course, bench::run(course, entrants)});
-    if (!options.csv) bench::print_table(all.back());
+    if (!options.json && !options.csv) bench::print_table(all.back());
   }
+  if (options.json) bench::print_json(all);
   if (options.csv) bench::print_csv(all);
 }
 
@@ -54,7 +55,8 @@ int parse_and_run(int argc, char** argv) {
       ->capture_default_str();
   cli.add_option("--gas", options.gases, "only these: mild, mild-x100, scene");
   cli.add_option("--only", options.only, "entrants, beside the first two (default: all)");
-  cli.add_flag("--csv", options.csv, "print one table as CSV instead");
+  CLI::Option* json = cli.add_flag("--json", options.json, "print one JSON document instead of tables");
+  cli.add_flag("--csv", options.csv, "print one table as CSV instead")->excludes(json);
   try {
     cli.parse(argc, argv);
   } catch (const CLI::Success& asked) {

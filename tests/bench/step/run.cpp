@@ -1,6 +1,7 @@
 #include "tests/bench/step/run.h"
 
 #include <algorithm>
+#include <chrono>
 #include <random>
 #include <stdexcept>
 
@@ -16,15 +17,17 @@ class Runner {
       : entrant_(entrant), stepper_(entrant.make(scene, entrant.steps)), judge_(stepper_->state()) {}
 
   const Entrant& entrant() const { return entrant_; }
-  const std::vector<double>& times() const { return times_; }
+  const Times& times() const { return times_; }
   const Figures& figures() const { return judge_.figures(); }
 
   void frame() {
     if (judge_.figures().lost > 0) return;
     const double cpu = app::thread_seconds();
+    const auto wall = std::chrono::steady_clock::now();
     stepper_->step();
-    times_.push_back((app::thread_seconds() - cpu) * 1e3);
-    const double seconds = double(times_.size()) / frames_a_second;
+    times_.wall.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - wall).count());
+    times_.cpu.push_back((app::thread_seconds() - cpu) * 1e3);
+    const double seconds = double(times_.cpu.size()) / frames_a_second;
     if (stepper_->finite())
       judge_.look(stepper_->state(), seconds);
     else
@@ -35,7 +38,7 @@ class Runner {
   const Entrant& entrant_;
   std::unique_ptr<Stepper> stepper_;
   Judge judge_;
-  std::vector<double> times_;
+  Times times_;
 };
 
 /// Nothing random is in the motion: what a frame took longer in one repetition than in another, it was disturbed by.
@@ -62,7 +65,8 @@ std::vector<Track> run(const Course& course, std::span<const Entrant* const> ent
       for (Runner* runner : order) runner->frame();
     }
     for (std::size_t i = 0; i < tracks.size(); ++i) {
-      take_least(tracks[i].times, runners[i]->times());
+      take_least(tracks[i].times.cpu, runners[i]->times().cpu);
+      take_least(tracks[i].times.wall, runners[i]->times().wall);
       tracks[i].figures = runners[i]->figures();
     }
   }

@@ -7,9 +7,13 @@
 
 namespace bench {
 
+struct Times {
+  std::vector<double> cpu, wall;  // ms, one a frame: the least of the repetitions
+};
+
 struct Track {
   const Entrant* entrant;
-  std::vector<double> times;  // ms of the processor, one a frame: the least of the repetitions
+  Times times;
   Figures figures;
 };
 
