@@ -81,7 +81,7 @@ TEST_F(SleepRules, AFastBodyWakesTheSleepersItTouchesAndASlowOneDoesNot) {
 }
 
 /// A body that lies on the ground, and one that falls on it later.
-Scene one_falls_on_another() {
+TEST(Sleeping, ABodyWakesWhenHitAndAllSleepInTheEnd) {
   Material m = gas_ball();
   m[Material::internal_damping] = 20;
   m[contact::rebound_speed] = 1;
@@ -93,11 +93,7 @@ Scene one_falls_on_another() {
   scene.bodies[0].position = {0, 0.55, 0};
   add_body(scene, {0.3, 2.5, 0}, glm::dvec3(0.0));
   scene.bodies[1].appear = scene.bodies[1].release = 200;
-  return scene;
-}
-
-TEST(Sleeping, ABodyWakesWhenHitAndAllSleepInTheEnd) {
-  World world(one_falls_on_another(), {});
+  World world(scene, {});
   run(world, 200);
   ASSERT_TRUE(world.body(0).asleep);
   EXPECT_FALSE(world.all_at_rest()) << "one is still to come";
