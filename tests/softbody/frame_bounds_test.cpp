@@ -161,7 +161,7 @@ TEST(WorkBudget, CountsSearchesForSurfaceContact) {
 }
 
 /// In none of them do surfaces pass each other by more than 0.15 edges.
-TEST(StepBounds, AskForSubstepsForBodiesThatPass) {
+TEST(StepBounds, AskForSubstepsWhereBodiesPassEachOther) {
   constexpr double speed = 100;  // m/s, towards each other
   Scene scene = lone_body(gas_ball(), {speed / 2, 0, 0});
   add_body(scene, {2, 0, 0}, {-speed / 2, 0, 0});

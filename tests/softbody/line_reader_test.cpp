@@ -50,12 +50,12 @@ INSTANTIATE_TEST_SUITE_P(LineReader, LineLengths,
 
 using Lines = std::vector<std::string>;
 
-TEST(LineReader, EndsOfLinesMayBeMixed) {
+TEST(LineReader, TakesMixedEndsOfLines) {
   EXPECT_EQ(lines_of("a\rb\r\nc\n\r\r\n\n\rd"), (Lines{"a", "b", "c", "", "", "", "", "d"}));
   EXPECT_EQ(lines_of("a\r"), Lines{"a"});
 }
 
-TEST(LineReader, AStatementIsNotJoinedToTheLineBeforeIt) {
+TEST(LineReader, DoesNotJoinAStatementToTheLineBefore) {
   EXPECT_EQ(lines_of("g C:\\\nf 1 2 3\n"), (Lines{"g C:\\", "f 1 2 3"}));
   EXPECT_EQ(lines_of("g C:\\\r\tf 1 \\\r2 3\r"), (Lines{"g C:\\", "\tf 1   2 3"}));
   EXPECT_EQ(lines_of("# C:\\\n# D:\\\n\nv"), (Lines{"# C:\\", "# D:  ", "v"}));

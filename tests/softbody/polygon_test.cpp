@@ -52,7 +52,7 @@ Polygon star(std::size_t tips, const glm::dvec3& u, const glm::dvec3& v) {
   return p;
 }
 
-TEST(Polygon, ConcaveOnesAreCoveredInEveryPlane) {
+TEST(Triangulate, CoversConcavePolygonsInEveryPlane) {
   for (const std::size_t tips : {2u, 3u, 5u, 40u})
     for (const auto& [u, v] : {std::pair(glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)),
                                {{0, 1, 0}, {1, 0, 0}},
@@ -65,7 +65,7 @@ TEST(Polygon, ConcaveOnesAreCoveredInEveryPlane) {
   expect_covered({{0, 0, 0}, {2, 0, 0}, {0.5, 0, -0.5}, {0, 0, -2}});  // an arrowhead: only one diagonal is right
 }
 
-TEST(Polygon, CornersOnAStraightLineAreKept) {
+TEST(Triangulate, KeepsCornersOnAStraightLine) {
   const Polygon p{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 10, 0}, {0, 10, 0}};  // the shortest cut runs along the line
   expect_covered(p);
   std::vector<int> sides(p.size(), 0);  // how many triangles have the side from a corner to the next
@@ -77,13 +77,13 @@ TEST(Polygon, CornersOnAStraightLineAreKept) {
   EXPECT_EQ(sides, std::vector<int>(p.size(), 1)) << "each side has one triangle, so that neighbours stay joined";
 }
 
-TEST(Polygon, NoCutRunsThroughACorner) {
+TEST(Triangulate, CutsThroughNoCorner) {
   const Polygon p{{0, 0, 0}, {1, -1, 0}, {2, 0, 0}, {6, 1, 0}, {6, 4, 0}, {1, 0, 0}, {-4, 4, 0}, {-4, 1, 0}};
   expect_covered(p);
   for (const auto& [a, b, c] : triangulate(p)) EXPECT_GT(glm::length(area_vector({p[a], p[b], p[c]})), 0.1);
 }
 
-TEST(Polygon, WhatCrossesItselfOrHasNoAreaIsCutAllTheSame) {
+TEST(Triangulate, CutsPolygonsThatCrossThemselvesOrHaveNoArea) {
   EXPECT_EQ(triangulate(Polygon{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).size(), 2u);
   EXPECT_EQ(triangulate(Polygon{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {1.5, 0, 0}}).size(), 3u);
   EXPECT_EQ(triangulate(Polygon(7, glm::dvec3(1.0))).size(), 5u);
@@ -124,7 +124,7 @@ void expect_cut(const std::vector<std::vector<Index>>& each, const Polygon& vert
   }
 }
 
-TEST(Polygons, WithTheSameCornersAreCutApart) {
+TEST(Triangulate, CutsPolygonsOfTheSameCornersApart) {
   for (const Index corners : {4u, 5u, 12u, 60u}) {
     Polygon vertices;
     std::vector<Index> there, back;
@@ -138,7 +138,7 @@ TEST(Polygons, WithTheSameCornersAreCutApart) {
   }
 }
 
-TEST(Polygons, AConcaveOneKeepsTheOnlyRightCut) {
+TEST(Triangulate, KeepsTheOnlyRightCutOfAConcavePolygon) {
   const Polygon vertices{{0, 0, 0}, {2, 0, 0}, {0.5, 0, -0.5}, {0, 0, -2}, {1, 1, 0}, {-1, 1, -1}};
   const std::vector<Index> arrowhead{0, 1, 2, 3}, kite{0, 4, 2, 5};
   for (const auto& both : {std::vector{arrowhead, kite}, {kite, arrowhead}}) {
@@ -152,7 +152,7 @@ TEST(Polygons, AConcaveOneKeepsTheOnlyRightCut) {
   }
 }
 
-TEST(Polygons, ThatDoNotMeetAreCutAsEachByItself) {
+TEST(Triangulate, CutsPolygonsThatDoNotMeetAsIfEachWereAlone) {
   std::mt19937 random(11);
   std::vector<std::vector<Index>> each;
   Polygon vertices;
@@ -186,7 +186,7 @@ bool can_be_cut(const std::vector<std::vector<Index>>& quads, const std::set<Edg
   return false;
 }
 
-TEST(Polygons, QuadsAreCutIfTheyCanBe) {
+TEST(Triangulate, CutsQuadsIfThatIsPossible) {
   std::mt19937 random(3);
   int cut = 0, not_cut = 0;
   for (int round = 0; round < 2000; ++round) {
@@ -217,7 +217,7 @@ TEST(Polygons, QuadsAreCutIfTheyCanBe) {
   EXPECT_GT(not_cut, 100);
 }
 
-TEST(Polygons, OneThatCannotBeCutIsNamed) {
+TEST(Triangulate, NamesAPolygonThatItCannotCut) {
   const Polygon vertices(4, glm::dvec3(0.0));
   try {
     triangulate(polygons({{0, 1, 2}, {1, 3, 2}, {0, 1, 3, 2}, {0, 2, 3, 1}, {0, 3, 1}}), vertices);

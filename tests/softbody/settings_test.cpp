@@ -11,7 +11,7 @@
 namespace softbody::test {
 namespace {
 
-TEST(Settings, AWideToleranceAllOfASuddenDoesNotThrowBodiesAbout) {
+TEST(Tolerance, ThrowsNoBodiesAboutWhenItGrowsAllOfASudden) {
   for (const double shift : {0.0, 0.002, 0.004}) {  // m: the same bodies come to lie otherwise
     Scene scene = drop_scene();
     for (BodySource& body : scene.bodies) body.position.x += shift;
@@ -38,7 +38,7 @@ TEST(Settings, AWideToleranceAllOfASuddenDoesNotThrowBodiesAbout) {
   }
 }
 
-TEST(Settings, SelfCollisionOfALoneBodyComesAndGoes) {
+TEST(SelfCollision, ComesAndGoesForALoneBody) {
   World world(find_scene("cloth", SBCOLLIDE_SCENES), {});
   run(world, 120);
   ASSERT_GT(world.detection().self_contacts, 0u);
@@ -53,7 +53,7 @@ TEST(Settings, SelfCollisionOfALoneBodyComesAndGoes) {
   EXPECT_GT(again.detection().self_contacts, 0u);
 }
 
-TEST(Settings, AWiderToleranceWakesAPileThatStaysAwakeWhileTheContactLayerGrows) {
+TEST(Tolerance, KeepsAPileAwakeWhileTheContactLayerGrows) {
   World world(drop_scene(), {});
   run(world, 800);
   ASSERT_TRUE(world.all_at_rest());

@@ -81,7 +81,7 @@ TEST_F(SleepRules, AFastBodyWakesTheSleepersItTouchesAndASlowOneDoesNot) {
 }
 
 /// A body that lies on the ground, and one that falls on it later.
-TEST(Sleeping, ABodyWakesWhenHitAndAllSleepInTheEnd) {
+TEST(Sleep, EndsWhenABodyIsHitAndComesBackInTheEnd) {
   Material m = gas_ball();
   m[Material::internal_damping] = 20;
   m[contact::rebound_speed] = 1;
@@ -116,7 +116,7 @@ TEST(Sleeping, ABodyWakesWhenHitAndAllSleepInTheEnd) {
 }
 
 /// A ball slides over a mat without friction; no vertex of the one is near any of the other.
-TEST(SleepInSurfaceContact, WhoCarriesSomethingThatMovesStaysAwake) {
+TEST(Sleep, SparesABodyThatCarriesOneThatMoves) {
   Material smooth = spring_ball();
   smooth[contact::friction] = smooth[contact::rolling_resistance] = 0;
   smooth[Material::internal_damping] = 10;
@@ -146,7 +146,7 @@ TEST(SleepInSurfaceContact, WhoCarriesSomethingThatMovesStaysAwake) {
   EXPECT_LT(WorldTestAccess::solver(world).state().max_particle_speed(1), 0.1) << "calm enough to sleep";
 }
 
-TEST(SleepWhereABodyIsRemoved, EndsOnEverySideAndForNothingFarAlongOneAxis) {
+TEST(Sleep, EndsOnEverySideOfABodyThatIsRemoved) {
   Scene scene = lone_body(spring_ball());
   scene.contact_surface = ContactSurface::surfaces;
   scene.collision.tolerance = 1e-3f;

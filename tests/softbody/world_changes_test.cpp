@@ -84,7 +84,7 @@ TEST_P(RemoveInAPile, LeavesContactsTrueAndTheStateFinite) {
 INSTANTIATE_TEST_SUITE_P(EveryContactSurface, RemoveInAPile,
                          testing::Values(ContactSurface::vertices, ContactSurface::surfaces));
 
-TEST(Remove, TheRestGoesOnAsIfTheBodyHadNeverBeen) {
+TEST(Remove, LeavesTheOthersAsIfTheBodyHadNeverBeen) {
   Scene three = test::lone_body(test::gas_ball(), {1, 0, 0});
   test::add_body(three, {5, 0, 0}, {0, 3, 0});
   test::add_body(three, {0, 9, 0}, {0, 0, 2});
@@ -97,7 +97,7 @@ TEST(Remove, TheRestGoesOnAsIfTheBodyHadNeverBeen) {
   EXPECT_EQ(world.state_hash(), other.state_hash());
 }
 
-TEST(Remove, TheLastBodyLeavesAnEmptyWorldThatOthersMayJoin) {
+TEST(Remove, LeavesAnEmptyWorldThatBodiesMayJoin) {
   World world(pile(1), {});
   world.remove(0);
   test::run(world, 3);
@@ -109,7 +109,7 @@ TEST(Remove, TheLastBodyLeavesAnEmptyWorldThatOthersMayJoin) {
   expect_consistent(world);
 }
 
-TEST(Remove, WhatLeantOnTheBodyWakesAndFalls) {
+TEST(Remove, WakesWhatLeantOnTheBody) {
   Scene scene = pile(2);
   scene.bodies[0].mesh = {.kind = "grid", .columns = 24, .rows = 24, .width = 1.5, .depth = 1.5};
   scene.bodies[0].position = {0, 1, 0};
@@ -126,7 +126,7 @@ TEST(Remove, WhatLeantOnTheBodyWakesAndFalls) {
   EXPECT_NEAR(test::motion(world, 0).centre.y, lying - 0.5 * 9.81 * 0.2 * 0.2, 0.03);
 }
 
-TEST(Remove, OfTheBodyInTheHandOpensIt) {
+TEST(Remove, OpensTheHandThatHoldsTheBody) {
   World world(pile(3), {});
   EXPECT_FALSE(world.plan().has(stage_of<Hand>));
   world.grab(Grab{.body = 1});
@@ -142,7 +142,7 @@ TEST(Remove, OfTheBodyInTheHandOpensIt) {
   world.step();
 }
 
-TEST(Add, AThrownBodyHasTheMomentumItWasGiven) {
+TEST(Add, GivesABodyItsMomentum) {
   Scene scene = test::lone_body(test::gas_ball());
   World world(scene, {});
   BodySource thrown = scene.bodies[0];
@@ -155,7 +155,7 @@ TEST(Add, AThrownBodyHasTheMomentumItWasGiven) {
   EXPECT_LT(glm::distance(test::motion(world, 1).centre, thrown.position + thrown.velocity), 1e-3);
 }
 
-TEST(Add, BringsTheStagesThatASecondBodyNeedsAndMeshesThatTheSceneHasNot) {
+TEST(Add, BringsNewMeshesAndTheStagesOfASecondBody) {
   World world(test::lone_body(test::spring_ball()), {});
   ASSERT_FALSE(world.plan().has(Stage::detect));
   BodySource cloth;
@@ -182,7 +182,7 @@ TEST(Throw, FindsRoomBeforeTheCameraOfEveryScene) {
   }
 }
 
-TEST(Throw, ABodyDoesNotBeginInsideAnotherThatIsInItsWay) {
+TEST(Throw, StartsNoBodyInsideAnother) {
   for (int axis = 0; axis < 3; ++axis)
     for (const double way : {-1.0, 1.0}) {
       World world(test::lone_body(test::spring_ball()), {});  // around the origin
@@ -206,7 +206,7 @@ TEST(Drop, PutsTwentySideBySideWithoutTouching) {
   EXPECT_LT(std::ranges::max(world.positions().y), 12) << "no tower";
 }
 
-TEST(Changes, GravityActsFromTheNextFrameOnAndThePlanFollows) {
+TEST(Apply, ChangesGravityFromTheNextFrameOn) {
   Scene scene = test::lone_body(test::spring_ball());
   World world(scene, {});
   change(world, [](Scene& s) { s.gravity = {0, 0, 6}; });
@@ -219,7 +219,7 @@ TEST(Changes, GravityActsFromTheNextFrameOnAndThePlanFollows) {
   EXPECT_NEAR(test::motion(world, 0).velocity.z, 6 * 0.5, 1e-4);
 }
 
-TEST(Changes, WakeAllWhoSleep) {
+TEST(Changes, WakeAllBodies) {
   Scene scene = test::lone_body(test::spring_ball());
   scene.sleep = {0.05, 2};
   const std::pair<const char*, void (*)(World&)> changes[]{
@@ -298,7 +298,7 @@ TEST(Apply, KeepsBodiesAndFurtherMaterialsOfTheWorld) {
 }
 
 /// Of two materials that are equal but for their names.
-TEST(Changes, AMaterialActsOnItsOwnBodiesThatAreThereAndOnThoseToCome) {
+TEST(Apply, ChangesAMaterialOfItsOwnBodiesAndOfThoseToCome) {
   Scene scene = test::lone_body(test::spring_ball(), {1, 0, 0});
   scene.materials.push_back(scene.materials[0]);
   scene.materials[1].name = "other";
@@ -328,7 +328,7 @@ TEST(Changes, AMaterialActsOnItsOwnBodiesThatAreThereAndOnThoseToCome) {
   EXPECT_TRUE(measure(world).finite);
 }
 
-TEST(Changes, SolidsMoveComeAndGo) {
+TEST(Apply, MovesAddsAndRemovesSolids) {
   World world(pile(1), {});
   for (int i = 0; i < 1500 && !world.all_at_rest(); ++i) world.step();
   ASSERT_TRUE(world.all_at_rest());
@@ -388,7 +388,7 @@ std::uint64_t hash_after_much(int threads) {
 
 TEST(Changes, DoNotDependOnTheNumberOfThreads) { EXPECT_EQ(hash_after_much(1), hash_after_much(3)); }
 
-TEST(Changes, MoreParticlesThanAMachineHoldsAreRefusedAndTheWorldGoesOn) {
+TEST(Drop, RefusesMoreParticlesThanAMachineHolds) {
   World world(pile(10), {});
   const auto before = world.bodies().count();
   try {
