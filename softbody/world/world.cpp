@@ -71,7 +71,12 @@ void World::Parts::check_sizes(const BodyModelSet& all, const IntegratorChoice& 
 BodyId World::Parts::add(const BodySource& source, const glm::dvec3& position) {
   const auto& model = models.of(source);
   const BodyId id = solver.state().add(model, position, source.velocity);
-  add_meshes(*model);
+  if (model->fine && !fine) {
+    count_vertices();  // the first one: the bodies before it are shown as they are
+  } else {
+    particles.add(model->shape);
+    if (fine) fine->add(model->shown().shape);
+  }
   EnergyLedger& ledger = solver.state().ledger;
   ledger.book(WorkBy::user, measure(solver.state(), id, scene.gravity).conserved(ledger.staggering));
   return id;
@@ -98,13 +103,6 @@ collide::Settings World::Parts::settings_of(const Scene& of) const {
   collide::Settings all = of.collision;
   if (!all.cell_size) all.cell_size = rest_cell_size(models, all.levels, all.tolerance);
   return all;
-}
-
-/// Adds the meshes of a new body, which the solver's state has already.
-void World::Parts::add_meshes(const BodyModel& model) {
-  if (model.fine && !fine) return count_vertices();  // the first one: the bodies before it are shown as they are
-  particles.add(model.shape);
-  if (fine) fine->add(model.shown().shape);
 }
 
 /// Counts bodies and their vertices anew from the solver's state.
