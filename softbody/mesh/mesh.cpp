@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <unordered_map>
@@ -45,6 +46,7 @@ void subdivide(Mesh& mesh) {
 }  // namespace
 
 Mesh icosphere(int subdivisions, double radius) {
+  assert(subdivisions >= 0 && subdivisions <= 6 && radius > 0);
   Mesh mesh = icosahedron();
   for (int s = 0; s < subdivisions; ++s) {
     for (auto& v : mesh.vertices) v = glm::normalize(v);
@@ -56,6 +58,7 @@ Mesh icosphere(int subdivisions, double radius) {
 }
 
 Mesh quad_grid(int columns, int rows, double width, double depth) {
+  assert(columns >= 1 && rows >= 1);
   Mesh mesh;
   mesh.stated_for = 57 * 57;
   const double finer = double(columns + 1) * double(rows + 1) / mesh.stated_for;

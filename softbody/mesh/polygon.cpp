@@ -137,10 +137,8 @@ class Auction {
  public:
   Auction(const Polygons& polygons, std::span<const glm::dvec3> vertices)
       : polygons_(polygons), vertices_(vertices), triangles_(polygons.corners.size() - 2 * polygons.size()) {
-    for (std::size_t p = 0; p < polygons.size(); ++p) {
-      assert(polygons[p].size() >= 3);
+    for (std::size_t p = 0; p < polygons.size(); ++p)
       for (const Edge& side : sides_of(p)) sides_.push_back(side);
-    }
     std::sort(sides_.begin(), sides_.end());
   }
 
@@ -288,6 +286,7 @@ class Auction {
 }  // namespace
 
 std::vector<Triangle> triangulate(std::span<const glm::dvec3> corners) {
+  assert(corners.size() >= 3);
   if (corners.size() == 3) return {{0, 1, 2}};
   Remainder rest(corners);
   std::vector<Triangle> triangles;

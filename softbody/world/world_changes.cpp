@@ -123,6 +123,7 @@ std::vector<BodySource> body_sources(const World& world) {
 }
 
 BodyId World::drop(int count) {
+  assert(count >= 1);
   Parts& s = *parts_;
   Dropper dropper = s.dropper();
   s.check_capacity(*s.models.of(dropper.body), std::size_t(count));
@@ -170,6 +171,7 @@ void World::Parts::wake_near(BodyId body) {
 
 void World::remove(BodyId body) {
   Parts& s = *parts_;
+  assert(body < s.particles.bodies.count());
   s.wake_near(body);
   s.book_change([&] { s.solver.remove(body); });
   std::erase_if(s.added, [&](const AddedBody& one) { return one.body == body; });
