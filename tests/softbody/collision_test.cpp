@@ -172,20 +172,6 @@ TEST(Collision, BodiesDoNotPassThroughEachOther) {
   }
 }
 
-TEST(Collision, OffTheMiddleGivesAsMuchSpinInImplicitSteps) {
-  const auto spin = [](const char* integrator) {
-    Scene scene = lone_body(gas_ball(), glm::dvec3(2, 0, 0));
-    scene.materials[0][contact::friction] = 1;
-    add_body(scene, {1.2, 0.5, 0}, {-2, 0, 0});
-    World world(scene, {.integrator = {integrator}});
-    run(world, 45);
-    return motion(world, 0).spin_momentum.z;
-  };
-  const double expected = spin("semi-implicit-euler");
-  EXPECT_GT(std::abs(expected), 0.02);
-  EXPECT_NEAR(spin("implicit"), expected, 0.5 * std::abs(expected));
-}
-
 /// Flat enough for its two sides to meet, and pressed together further while it flies and turns.
 TEST(Collision, InsideOneBodyConservesMomentumAndSpin) {
   const auto fly = [](bool with_itself) {
