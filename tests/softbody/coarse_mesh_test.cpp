@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
-#include <set>
 
 #include "collide/methods.h"
 #include "collide/oracle/surface_oracle.h"

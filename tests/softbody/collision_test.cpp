@@ -2,11 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "softbody/forces/penalty_law.h"
-#include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_test_access.h"
 

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/change.h"

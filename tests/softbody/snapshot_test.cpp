@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "tests/softbody/helpers.h"
 #include "tests/support/change.h"
 #include "tests/support/world_test_access.h"
