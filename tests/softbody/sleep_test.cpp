@@ -8,7 +8,6 @@
 
 #include "softbody/mechanics/make_body_model.h"
 #include "tests/softbody/helpers.h"
-#include "tests/support/world_test_access.h"
 
 namespace softbody::test {
 namespace {
@@ -140,10 +139,10 @@ TEST(Sleep, SparesABodyThatCarriesOneThatMoves) {
   for (int i = 0; i < 60; ++i) {
     world.step();
     ASSERT_TRUE(world.detection().contacts.empty());
-    ASSERT_GT(WorldTestAccess::solver(world).state().max_particle_speed(0), 0.2) << "it slides";
+    ASSERT_GT(world.state().max_particle_speed(0), 0.2) << "it slides";
     EXPECT_FALSE(world.body(1).asleep) << world.frame();
   }
-  EXPECT_LT(WorldTestAccess::solver(world).state().max_particle_speed(1), 0.1) << "calm enough to sleep";
+  EXPECT_LT(world.state().max_particle_speed(1), 0.1) << "calm enough to sleep";
 }
 
 TEST(Sleep, EndsOnEverySideOfABodyThatIsRemoved) {

@@ -8,7 +8,6 @@
 #include "softbody/mesh/limits.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/change.h"
-#include "tests/support/world_test_access.h"
 
 namespace softbody {
 namespace {
@@ -36,7 +35,7 @@ std::vector<glm::dvec3> positions(const World& world, BodyId body) {
 
 void expect_consistent(const World& world) {
   const collide::Bodies& bodies = world.bodies();
-  ASSERT_EQ(WorldTestAccess::solver(world).state().body_count(), bodies.count());
+  ASSERT_EQ(world.state().body_count(), bodies.count());
   const collide::Frame frame = world.positions();
   for (BodyId b = 0; b < bodies.count(); ++b) {
     ASSERT_EQ(world.bodies().body_of(bodies.first[b]), b);
