@@ -237,7 +237,7 @@ class Auction {
     const auto cut_price = [&](std::size_t i, std::size_t j) { return price_of(ordered(polygon[i], polygon[j])); };
     const auto triangle_price = [&](std::size_t i, std::size_t k, std::size_t j) {
       const Triangle t{polygon[i], polygon[k], polygon[j]};
-      // Two sides of a degenerate triangle are the same edge, which is left out with it once.
+      // Two sides of a degenerate triangle are the same edge, which counts once less without the triangle.
       if (is_degenerate(t)) return -price_of(ordered(t[0], t[0] == t[1] ? t[2] : t[1]));
       return turn(flat[i], flat[k], flat[j]) <= 0 ? fold_price : 0;
     };

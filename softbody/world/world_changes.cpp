@@ -113,7 +113,7 @@ std::vector<BodySource> body_sources(const World& world) {
   std::vector<BodySource> all;
   auto late = first_late;
   for (const BodySource& body : world.scene().bodies) {
-    // Between two steps, so before those of the scene that come in the next one.
+    // A body added between two steps comes before those that the scene brings in the next one.
     for (; late != added.end() && late->source.appear <= body.appear; ++late) all.push_back(late->source);
     all.push_back(body);
   }

@@ -98,7 +98,7 @@ TEST(PairBound, HasTheEigenvaluesOfKnownGraphs) {
   EXPECT_EQ(bound(3, {}), 0);
 }
 
-/// From below by power iteration, from above by a little more than that.
+/// Power iteration finds the eigenvalue from below; the bound may be a little above it.
 TEST(PairBound, HoldsTheNetsOfBodiesClosely) {
   Material m = spring_ball();
   m.set(StructuralSprings::keys, {300, 0.2});

@@ -94,7 +94,7 @@ TEST(Collision, PairsOfUnlikeBodiesHaveTheSofterContactAndTheMeanFriction) {
   }
 }
 
-/// Of the faces at a vertex, by their areas.
+/// Returns the mean normal of the faces at a vertex, weighted by their areas.
 glm::dvec3 vertex_normal(const World& world, Index vertex) {
   const BodyId body = world.bodies().body_of(vertex);
   const std::vector<Particle> x = particles_of(world, body);
@@ -106,7 +106,7 @@ glm::dvec3 vertex_normal(const World& world, Index vertex) {
   return glm::normalize(sum);
 }
 
-/// Apart, one inside the other, and a sheet on a ball.
+/// The bodies are apart, one is inside the other, or a sheet lies on a ball.
 TEST(Collision, ActsAlongTheSurfacesNormalsWhereClosedBodiesFaceEachOther) {
   int by_surfaces = 0, by_line = 0;
   for (const bool sheet : {false, true})

@@ -15,12 +15,12 @@
 namespace softbody {
 namespace {
 
-/// On the first face of body 0, not at its middle.
+/// Returns a grab of a point of the first face of body 0 that is not its middle.
 Grab on_first_face(const World& world) {
   return {.corners = world.model(0).mesh.triangles[0], .weights = {0.5, 0.3, 0.2}};
 }
 
-/// At the middle of the highest face, under which it does not swing.
+/// Returns a grab of the middle of the highest face, under which the body does not swing.
 Grab on_top(const World& world) {
   const Mesh& mesh = world.model(0).mesh;
   const auto height = [&](const Triangle& t) {
@@ -52,7 +52,7 @@ TEST(Pull, IsThatOfASpringAndADamperInShortStepsAndBoundedInLongOnes) {
   }
 }
 
-/// The second of two bodies, of which the other stays where it is.
+/// The hand holds the second of two bodies; the other stays where it is.
 TEST(Grab, SwingsAFreePointAsTheClosedFormSays) {
   Material dust = test::spring_ball();
   dust[StructuralSprings::stiffness] = dust[BendSprings::stiffness] = 0;  // particles that know nothing of each other

@@ -49,7 +49,7 @@ struct Motion {
 };
 Motion motion(const World& world, BodyId body);
 glm::dvec3 angular_momentum(const World& world);  // about the world's origin
-/// Forces of springs and gas at rest, by plain loops.
+/// Returns the forces of springs and gas at rest, by plain loops.
 std::vector<glm::dvec3> forces(const BodyModel& model, const std::vector<glm::dvec3>& x);
 
 /// Returns the model with one force and no other.

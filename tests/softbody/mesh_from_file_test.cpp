@@ -70,7 +70,7 @@ double distortion(const World& world) {
                    (data<ShapeMatching>(*p)->stiffness * double(x.size())));
 }
 
-/// By surface contact a ring that lies on a sphere has many features on it at once.
+/// In surface contact a ring that lies on a sphere has many features on it at once.
 TEST(MeshFromFile, ARingComesToRestOnASolidSphereBySurfaceContact) {
   const TemporaryFolder folder;
   Scene scene = ring_scene(folder, 18, 10);

@@ -34,7 +34,7 @@ TEST(Plan, EachStageIsRunOrLeftOutWithAReason) {
       EXPECT_FALSE(stage_key(stage).empty());
       EXPECT_NE(plan.has(stage), !why(plan, stage).empty()) << stage_key(stage);
     }
-    // As a step runs them: forces, in the order of their table, just before gravity.
+    // A step runs the forces in the order of their table, just before gravity.
     const auto gravity = std::ranges::find(plan.stages, Stage::gravity);
     const auto first = std::ranges::find_if(plan.stages, [](Stage s) { return s >= Stage::first_force; });
     EXPECT_TRUE(std::is_sorted(plan.stages.begin(), first) && std::is_sorted(gravity, plan.stages.end()));

@@ -28,7 +28,7 @@ glm::dvec3 area_vector(const Polygon& p) {
   return sum;
 }
 
-/// That triangles cover a flat polygon exactly: none is turned over, and their areas add up to its.
+/// Expects that triangles cover a flat polygon exactly: none is turned over, and their areas add up to its.
 void expect_covered(const Polygon& p) {
   const auto triangles = triangulate(p);
   ASSERT_EQ(triangles.size(), p.size() - 2);
@@ -98,7 +98,7 @@ Polygons polygons(const std::vector<std::vector<Index>>& each) {
   return all;
 }
 
-/// That the triangles of each polygon are as many as they have to be, and have its sides.
+/// Expects that the triangles of each polygon are as many as they have to be, and have its sides.
 void expect_cut(const std::vector<std::vector<Index>>& each, const Polygon& vertices) {
   const auto [triangles, polygon] = triangulate(polygons(each), vertices);
   ASSERT_EQ(triangles.size(), polygon.size());
@@ -170,7 +170,7 @@ TEST(Triangulate, CutsPolygonsThatDoNotMeetAsIfEachWereAlone) {
   }
 }
 
-/// Whether cuts of quads can all differ and run along no side: both cuts of each are tried.
+/// Returns true if cuts of quads can all differ and run along no side; tries both cuts of each.
 bool can_be_cut(const std::vector<std::vector<Index>>& quads, const std::set<Edge>& used, std::size_t first = 0) {
   if (first == quads.size()) return true;
   for (const std::size_t from : {0u, 1u}) {

@@ -296,7 +296,7 @@ TEST(Apply, KeepsBodiesAndFurtherMaterialsOfTheWorld) {
   EXPECT_EQ(world.state_hash(), hash);
 }
 
-/// Of two materials that are equal but for their names.
+/// There are two materials, equal but for their names.
 TEST(Apply, ChangesAMaterialOfItsOwnBodiesAndOfThoseToCome) {
   Scene scene = test::lone_body(test::spring_ball(), {1, 0, 0});
   scene.materials.push_back(scene.materials[0]);
@@ -362,7 +362,7 @@ TEST(Changes, RefuseImplicitStepsOfALargeBody) {
   EXPECT_TRUE(measure(world).finite);
 }
 
-/// All that hands can do, one after another.
+/// Does all that hands can do, one thing after another.
 std::uint64_t hash_after_much(int threads) {
   World world(pile(10), {.threads = threads, .least_share = 0});
   Scene solids = world.scene();
