@@ -75,6 +75,10 @@ TEST_F(SleepRules, AFastBodyWakesTheSleepersItTouchesAndASlowOneDoesNot) {
   EXPECT_TRUE(asleep(2));
   wake_touched(rule, state, vertex_body, {touch(0, 2)});
   EXPECT_TRUE(asleep(2)) << "0 is awake but stands";
+  rule.speed = 0.3;
+  wake_touched(rule, state, vertex_body, {touch(1, 2)});
+  EXPECT_TRUE(asleep(2)) << "0.5 m/s is less than twice the rule's speed";
+  rule.speed = 0.2;
   wake_touched(rule, state, vertex_body, {touch(1, 2)});
   EXPECT_FALSE(asleep(2));
 }
