@@ -9,6 +9,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "collide/core/vertex_run.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/scene/scene_keys.h"
 #include "softbody/world/measures.h"
@@ -151,12 +152,9 @@ void World::Parts::wake_near(BodyId body) {
   const collide::Frame now = particles.input();
   const collide::Bodies& bodies = particles.bodies;
   const auto box = [&](BodyId b) {
-    const Index first = bodies.first[b];
-    glm::vec3 lo(now.x[first], now.y[first], now.z[first]), hi = lo;
-    for (Index i = first; i < bodies.first[b + 1]; ++i) {
-      const glm::vec3 p(now.x[i], now.y[i], now.z[i]);
-      lo = glm::min(lo, p), hi = glm::max(hi, p);
-    }
+    const collide::VertexRun at = collide::vertices_of(now, b);
+    glm::vec3 lo = at[0], hi = lo;
+    for (Index i = 0; i < at.size; ++i) lo = glm::min(lo, at[i]), hi = glm::max(hi, at[i]);
     return std::pair(lo, hi);
   };
   const float wake_distance = std::max(settings.tolerance, 0.25f * float(solver.state().model(body).mean_edge));
