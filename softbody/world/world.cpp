@@ -3,7 +3,6 @@
 #include <chrono>
 #include <utility>
 
-#include "collide/core/vertex_run.h"
 #include "softbody/integrate/force_stage.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/world_parts.h"

@@ -9,7 +9,6 @@
 #include <glm/vec2.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "collide/core/vertex_run.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/scene/scene_keys.h"
 #include "softbody/world/measures.h"
