@@ -12,11 +12,6 @@
 namespace softbody {
 namespace {
 
-void sort_unique(std::vector<Edge>& edges) {
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-}
-
 Mesh icosahedron() {
   const double p = (1.0 + std::sqrt(5.0)) / 2.0;
   Mesh mesh;
@@ -83,9 +78,7 @@ Mesh quad_grid(int columns, int rows, double width, double depth) {
       else
         mesh.triangles.insert(mesh.triangles.end(), {{a, b, d}, {b, e, d}});
     }
-  sort_unique(mesh.edges);
-  sort_unique(mesh.bend_pairs);
-  sort_unique(mesh.shear_pairs);
+  for (auto* pairs : {&mesh.edges, &mesh.bend_pairs, &mesh.shear_pairs}) std::ranges::sort(*pairs);
   mesh.bend_shares.assign(mesh.bend_pairs.size(), 1.0 / (steps * steps));  // as many more pull side by side
   return mesh;
 }
