@@ -24,10 +24,6 @@ auto& shape_of(auto& scene) {
   return std::get<Shape>(solid_of<Shape>(scene).shape);
 }
 template <class Shape>
-auto count_solids(const softbody::Scene& scene) {
-  return std::ranges::count_if(scene.solids, has_shape<Shape>);
-}
-template <class Shape>
 void remove_solids(softbody::Scene& scene) {
   std::erase_if(scene.solids, has_shape<Shape>);
 }

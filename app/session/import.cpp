@@ -50,7 +50,7 @@ std::vector<std::string> lines_about(const FileReader::Mesh& read, const softbod
                   grouped(mesh.imported->mesh.vertices.size()), grouped(mesh.imported->mesh.triangles.size())),
       fmt::format("scaled from {:.4g} to {:.4g} m", f.file_extent, f.extent)};
   const std::string changed = softbody::remarks(*mesh.imported);
-  if (mesh.particle_count() > many_particles)
+  if (mesh.imported->simulated().vertices.size() > many_particles)
     lines.push_back("so many particles that the world may run slower than real time");
   if (world.scene().contact_surface == softbody::ContactSurface::vertices) {
     const double tolerance = static_cast<double>(world.collision().tolerance);

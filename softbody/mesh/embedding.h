@@ -22,14 +22,14 @@ namespace softbody {
 /// tangent along. So a rigid motion of the coarse mesh moves the fine one rigidly, and the fine surface has no crease
 /// where its vertices change from one triangle to the next.
 class Embedding {
-  /// Of one coarse vertex.
+  /// Where a coarse vertex is, and how the surface around it has turned.
   struct Axes {
     glm::vec3 origin;
     glm::mat3 turn;
   };
 
  public:
-  /// Of one fine vertex.
+  /// How the coarse mesh holds a fine vertex.
   struct Hold {
     std::array<Index, 3> corner;  // vertices of the coarse mesh
     glm::vec3 weight;             // their sum is 1

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <unordered_map>
@@ -10,11 +11,6 @@
 
 namespace softbody {
 namespace {
-
-void sort_unique(std::vector<Edge>& edges) {
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-}
 
 Mesh icosahedron() {
   const double p = (1.0 + std::sqrt(5.0)) / 2.0;
@@ -45,6 +41,7 @@ void subdivide(Mesh& mesh) {
 }  // namespace
 
 Mesh icosphere(int subdivisions, double radius) {
+  assert(subdivisions >= 0 && subdivisions <= 6 && radius > 0);
   Mesh mesh = icosahedron();
   for (int s = 0; s < subdivisions; ++s) {
     for (auto& v : mesh.vertices) v = glm::normalize(v);
@@ -56,6 +53,7 @@ Mesh icosphere(int subdivisions, double radius) {
 }
 
 Mesh quad_grid(int columns, int rows, double width, double depth) {
+  assert(columns >= 1 && rows >= 1);
   Mesh mesh;
   mesh.stated_for = 57 * 57;
   const double finer = double(columns + 1) * double(rows + 1) / mesh.stated_for;
@@ -80,9 +78,7 @@ Mesh quad_grid(int columns, int rows, double width, double depth) {
       else
         mesh.triangles.insert(mesh.triangles.end(), {{a, b, d}, {b, e, d}});
     }
-  sort_unique(mesh.edges);
-  sort_unique(mesh.bend_pairs);
-  sort_unique(mesh.shear_pairs);
+  for (auto* pairs : {&mesh.edges, &mesh.bend_pairs, &mesh.shear_pairs}) std::ranges::sort(*pairs);
   mesh.bend_shares.assign(mesh.bend_pairs.size(), 1.0 / (steps * steps));  // as many more pull side by side
   return mesh;
 }

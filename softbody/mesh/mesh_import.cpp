@@ -326,10 +326,6 @@ Mesh MeshSource::make() const {
   return kind == "grid" ? quad_grid(columns, rows, width, depth) : icosphere(subdivisions, radius);
 }
 
-std::uint64_t MeshSource::particle_count() const {
-  return kind == "file" ? imported->simulated().vertices.size() : vertex_count();
-}
-
 std::uint64_t MeshSource::vertex_count() const {
   if (kind == "file") return imported->mesh.vertices.size();
   return kind == "grid" ? std::uint64_t(columns + 1) * std::uint64_t(rows + 1) : 10 * (1ull << (2 * subdivisions)) + 2;

@@ -80,9 +80,8 @@ struct MeshSource {
   static MeshSource from_file(const MeshFile& file, const std::function<void(std::string_view)>& begin_stage = {});
   /// Returns the mesh that is simulated.
   Mesh make() const;
-  // Found without making a mesh.
-  std::uint64_t particle_count() const;  // vertices of the mesh that is simulated
-  std::uint64_t vertex_count() const;    // of the one that is shown
+  /// Returns the number of vertices of the mesh that is shown, without making it.
+  std::uint64_t vertex_count() const;
   bool operator==(const MeshSource&) const = default;
 };
 

@@ -137,10 +137,8 @@ class Auction {
  public:
   Auction(const Polygons& polygons, std::span<const glm::dvec3> vertices)
       : polygons_(polygons), vertices_(vertices), triangles_(polygons.corners.size() - 2 * polygons.size()) {
-    for (std::size_t p = 0; p < polygons.size(); ++p) {
-      assert(polygons[p].size() >= 3);
+    for (std::size_t p = 0; p < polygons.size(); ++p)
       for (const Edge& side : sides_of(p)) sides_.push_back(side);
-    }
     std::sort(sides_.begin(), sides_.end());
   }
 
@@ -239,7 +237,7 @@ class Auction {
     const auto cut_price = [&](std::size_t i, std::size_t j) { return price_of(ordered(polygon[i], polygon[j])); };
     const auto triangle_price = [&](std::size_t i, std::size_t k, std::size_t j) {
       const Triangle t{polygon[i], polygon[k], polygon[j]};
-      // Two sides of a degenerate triangle are the same edge, which is left out with it once.
+      // Two sides of a degenerate triangle are the same edge, which counts once less without the triangle.
       if (is_degenerate(t)) return -price_of(ordered(t[0], t[0] == t[1] ? t[2] : t[1]));
       return turn(flat[i], flat[k], flat[j]) <= 0 ? fold_price : 0;
     };
@@ -288,6 +286,7 @@ class Auction {
 }  // namespace
 
 std::vector<Triangle> triangulate(std::span<const glm::dvec3> corners) {
+  assert(corners.size() >= 3);
   if (corners.size() == 3) return {{0, 1, 2}};
   Remainder rest(corners);
   std::vector<Triangle> triangles;

@@ -16,7 +16,7 @@ namespace {
 constexpr Index none = ~Index{0};
 
 struct Neighbour {
-  Index face = none;  // none: the side is at the border
+  Index face = none;  // none: a side is at the border
   bool agrees = true;
   Edge edge{};
 };
@@ -50,7 +50,6 @@ class Alignment {
                            [&](Index f) { return std::ranges::count(triangles_[f], edge[1]) > 0; });
       if (there.size() > 2) throw SurfaceError("has more than two faces", edge, std::move(there));
       const bool agree = runs_along(there.front(), edge) != runs_along(there.back(), edge);
-      if (there.size() == 1) add(there[0], {});
       if (there.size() == 2) add(there[0], {there[1], agree, edge}), add(there[1], {there[0], agree, edge});
     }
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <initializer_list>
 #include <map>
@@ -42,6 +43,7 @@ class Material {
   bool given(const Key& key) const { return !std::isnan((*this)[key]); }
   /// Sets the first keys of a list, e.g. set(BendSprings::keys, {75, 0.1}).
   void set(std::span<const Key* const> list, std::initializer_list<double> values) {
+    assert(values.size() <= list.size());
     for (std::size_t i = 0; const double value : values) (*this)[*list[i++]] = value;
   }
 

@@ -83,8 +83,8 @@ void extent(std::size_t used, std::size_t particles, ConstField boxed, ConstFiel
   }
 }
 
-/// Of one component. It takes as many particles at a time as fill a line of the cache, by squares of four particles and
-/// four lanes, of which rows become columns.
+/// Unpacks one component. It takes as many particles at a time as fill a line of the cache, by squares of four
+/// particles and four lanes, of which rows become columns.
 template <int width>
 void unpack(std::size_t used, std::size_t particles, const float* a, const double* offset, const std::size_t* first,
             float* to) {

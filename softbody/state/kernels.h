@@ -8,7 +8,7 @@
 
 namespace softbody {
 
-/// For batches of one width. `used`: lanes from the first on that hold a body; others may be left out.
+/// The kernels for batches of one width. `used`: lanes from the first on that hold a body; others may be left out.
 struct StateKernels {
   // Plain arithmetic on fields. Lanes whose value of `moves` is 0 stay as they are.
   void (*copy)(std::size_t used, std::size_t particles, const float* moves, Field<const float> from, Field<float> to);

@@ -23,8 +23,7 @@ inline constexpr int one_lane = 1;  // of a body that is alone
 /// Returns the width to which a full block grows for one more body.
 constexpr int next_width(int width) { return width == one_lane ? 4 : 2 * width; }
 /// Calls f(constant) with a block's width, which is known only at run time.
-template <class F>
-decltype(auto) with_width(int width, const F& f) {
+decltype(auto) with_width(int width, const auto& f) {
   if (width == one_lane) return f(std::integral_constant<int, one_lane>());
   if (width == 4) return f(std::integral_constant<int, 4>());
   if (width == 8) return f(std::integral_constant<int, 8>());

@@ -55,8 +55,7 @@ inline glm::dmat3 rotation(const glm::dvec3& turn) {
 }
 
 /// Returns the rigid motion of `count` particles with position(i) and velocity(i).
-template <class Position, class Velocity>
-RigidMotion rigid_motion(std::size_t count, Position position, Velocity velocity) {
+RigidMotion rigid_motion(std::size_t count, const auto& position, const auto& velocity) {
   RigidMotion m;
   for (std::size_t i = 0; i < count; ++i) {
     m.centre += position(i) / double(count);

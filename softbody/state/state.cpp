@@ -39,25 +39,17 @@ std::size_t State::append(std::size_t values) {
   return base;
 }
 
-/// Gives a full batch more lanes. Its old room lies idle, unless it is the last.
+/// Gives a full batch more lanes. Its old room lies idle, unless it is the last, which grows where it is.
 void State::widen(Batch& b) {
-  const auto width = std::size_t(b.width), wider = std::size_t(next_width(b.width));
-  const auto from = std::ptrdiff_t(b.base), end = from + std::ptrdiff_t(b.values());
-  const bool last = std::size_t(end) == x[0].size();
-  std::vector<std::vector<float>> before;
-  for (auto* array : {&x, &v, &f})
-    for (auto& c : *array) {
-      before.emplace_back(c.begin() + from, c.begin() + end);
-      if (last) c.resize(std::size_t(from));
-    }
+  const std::size_t from = b.base, width = std::size_t(b.width), wider = std::size_t(next_width(b.width));
+  const bool last = from + b.values() == x[0].size();
   b.width = int(wider);
-  b.base = append(b.values());
-  auto values = before.begin();
+  b.base = last ? from : append(b.values());
   for (auto* array : {&x, &v, &f})
     for (auto& c : *array) {
-      for (std::size_t i = 0; i < b.particles(); ++i)
-        std::copy_n(values->data() + i * width, width, c.data() + b.base + i * wider);
-      ++values;
+      if (last) c.resize(from + b.values());
+      for (std::size_t i = b.particles(); i-- > 0;)  // from the end, since the rows may move within their own room
+        for (std::size_t l = wider; l-- > 0;) c[b.base + i * wider + l] = l < width ? c[from + i * width + l] : 0.0f;
     }
 }
 

@@ -14,8 +14,7 @@ namespace {
 
 /// Returns the largest value on a segment or triangle of a function that is concave on it: on the places from `lo` to
 /// `hi`.
-template <class Value>
-double largest_of_concave(double lo, double hi, const Value& value) {
+double largest_of_concave(double lo, double hi, const auto& value) {
   constexpr double golden = 0.6180339887498949;
   constexpr int cuts = 32;
   double a = hi - golden * (hi - lo), b = lo + golden * (hi - lo), at_a = value(a), at_b = value(b);

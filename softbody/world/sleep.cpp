@@ -9,9 +9,8 @@ namespace softbody {
 namespace {
 
 /// Calls visit(a, b) for each pair of bodies that have contacts; contacts of the same two mostly follow each other.
-template <class Visit>
 void for_each_pair(std::span<const BodyId> vertex_body, const std::vector<collide::Contact>& contacts,
-                   const Visit& visit) {
+                   const auto& visit) {
   BodyId last_a = std::numeric_limits<BodyId>::max(), last_b = last_a;
   for (const collide::Contact& c : contacts) {
     const BodyId a = vertex_body[c.a], b = vertex_body[c.b];

@@ -71,7 +71,12 @@ void World::Parts::check_sizes(const BodyModelSet& all, const IntegratorChoice& 
 BodyId World::Parts::add(const BodySource& source, const glm::dvec3& position) {
   const auto& model = models.of(source);
   const BodyId id = solver.state().add(model, position, source.velocity);
-  add_meshes(*model);
+  if (model->fine && !fine) {
+    count_vertices();  // the first one: the bodies before it are shown as they are
+  } else {
+    particles.add(model->shape);
+    if (fine) fine->add(model->shown().shape);
+  }
   EnergyLedger& ledger = solver.state().ledger;
   ledger.book(WorkBy::user, measure(solver.state(), id, scene.gravity).conserved(ledger.staggering));
   return id;
@@ -100,13 +105,6 @@ collide::Settings World::Parts::settings_of(const Scene& of) const {
   return all;
 }
 
-/// Adds the meshes of a new body, which the solver's state has already.
-void World::Parts::add_meshes(const BodyModel& model) {
-  if (model.fine && !fine) return count_vertices();  // the first one: the bodies before it are shown as they are
-  particles.add(model.shape);
-  if (fine) fine->add(model.shown().shape);
-}
-
 /// Counts bodies and their vertices anew from the solver's state.
 void World::Parts::count_vertices() {
   const State& state = solver.state();
@@ -130,23 +128,20 @@ void World::Parts::update_positions() {
 /// Lets the meshes that are shown follow the particles.
 void World::Parts::place_fine_meshes() {
   if (!fine) return;
-  const auto spans = [](Coordinates& of, const collide::Bodies& bodies, BodyId id) {
-    const auto part = [&](std::vector<float>& all) {
-      return std::span(all).subspan(bodies.first[id], bodies.size(id));
-    };
-    return std::array{part(of.x), part(of.y), part(of.z)};
-  };
-  fine->positions.resized(fine->bodies.vertex_count());
+  const Field<float> places = fine->positions.resized(fine->bodies.vertex_count());
   constexpr double vertex_ns = 20;  // of work
   const int threads = workers.threads_for(vertex_ns * double(fine->bodies.vertex_count()));
   workers.share(threads, particles.bodies.count(), [&](int thread, std::size_t body) {
     const auto id = BodyId(body);
-    const auto from = spans(particles.positions, particles.bodies, id);
-    const auto to = spans(fine->positions, fine->bodies, id);
+    const collide::VertexRun from = collide::vertices_of(particles.input(), id);
+    const Field<float> to = places + fine->bodies.first[id];
+    const std::size_t size = fine->bodies.size(id);
     if (const auto& mesh = solver.state().model(id).fine)
-      mesh->embedding().place({from[0], from[1], from[2]}, to[0], to[1], to[2], placing[std::size_t(thread)]);
+      mesh->embedding().place({{from.x, from.size}, {from.y, from.size}, {from.z, from.size}}, {to.x, size},
+                              {to.y, size}, {to.z, size}, placing[std::size_t(thread)]);
     else
-      for (std::size_t k = 0; k < 3; ++k) std::ranges::copy(from[k], to[k].begin());
+      for (const auto& [source, target] : {std::pair(from.x, to.x), {from.y, to.y}, {from.z, to.z}})
+        std::copy_n(source, size, target);
   });
 }
 

@@ -113,7 +113,7 @@ std::vector<BodySource> body_sources(const World& world) {
   std::vector<BodySource> all;
   auto late = first_late;
   for (const BodySource& body : world.scene().bodies) {
-    // Between two steps, so before those of the scene that come in the next one.
+    // A body added between two steps comes before those that the scene brings in the next one.
     for (; late != added.end() && late->source.appear <= body.appear; ++late) all.push_back(late->source);
     all.push_back(body);
   }
@@ -123,6 +123,7 @@ std::vector<BodySource> body_sources(const World& world) {
 }
 
 BodyId World::drop(int count) {
+  assert(count >= 1);
   Parts& s = *parts_;
   Dropper dropper = s.dropper();
   s.check_capacity(*s.models.of(dropper.body), std::size_t(count));
@@ -150,12 +151,9 @@ void World::Parts::wake_near(BodyId body) {
   const collide::Frame now = particles.input();
   const collide::Bodies& bodies = particles.bodies;
   const auto box = [&](BodyId b) {
-    const Index first = bodies.first[b];
-    glm::vec3 lo(now.x[first], now.y[first], now.z[first]), hi = lo;
-    for (Index i = first; i < bodies.first[b + 1]; ++i) {
-      const glm::vec3 p(now.x[i], now.y[i], now.z[i]);
-      lo = glm::min(lo, p), hi = glm::max(hi, p);
-    }
+    const collide::VertexRun at = collide::vertices_of(now, b);
+    glm::vec3 lo = at[0], hi = lo;
+    for (Index i = 0; i < at.size; ++i) lo = glm::min(lo, at[i]), hi = glm::max(hi, at[i]);
     return std::pair(lo, hi);
   };
   const float wake_distance = std::max(settings.tolerance, 0.25f * float(solver.state().model(body).mean_edge));
@@ -170,6 +168,7 @@ void World::Parts::wake_near(BodyId body) {
 
 void World::remove(BodyId body) {
   Parts& s = *parts_;
+  assert(body < s.particles.bodies.count());
   s.wake_near(body);
   s.book_change([&] { s.solver.remove(body); });
   std::erase_if(s.added, [&](const AddedBody& one) { return one.body == body; });

@@ -57,8 +57,7 @@ struct World::Parts : WorldValues {
   Parts(Scene s, const Options& o);
 
   /// Makes a change by the user, and books the energy that it gives to the bodies.
-  template <class Change>
-  void book_change(const Change& change) {
+  void book_change(const auto& change) {
     const double before = energy();
     change();
     solver.state().ledger.book(WorkBy::user, energy() - before);
@@ -66,7 +65,6 @@ struct World::Parts : WorldValues {
   double energy() const;  // J, of all bodies
   BodyId add(const BodySource& source, const glm::dvec3& position);
   void arrive();
-  void add_meshes(const BodyModel& model);
   void count_vertices();
   void update_positions();
   void place_fine_meshes();

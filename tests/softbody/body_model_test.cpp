@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -99,7 +98,7 @@ TEST(PairBound, HasTheEigenvaluesOfKnownGraphs) {
   EXPECT_EQ(bound(3, {}), 0);
 }
 
-/// From below by power iteration, from above by a little more than that.
+/// Power iteration finds the eigenvalue from below; the bound may be a little above it.
 TEST(PairBound, HoldsTheNetsOfBodiesClosely) {
   Material m = spring_ball();
   m.set(StructuralSprings::keys, {300, 0.2});
@@ -183,8 +182,19 @@ TEST(BodyModel, IsAsThickAsItsSizeAsksFor) {
   EXPECT_EQ(thickness(0.001, given), 0.02);
 }
 
+/// A cap of the height h that is cut off a ball of radius 1 leaves a hole of h / 2 of the rest's area, seen from above.
 TEST(BodyModel, RollsIfItIsNearlyClosed) {
-  EXPECT_TRUE(make_body_model({}, {})->rolls);
+  const auto rolls = [](double height) {
+    Mesh mesh = icosphere(3, 1);
+    std::erase_if(mesh.triangles, [&](const Triangle& t) {
+      return mesh.vertices[t[0]].y + mesh.vertices[t[1]].y + mesh.vertices[t[2]].y > 3 * (1 - height);
+    });
+    connect_triangles(mesh);
+    return make_body_mesh(std::move(mesh))->rolls;
+  };
+  EXPECT_TRUE(rolls(0));
+  EXPECT_TRUE(rolls(0.12));
+  EXPECT_FALSE(rolls(0.3));
   EXPECT_FALSE(make_body_model({.kind = "grid", .columns = 3, .rows = 3, .width = 1, .depth = 1}, {})->rolls);
 }
 

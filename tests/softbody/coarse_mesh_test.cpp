@@ -7,14 +7,12 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
-#include <set>
 
 #include "collide/methods.h"
 #include "collide/oracle/surface_oracle.h"
 #include "collide/surface/closest_features.h"
 #include "softbody/mesh/coarse_mesh.h"
 #include "softbody/mesh/surface.h"
-#include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
 #include "tests/softbody/obj_lines.h"
 
@@ -281,18 +279,6 @@ TEST_F(FineBody, ShowsContactsOfTheFineMesh) {
     most = std::max(most, truth.contacts.size());
   }
   EXPECT_GT(most, 0u);
-}
-
-TEST_F(FineBody, GoesOnAfterASnapshotAndWithAnyThreads) {
-  World world(scene(400, 2), {});
-  run(world, 30);
-  const Snapshot snapshot = world.snapshot();
-  run(world, 30);
-  World other(scene(400, 2), {.threads = 2});
-  other.restore(snapshot);
-  run(other, 30);
-  EXPECT_EQ(other.state_hash(), world.state_hash());
-  EXPECT_TRUE(std::ranges::equal(other.positions().y, world.positions().y));
 }
 
 TEST_F(FineBody, IsUpToDateAfterEachSubstep) {

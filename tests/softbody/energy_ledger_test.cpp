@@ -60,7 +60,7 @@ Material material(double damping_ratio = 0) {
   return m;
 }
 
-/// m, of the ball.
+/// Returns the radius of the ball in m.
 double radius() { return glm::length(make_body_model({}, material())->start[0]); }
 
 Scene ball(const glm::dvec3& gravity = glm::dvec3(0.0)) {
@@ -74,7 +74,7 @@ Scene by_surfaces(Scene scene) {
   return scene;
 }
 
-/// Two balls, their centres so many radii apart.
+/// Returns two balls whose centres are so many radii apart.
 Scene pair(double apart) {
   Scene scene = ball();
   add_body(scene, {apart * radius(), 0.05, 0.02}, glm::dvec3(0.0));
@@ -220,7 +220,7 @@ TEST(EnergyLedger, BooksWhatStepsGiveThatBecomeLonger) {
   EXPECT_TRUE(all.needed);
 }
 
-/// With steps ten times too long, and with dampers that drive.
+/// Steps are ten times too long, or dampers drive.
 TEST(EnergyWatch, FindsBlowUpsWithinTenFramesInEveryScene) {
   constexpr Index many = 50'000;  // vertices: they would take minutes
   for (const std::string& key : scene_keys(SBCOLLIDE_SCENES))

@@ -100,7 +100,7 @@ TEST(WorkBudget, CountsImplicitSteps) {
   EXPECT_EQ(step(1e5, whole.substeps).seconds, whole.seconds) << "who fixes them gets them";
 }
 
-/// One body in another of its kind.
+/// One body lies in another of its kind, or beside it.
 TEST(WorkBudget, CountsPenaltyPairs) {
   const auto work_of_substep = [](double apart) {
     Scene scene = lone_body(gas_ball(), {0, 5, 0});
@@ -117,7 +117,7 @@ TEST(WorkBudget, CountsPenaltyPairs) {
   EXPECT_DOUBLE_EQ(work_of_substep(0.3), work_of_substep(5));
 }
 
-/// Two bodies side by side in contact of their surfaces.
+/// Returns two bodies side by side whose surfaces touch.
 Scene touching_surfaces() {
   Scene scene = lone_body(gas_ball());
   add_body(scene, {0.99, 0, 0}, {});
@@ -160,8 +160,8 @@ TEST(WorkBudget, CountsSearchesForSurfaceContact) {
   }
 }
 
-/// In none of them do surfaces pass each other by more than 0.15 edges.
-TEST(StepBounds, AskForSubstepsForBodiesThatPass) {
+/// Surfaces pass each other by no more than 0.15 edges in a substep.
+TEST(StepBounds, AskForSubstepsWhereBodiesPassEachOther) {
   constexpr double speed = 100;  // m/s, towards each other
   Scene scene = lone_body(gas_ball(), {speed / 2, 0, 0});
   add_body(scene, {2, 0, 0}, {-speed / 2, 0, 0});
@@ -176,7 +176,7 @@ TEST(StepBounds, AskForSubstepsForBodiesThatPass) {
   EXPECT_LT(without.last_step().substeps, world.last_step().substeps / 2);
 }
 
-/// Those that were found before belong to another moment: nothing may look at them.
+/// Candidates that were found before belong to another moment: nothing may look at them.
 TEST(MaxCandidates, EndTheFrame) {
   const auto candidates = [](const World& world) {
     return WorldTestAccess::solver(world).surface_contact().candidates().search().features().size();

@@ -15,12 +15,12 @@
 namespace softbody {
 namespace {
 
-/// On the first face of body 0, not at its middle.
+/// Returns a grab of a point of the first face of body 0 that is not its middle.
 Grab on_first_face(const World& world) {
   return {.corners = world.model(0).mesh.triangles[0], .weights = {0.5, 0.3, 0.2}};
 }
 
-/// At the middle of the highest face, under which it does not swing.
+/// Returns a grab of the middle of the highest face, under which the body does not swing.
 Grab on_top(const World& world) {
   const Mesh& mesh = world.model(0).mesh;
   const auto height = [&](const Triangle& t) {
@@ -39,7 +39,7 @@ glm::dvec3 take(World& world, Grab grab, const glm::dvec3& stretch) {
   return from;
 }
 
-TEST(Grab, TheForceIsTheSpringsAndDampersForASmallStepAndBoundedForAnyOther) {
+TEST(Pull, IsThatOfASpringAndADamperInShortStepsAndBoundedInLongOnes) {
   const glm::dvec3 stretch(0.1, 0, 0), v(0, 2, 0);
   const glm::dvec3 force = pull(30, 4, 0.5, 1e-9, stretch, v);
   EXPECT_NEAR(force.x, 3, 1e-6);
@@ -52,8 +52,8 @@ TEST(Grab, TheForceIsTheSpringsAndDampersForASmallStepAndBoundedForAnyOther) {
   }
 }
 
-/// The second of two bodies, of which the other stays where it is.
-TEST(Grab, AFreePointSwingsAsTheClosedFormSays) {
+/// The hand holds the second of two bodies; the other stays where it is.
+TEST(Grab, SwingsAFreePointAsTheClosedFormSays) {
   Material dust = test::spring_ball();
   dust[StructuralSprings::stiffness] = dust[BendSprings::stiffness] = 0;  // particles that know nothing of each other
   Scene scene = test::lone_body(dust);
@@ -81,7 +81,7 @@ TEST(Grab, AFreePointSwingsAsTheClosedFormSays) {
   EXPECT_EQ(world.state().max_particle_speed(0), 0);
 }
 
-TEST(Grab, AHangingBodySagsByItsWeight) {
+TEST(Grab, LetsAHangingBodySagByItsWeight) {
   const auto sag = [](double mass, const IntegratorChoice& choice) {
     Material material = test::spring_ball();
     material[Material::mass] = mass;

@@ -1,6 +1,8 @@
 #pragma once
 // Small worlds to try, their totals, and forces worked out a second time by plain loops in double.
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <random>
 
@@ -47,7 +49,7 @@ struct Motion {
 };
 Motion motion(const World& world, BodyId body);
 glm::dvec3 angular_momentum(const World& world);  // about the world's origin
-/// Forces of springs and gas at rest, by plain loops.
+/// Returns the forces of springs and gas at rest, by plain loops.
 std::vector<glm::dvec3> forces(const BodyModel& model, const std::vector<glm::dvec3>& x);
 
 /// Returns the model with one force and no other.
@@ -63,6 +65,24 @@ BodyModel with_force(BodyModel model, const typename F::Data& data) {
 template <class F>
 BodyModel only(const BodyModel& model) {
   return with_force<F>(model, *data<F>(model));
+}
+
+/// Returns the line that work() throws; "was taken" if it throws none.
+template <class Error = SceneError>
+std::string error_of(const auto& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return error.what();
+  }
+  return "was taken";
+}
+/// Expects that work() throws a line with these words.
+template <class Error = SceneError>
+void expect_error(const std::string& words, const auto& work) {
+  const std::string line = error_of<Error>(work);
+  EXPECT_NE(line.find(words), std::string::npos) << line;
 }
 
 double uniform(std::mt19937& random, double lo, double hi);

@@ -13,7 +13,8 @@ namespace {
 using softbody::LineReader;
 
 /// Lengths about those at which more is read at once, up to the longest line.
-class LineLengths : public testing::TestWithParam<std::size_t> {};
+constexpr std::size_t lengths[]{
+    0, 1, 65'529, 65'530, 65'535, 65'536, 65'537, 131'072, 200'000, 524'288, LineReader::max_line_length - 8};
 
 std::vector<std::string> lines_of(const std::string& text) {
   const tests::TemporaryFolder folder;
@@ -23,39 +24,39 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-TEST_P(LineLengths, ComeWholeBetweenOthersWithAnyEnd) {
-  const std::string long_line(GetParam(), 'x');
-  for (const std::string end : {"\n", "\r\n", "\r"})
-    EXPECT_TRUE(lines_of("first" + end + long_line + end + long_line + end + "last") ==
-                (std::vector{std::string("first"), long_line, long_line, std::string("last")}));
+TEST(LineReader, ReadsWholeLinesOfAnyLengthAndEnd) {
+  for (const std::size_t length : lengths)
+    for (const std::string end : {"\n", "\r\n", "\r"}) {
+      const std::string line(length, 'x');
+      EXPECT_TRUE(lines_of("first" + end + line + end + line + end + "last") ==
+                  (std::vector<std::string>{"first", line, line, "last"}))
+          << length;
+    }
 }
 
-TEST_P(LineLengths, ComeJoined) {
-  const std::string half(GetParam() / 2, '1');
-  for (const std::string end : {"\n", "\r\n", "\r", " \t\n"}) {
-    const tests::TemporaryFolder folder;
-    LineReader lines(folder.write("lines", half + "\\" + end + half + "1\nlast"));
-    std::string_view line;
-    ASSERT_TRUE(lines.next(line));
-    EXPECT_TRUE(line == half + std::string(1 + end.size(), ' ') + half + '1') << line.size();
-    ASSERT_TRUE(lines.next(line));
-    EXPECT_EQ(line, "last");
-    EXPECT_EQ(lines.number(), 3u);
-  }
+TEST(LineReader, JoinsLinesOfAnyLengthAndEnd) {
+  for (const std::size_t length : lengths)
+    for (const std::string end : {"\n", "\r\n", "\r", " \t\n"}) {
+      const std::string half(length / 2, '1');
+      const tests::TemporaryFolder folder;
+      LineReader lines(folder.write("lines", half + "\\" + end + half + "1\nlast"));
+      std::string_view line;
+      ASSERT_TRUE(lines.next(line));
+      EXPECT_TRUE(line == half + std::string(1 + end.size(), ' ') + half + '1') << line.size();
+      ASSERT_TRUE(lines.next(line));
+      EXPECT_EQ(line, "last");
+      EXPECT_EQ(lines.number(), 3u);
+    }
 }
-
-INSTANTIATE_TEST_SUITE_P(LineReader, LineLengths,
-                         testing::Values(0, 1, 65'529, 65'530, 65'535, 65'536, 65'537, 131'072, 200'000, 524'288,
-                                         LineReader::max_line_length - 8));
 
 using Lines = std::vector<std::string>;
 
-TEST(LineReader, EndsOfLinesMayBeMixed) {
+TEST(LineReader, TakesMixedEndsOfLines) {
   EXPECT_EQ(lines_of("a\rb\r\nc\n\r\r\n\n\rd"), (Lines{"a", "b", "c", "", "", "", "", "d"}));
   EXPECT_EQ(lines_of("a\r"), Lines{"a"});
 }
 
-TEST(LineReader, AStatementIsNotJoinedToTheLineBeforeIt) {
+TEST(LineReader, DoesNotJoinAStatementToTheLineBefore) {
   EXPECT_EQ(lines_of("g C:\\\nf 1 2 3\n"), (Lines{"g C:\\", "f 1 2 3"}));
   EXPECT_EQ(lines_of("g C:\\\r\tf 1 \\\r2 3\r"), (Lines{"g C:\\", "\tf 1   2 3"}));
   EXPECT_EQ(lines_of("# C:\\\n# D:\\\n\nv"), (Lines{"# C:\\", "# D:  ", "v"}));

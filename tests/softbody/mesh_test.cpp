@@ -54,7 +54,7 @@ TEST(Icosphere, HasBendPairsOfTheCornersOppositeAnEdge) {
   }
 }
 
-/// Against points all over each face.
+/// The test compares it with points all over each face.
 TEST(CoveringRadius, IsTheLargestDistanceFromTheNearestCorner) {
   constexpr int cuts = 200;
   for (const glm::dvec3 top : {glm::dvec3(0.5, 0.9, 0), glm::dvec3(0.5, 0.5, 0), glm::dvec3(0.3, 0.1, 0.1),

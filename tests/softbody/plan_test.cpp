@@ -34,7 +34,7 @@ TEST(Plan, EachStageIsRunOrLeftOutWithAReason) {
       EXPECT_FALSE(stage_key(stage).empty());
       EXPECT_NE(plan.has(stage), !why(plan, stage).empty()) << stage_key(stage);
     }
-    // As a step runs them: forces, in the order of their table, just before gravity.
+    // A step runs the forces in the order of their table, just before gravity.
     const auto gravity = std::ranges::find(plan.stages, Stage::gravity);
     const auto first = std::ranges::find_if(plan.stages, [](Stage s) { return s >= Stage::first_force; });
     EXPECT_TRUE(std::is_sorted(plan.stages.begin(), first) && std::is_sorted(gravity, plan.stages.end()));
@@ -138,11 +138,25 @@ TEST_P(StageLeftOut, ChangesNoBitOfTheTrajectory) {
   }
 }
 
-void sheet(Scene& s) { s.bodies[0].mesh = {.kind = "grid", .columns = 5, .rows = 5, .width = 1, .depth = 1}; }
+using Edit = std::function<void(Scene&)>;
+
 void nothing(Scene&) {}
+Edit set(const Key& key, double value) {
+  return [&key, value](Scene& s) { s.materials[0][key] = value; };
+}
+/// Two edits, one after the other.
+Edit both(const Edit& first, const Edit& second) {
+  return [=](Scene& s) { first(s), second(s); };
+}
+void sheet(Scene& s) { s.bodies[0].mesh = {.kind = "grid", .columns = 5, .rows = 5, .width = 1, .depth = 1}; }
+void far_sphere(Scene& s) { set_solid(s, {SolidSphere{.centre = {3000, 0, 0}}}); }
+void no_solids(Scene& s) { s.solids.clear(); }
+void no_sphere(Scene& s) { remove_solids<SolidSphere>(s); }
+void by_surfaces(Scene& s) { s.contact_surface = ContactSurface::surfaces; }
+void touching_itself(Scene& s) { s.collision.self_collision = true, s.collision.tolerance = 1e-6f; }
 
 const Idle idle_stages[]{
-    {"solids", Stage::solids, [](Scene& s) { s.solids.clear(); },
+    {"solids", Stage::solids, no_solids,
      [](Scene& s) {
        s.solids = {{SolidSphere{.centre = {3000, 0, 0}}},
                    {Ground{.height = -3000}},
@@ -154,61 +168,30 @@ const Idle idle_stages[]{
      [](Scene& s) {
        for (Solid& solid : s.solids) solid.enabled = false;
      },
-     [](Scene& s) {
-       s.solids = {{SolidSphere{.centre = {3000, 0, 0}}}};
-     }},
-    {"features", Stage::solid_features,
-     [](Scene& s) {
-       s.contact_surface = ContactSurface::surfaces;
-       remove_solids<SolidSphere>(s);
-     },
-     [](Scene& s) {
-       s.contact_surface = ContactSurface::surfaces;
-       set_solid(s, {SolidSphere{.centre = {3000, 0, 0}}});
-     }},
+     both(no_solids, far_sphere)},
+    {"features", Stage::solid_features, both(by_surfaces, no_sphere), both(by_surfaces, far_sphere)},
     {"restitution", Stage::restitution, nothing,
      [](Scene& s) {
        add_solid(s, {.shape = SolidSphere{.centre = {3000, 0, 0}}, .restitution = 1});
      }},
-    {"detect", Stage::detect, nothing,
-     [](Scene& s) {
-       s.collision.self_collision = true;
-       s.collision.tolerance = 1e-6f;
-     }},
-    {"response", stage_of<PenaltyContact>, nothing,
-     [](Scene& s) {
-       s.collision.self_collision = true;
-       s.collision.tolerance = 1e-6f;
-     }},
+    {"detect", Stage::detect, nothing, touching_itself},
+    {"response", stage_of<PenaltyContact>, nothing, touching_itself},
     {"arrive", Stage::arrive, nothing,
      [](Scene& s) {
        s.bodies.push_back(s.bodies[0]);
        s.bodies[1].appear = s.bodies[1].release = 1000;
      }},
-    {"damping", Stage::internal_damping, nothing, [](Scene& s) { s.materials[0][Material::internal_damping] = 1e-30; }},
-    {"rebound", Stage::rebound_damping, nothing, [](Scene& s) { s.materials[0][contact::rebound_speed] = 1e30; }},
-    {"rolling", Stage::rolling_resistance, nothing,
-     [](Scene& s) { s.materials[0][contact::rolling_resistance] = 1e-30; }},
+    {"damping", Stage::internal_damping, nothing, set(Material::internal_damping, 1e-30)},
+    {"rebound", Stage::rebound_damping, nothing, set(contact::rebound_speed, 1e30)},
+    {"rolling", Stage::rolling_resistance, nothing, set(contact::rolling_resistance, 1e-30)},
     {"sleep", Stage::sleep, nothing, [](Scene& s) { s.sleep.speed = 1e-30; }},
-    {"gravity", Stage::gravity, [](Scene& s) { s.gravity = glm::dvec3(0.0); },
-     [](Scene& s) {
-       s.gravity = {0, -1e-30, 0};
-     }},
+    {"gravity", Stage::gravity, [](Scene& s) { s.gravity.y = 0; }, [](Scene& s) { s.gravity.y = -1e-30; }},
     {"shear", stage_of<ShearSprings>, sheet,
-     [](Scene& s) {
-       sheet(s);
-       s.materials[0].set(ShearSprings::keys, {1e-30, 0});
-     }},
-    {"bend", stage_of<BendSprings>, [](Scene& s) { s.materials[0][BendSprings::stiffness] = 0; },
-     [](Scene& s) {
-       s.materials[0].set(BendSprings::keys, {1e-30, 0});
-     }},
-    {"gas", stage_of<GasPressure>,
-     [](Scene& s) { s.materials[0][GasPressure::inside] = s.materials[0][GasPressure::outside] = 0; },
-     [](Scene& s) {
-       s.materials[0][GasPressure::inside] = 1e-30;
-       s.materials[0][GasPressure::outside] = 0;
-     }},
+     both(sheet, both(set(ShearSprings::stiffness, 1e-30), set(ShearSprings::damping_ratio, 0)))},
+    {"bend", stage_of<BendSprings>, set(BendSprings::stiffness, 0),
+     both(set(BendSprings::stiffness, 1e-30), set(BendSprings::damping_ratio, 0))},
+    {"gas", stage_of<GasPressure>, both(set(GasPressure::inside, 0), set(GasPressure::outside, 0)),
+     both(set(GasPressure::inside, 1e-30), set(GasPressure::outside, 0))},
 };
 
 INSTANTIATE_TEST_SUITE_P(Stages, StageLeftOut, testing::ValuesIn(idle_stages),

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int frames = 800;
 
-/// From the highest body to the ground.
+/// Returns the speed of a fall from the highest body to the ground, m/s.
 double free_fall_speed(const World& world) {
   double highest = 0;
   for (const BodySource& b : world.scene().bodies) highest = std::max(highest, b.position.y);
@@ -49,7 +49,7 @@ TEST_P(Scenes, HoldTheirBoundsInEveryFrameAndSleepAtTheEnd) {
   EXPECT_EQ(measure(world).max_speed, 0);
 }
 
-/// Only the first second, in which the lowest bodies hit the solid sphere: all 800 frames take minutes.
+/// The test runs only the first second, in which the lowest bodies hit the solid sphere: 800 frames take minutes.
 TEST(SceneOfAMillionFaces, HoldsItsBoundsThroughTheFirstImpacts) {
   World world(find_scene("drop-3000", SBCOLLIDE_SCENES), {.threads = 2});
   double fastest = 0;
@@ -59,7 +59,7 @@ TEST(SceneOfAMillionFaces, HoldsItsBoundsThroughTheFirstImpacts) {
   EXPECT_GT(world.detection().contacts.size(), 1000u);
 }
 
-/// All but the one of a million faces.
+/// Returns all scenes but the one of a million faces.
 std::vector<std::string> small_scenes() {
   std::vector<std::string> keys = scene_keys(SBCOLLIDE_SCENES);
   std::erase(keys, "drop-3000");

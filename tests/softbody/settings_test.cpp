@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/change.h"
@@ -11,7 +9,7 @@
 namespace softbody::test {
 namespace {
 
-TEST(Settings, AWideToleranceAllOfASuddenDoesNotThrowBodiesAbout) {
+TEST(Tolerance, ThrowsNoBodiesAboutWhenItGrowsAllOfASudden) {
   for (const double shift : {0.0, 0.002, 0.004}) {  // m: the same bodies come to lie otherwise
     Scene scene = drop_scene();
     for (BodySource& body : scene.bodies) body.position.x += shift;
@@ -38,7 +36,7 @@ TEST(Settings, AWideToleranceAllOfASuddenDoesNotThrowBodiesAbout) {
   }
 }
 
-TEST(Settings, SelfCollisionOfALoneBodyComesAndGoes) {
+TEST(SelfCollision, ComesAndGoesForALoneBody) {
   World world(find_scene("cloth", SBCOLLIDE_SCENES), {});
   run(world, 120);
   ASSERT_GT(world.detection().self_contacts, 0u);
@@ -53,7 +51,7 @@ TEST(Settings, SelfCollisionOfALoneBodyComesAndGoes) {
   EXPECT_GT(again.detection().self_contacts, 0u);
 }
 
-TEST(Settings, AWiderToleranceWakesAPileThatStaysAwakeWhileTheContactLayerGrows) {
+TEST(Tolerance, KeepsAPileAwakeWhileTheContactLayerGrows) {
   World world(drop_scene(), {});
   run(world, 800);
   ASSERT_TRUE(world.all_at_rest());
@@ -65,47 +63,42 @@ TEST(Settings, AWiderToleranceWakesAPileThatStaysAwakeWhileTheContactLayerGrows)
   EXPECT_LT(world.detection().contacts.size(), before) << "penalty contact pushed bodies apart";
 }
 
-struct End {
-  const char* name;
-  int levels;
-  std::uint32_t buckets;
-  float cell;  // m, 0: the default one
-  float tolerance;
-};
-
-class SliderEnd : public testing::TestWithParam<End> {};
-
-TEST_P(SliderEnd, KeepsTheRunningSceneWhole) {
-  const End& end = GetParam();
+TEST(Settings, KeepTheRunningSceneWholeAtEachEndOfTheirSliders) {
+  const struct {
+    const char* name;
+    int levels;
+    std::uint32_t buckets;
+    float cell;  // m, 0: the default one
+    float tolerance;
+  } ends[]{
+      {"levels 0", 0, 1001, 0, 0.1f},         {"levels 15", 15, 1001, 0, 0.1f},
+      {"one bucket", 3, 1, 0, 0.1f},          {"most buckets", 3, collide::max_buckets, 0, 0.1f},
+      {"tiny cell", 3, 1001, 0.005f, 0.1f},   {"huge cell", 3, 1001, 1e6f, 0.1f},
+      {"tiny tolerance", 3, 1001, 0, 0.001f}, {"wide tolerance", 3, 1001, 0, 1.0f},
+  };
   World world(drop_scene(), {.threads = 2});
   run(world, 330);  // about when bodies roll off the solid sphere against each other
   const Snapshot before = world.snapshot();
-  for (const collide::Method& method : collide::method_table()) {
-    world.restore(before);
-    change(world, [&](Scene& s) {
-      s.method = method.key;
-      s.collision.levels = end.levels;
-      s.collision.buckets = end.buckets;
-      s.collision.tolerance = end.tolerance;
-      if (end.cell > 0) s.collision.cell_size = glm::vec3(end.cell);
-    });
-    for (int i = 0; i < 20; ++i) {
-      world.step();
-      const Measures m = measure(world);
-      ASSERT_TRUE(m.finite) << method.key << ", frame " << world.frame();
-      ASSERT_LT(m.max_speed, 16) << method.key << ", frame " << world.frame();
+  for (const auto& end : ends)
+    for (const collide::Method& method : collide::method_table()) {
+      SCOPED_TRACE(end.name);
+      SCOPED_TRACE(method.key);
+      world.restore(before);
+      change(world, [&](Scene& s) {
+        s.method = method.key;
+        s.collision.levels = end.levels;
+        s.collision.buckets = end.buckets;
+        s.collision.tolerance = end.tolerance;
+        if (end.cell > 0) s.collision.cell_size = glm::vec3(end.cell);
+      });
+      for (int i = 0; i < 20; ++i) {
+        world.step();
+        const Measures m = measure(world);
+        ASSERT_TRUE(m.finite) << "frame " << world.frame();
+        ASSERT_LT(m.max_speed, 16) << "frame " << world.frame();
+      }
     }
-  }
 }
-
-const End ends[]{
-    {"levels_0", 0, 1001, 0, 0.1f},         {"levels_15", 15, 1001, 0, 0.1f},
-    {"one_bucket", 3, 1, 0, 0.1f},          {"max_buckets", 3, collide::max_buckets, 0, 0.1f},
-    {"tiny_cell", 3, 1001, 0.005f, 0.1f},   {"huge_cell", 3, 1001, 1e6f, 0.1f},
-    {"tiny_tolerance", 3, 1001, 0, 0.001f}, {"wide_tolerance", 3, 1001, 0, 1.0f},
-};
-
-INSTANTIATE_TEST_SUITE_P(Ends, SliderEnd, testing::ValuesIn(ends), [](const auto& i) { return i.param.name; });
 
 }  // namespace
 }  // namespace softbody::test

@@ -8,7 +8,6 @@
 
 #include "softbody/mechanics/make_body_model.h"
 #include "tests/softbody/helpers.h"
-#include "tests/support/world_test_access.h"
 
 namespace softbody::test {
 namespace {
@@ -76,12 +75,16 @@ TEST_F(SleepRules, AFastBodyWakesTheSleepersItTouchesAndASlowOneDoesNot) {
   EXPECT_TRUE(asleep(2));
   wake_touched(rule, state, vertex_body, {touch(0, 2)});
   EXPECT_TRUE(asleep(2)) << "0 is awake but stands";
+  rule.speed = 0.3;
+  wake_touched(rule, state, vertex_body, {touch(1, 2)});
+  EXPECT_TRUE(asleep(2)) << "0.5 m/s is less than twice the rule's speed";
+  rule.speed = 0.2;
   wake_touched(rule, state, vertex_body, {touch(1, 2)});
   EXPECT_FALSE(asleep(2));
 }
 
 /// A body that lies on the ground, and one that falls on it later.
-Scene one_falls_on_another() {
+TEST(Sleep, EndsWhenABodyIsHitAndComesBackInTheEnd) {
   Material m = gas_ball();
   m[Material::internal_damping] = 20;
   m[contact::rebound_speed] = 1;
@@ -93,11 +96,7 @@ Scene one_falls_on_another() {
   scene.bodies[0].position = {0, 0.55, 0};
   add_body(scene, {0.3, 2.5, 0}, glm::dvec3(0.0));
   scene.bodies[1].appear = scene.bodies[1].release = 200;
-  return scene;
-}
-
-TEST(Sleeping, ABodyWakesWhenHitAndAllSleepInTheEnd) {
-  World world(one_falls_on_another(), {});
+  World world(scene, {});
   run(world, 200);
   ASSERT_TRUE(world.body(0).asleep);
   EXPECT_FALSE(world.all_at_rest()) << "one is still to come";
@@ -120,7 +119,7 @@ TEST(Sleeping, ABodyWakesWhenHitAndAllSleepInTheEnd) {
 }
 
 /// A ball slides over a mat without friction; no vertex of the one is near any of the other.
-TEST(SleepInSurfaceContact, WhoCarriesSomethingThatMovesStaysAwake) {
+TEST(Sleep, SparesABodyThatCarriesOneThatMoves) {
   Material smooth = spring_ball();
   smooth[contact::friction] = smooth[contact::rolling_resistance] = 0;
   smooth[Material::internal_damping] = 10;
@@ -144,13 +143,13 @@ TEST(SleepInSurfaceContact, WhoCarriesSomethingThatMovesStaysAwake) {
   for (int i = 0; i < 60; ++i) {
     world.step();
     ASSERT_TRUE(world.detection().contacts.empty());
-    ASSERT_GT(WorldTestAccess::solver(world).state().max_particle_speed(0), 0.2) << "it slides";
+    ASSERT_GT(world.state().max_particle_speed(0), 0.2) << "it slides";
     EXPECT_FALSE(world.body(1).asleep) << world.frame();
   }
-  EXPECT_LT(WorldTestAccess::solver(world).state().max_particle_speed(1), 0.1) << "calm enough to sleep";
+  EXPECT_LT(world.state().max_particle_speed(1), 0.1) << "calm enough to sleep";
 }
 
-TEST(SleepWhereABodyIsRemoved, EndsOnEverySideAndForNothingFarAlongOneAxis) {
+TEST(Sleep, EndsOnEverySideOfABodyThatIsRemoved) {
   Scene scene = lone_body(spring_ball());
   scene.contact_surface = ContactSurface::surfaces;
   scene.collision.tolerance = 1e-3f;

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "tests/softbody/helpers.h"
 #include "tests/support/change.h"
 #include "tests/support/world_test_access.h"
@@ -135,7 +133,7 @@ TEST(Snapshot, OfAStiffWorldIsPutBack) {
   EXPECT_TRUE(follow(world, 2) == first);
 }
 
-/// One body more fills the last lane of a block: nothing else is larger.
+/// One more body fills the last lane of a block, so nothing else is larger.
 TEST(Snapshot, ABodyTakesItsOwnSizeBesideItsParticles) {
   const auto bytes = [](int bodies) {
     Scene scene = lone_body(spring_ball());

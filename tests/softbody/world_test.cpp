@@ -12,7 +12,7 @@
 namespace softbody::test {
 namespace {
 
-TEST(Arrival, ABodyAppearsIsHeldAndIsReleasedAtItsFrames) {
+TEST(World, AddsAndReleasesBodiesAtTheirFrames) {
   Scene scene = lone_body(spring_ball());
   scene.gravity = {0, -9.81, 0};
   add_body(scene, {3, 5, 0}, {1, 0, 0});
@@ -30,7 +30,7 @@ TEST(Arrival, ABodyAppearsIsHeldAndIsReleasedAtItsFrames) {
   EXPECT_EQ(world.frame(), 9);
 }
 
-TEST(World, WhoLooksAfterASubstepSeesThePositionsOfThen) {
+TEST(World, ShowsThePositionsAfterEachSubstep) {
   World world(lone_body(spring_ball(), {3, -6, 12}), {.threads = 2, .integrator = {.substeps = 4}, .least_share = 0});
   const glm::dvec3 start = motion(world, 0).centre;
   int substeps = 0;
@@ -44,7 +44,7 @@ TEST(World, WhoLooksAfterASubstepSeesThePositionsOfThen) {
   EXPECT_EQ(substeps, 4);
 }
 
-TEST(World, NewSettingsAreFollowedAtOnce) {
+TEST(World, FollowsNewSettingsAtOnce) {
   World world(drop_scene(), {});
   do world.step();
   while (world.detection().contacts.size() < 20 && world.frame() < 800);
@@ -61,7 +61,7 @@ TEST(World, NewSettingsAreFollowedAtOnce) {
   EXPECT_EQ(world.method().key, "grid-hash");
 }
 
-TEST(World, TheHashTellsStatesApart) {
+TEST(World, HashesDifferentStatesDifferently) {
   const auto hash_of = [](double x, double v) {
     Scene scene = lone_body(spring_ball(), {v, 0, 0});
     scene.bodies[0].position.x = x;
@@ -91,7 +91,7 @@ TEST(Dropper, PutsBodiesClearOfAllOthers) {
   EXPECT_LT(measure(world).deepest_penetration, 1e-5);
 }
 
-TEST(World, ParticlesGoWhereTheyAreTold) {
+TEST(World, PutsParticlesWhereItIsTold) {
   Scene scene = lone_body(spring_ball());
   add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
   World world(scene, {});
