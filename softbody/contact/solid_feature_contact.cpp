@@ -16,7 +16,7 @@ namespace {
 /// Where the balls round the two overlap.
 bool may_meet(std::span<const glm::vec3> corners, const glm::vec3& from, const glm::vec3& to, float max_distance) {
   glm::vec3 middle(0.0f);
-  for (const glm::vec3& c : corners) middle += c / static_cast<float>(corners.size());
+  for (const glm::vec3& c : corners) middle += c / float(corners.size());
   float radius = 0;
   for (const glm::vec3& c : corners) radius = std::max(radius, glm::length(c - middle));
   const glm::vec3 along = to - from;

@@ -40,8 +40,10 @@ struct PenaltyContact::Share {
     barrier();
     if (thread == 0) {
       totals[0] = {};
-      for (std::size_t i = 1; i < totals.size(); ++i)
-        totals[i].first += totals[i - 1].first, totals[i].second += totals[i - 1].second;
+      for (std::size_t i = 1; i < totals.size(); ++i) {
+        totals[i].first += totals[i - 1].first;
+        totals[i].second += totals[i - 1].second;
+      }
       prepare(totals.back());
     }
     barrier();
@@ -54,6 +56,7 @@ struct PenaltyContact::Share {
 
 void PenaltyContact::find(const DetectedContacts& detected, const State& state, double seconds,
                           collide::Workers& workers) {
+  assert(std::ranges::is_sorted(detected.contacts) && seconds > 0);
   ContactLayer& layer = memory_.layer;
   PenaltyPairs& pairs = memory_.pairs;
   layer.tolerance = detected.tolerance;
@@ -137,7 +140,7 @@ void PenaltyContact::group(const Share& share, std::size_t slots, std::span<cons
     slot_.resize(all.first);
     first_end_.resize(all.first + 1);
     first_end_.back() = std::uint32_t(all.second);
-    motion_.resize(all.first), traits_.resize(all.first);
+    for (auto* table : {&motion_, &traits_}) table->resize(all.first);
     ends_.resize(all.second);
     force_.resize(pairs.a.size());
     stored_.resize(pairs.a.size() / lanes);
@@ -226,7 +229,8 @@ void PenaltyContact::add_impact(PenaltyEnd end, double impulse, double taken) {
   assert(bounces() && end.pair < pairs().size());
   const std::size_t at = end.pair + (end.at_b ? pairs().a.size() : 0);
   const float e = pairs().restitution[end.pair];
-  impulse_[at] += float(impulse), returned_[at] += e * e * float(taken);
+  impulse_[at] += float(impulse);
+  returned_[at] += e * e * float(taken);
 }
 
 void PenaltyContact::take_impacts(Rebounds& rebounds) {

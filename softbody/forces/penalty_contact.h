@@ -83,7 +83,10 @@ class PenaltyContact {
   /// before on to them. The contacts ascend.
   void find(const DetectedContacts& detected, const State& state, double seconds, collide::Workers& workers);
   /// Forgets all pairs.
-  void clear() { memory_.pairs.clear(), impulse_.clear(), returned_.clear(); }
+  void clear() {
+    memory_.pairs.clear();
+    for (auto* sums : {&impulse_, &returned_}) sums->clear();
+  }
   /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up.
   void remove(BodyId body, Index first, Index count);
 
