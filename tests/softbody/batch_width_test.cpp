@@ -79,7 +79,7 @@ class EveryKernel : public tests::OnEveryTarget {
 
 using Values = Field<float>;
 
-TEST_P(EveryKernel, OfForcesGivesTheSameBits) {
+TEST_P(EveryKernel, GivesTheSameBitsForForces) {
   const auto bodies = [&](int width, Values xs, Values fs) { return LaneBodies<float>{*model, width, xs, fs}; };
   for_each_force(Forces{}, [&]<class F>(Name<F>) {
     SCOPED_TRACE(F::key);
@@ -103,7 +103,7 @@ TEST_P(EveryKernel, OfForcesGivesTheSameBits) {
     });
 }
 
-TEST_P(EveryKernel, OfMotionGivesTheSameBits) {
+TEST_P(EveryKernel, GivesTheSameBitsForMotion) {
   expect_the_same([&](int width, int first, Values, Values vs, Values fs, float*) {
     state_kernels(width).kick(width, {n, 1, 0.5f, 0.25f, -1, 2, moves + first}, fs, vs);
   });
@@ -119,7 +119,7 @@ TEST_P(EveryKernel, OfMotionGivesTheSameBits) {
     });
 }
 
-TEST_P(EveryKernel, ThatUnpacksWritesOneBodyAfterAnother) {
+TEST_P(EveryKernel, UnpacksOneBodyAfterAnother) {
   DoubleLaneVector offset;
   for (int l = 0; l < lanes; ++l) offset.set(std::size_t(l), {1e3 + l, -7.3 * l, 0.1});
   for (int width = one_lane; width <= lanes; width = next_width(width))
@@ -142,7 +142,7 @@ TEST_P(EveryKernel, ThatUnpacksWritesOneBodyAfterAnother) {
     }
 }
 
-TEST_P(EveryKernel, OfRigidMotionGivesTheSameBits) {
+TEST_P(EveryKernel, GivesTheSameBitsForRigidMotion) {
   for (int which = 0; which < 15; ++which)
     expect_the_same([&](int width, int, Values xs, Values vs, Values, float* result) {
       RigidSums s;
@@ -163,7 +163,7 @@ TEST_P(EveryKernel, OfRigidMotionGivesTheSameBits) {
   });
 }
 
-TEST_P(EveryKernel, OfSolidsGivesTheSameBits) {
+TEST_P(EveryKernel, GivesTheSameBitsForSolids) {
   const SolidShape<float> shapes[]{
       SphereShape<float>{0.4f}, PlaneShape<float>{{0, 1, 0}},
       BoxShape<float>{{{0.6f, 0.8f, 0}, {-0.8f, 0.6f, 0}, {0, 0, 1}}, {0.5f, 0.2f, 1}, 0.01f},

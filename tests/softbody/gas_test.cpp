@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "softbody/mechanics/kernels.h"
 #include "softbody/mechanics/visit.h"

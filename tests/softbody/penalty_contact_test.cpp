@@ -127,7 +127,7 @@ TEST(PenaltyContact, FrictionIsADampedSpringUpToCoulombsLimit) {
   EXPECT_NEAR(sticks.force(glm::dvec3(0.0), 0.1).x, -100 * 0.01, 1e-4) << "it holds at rest as well";
 }
 
-TEST(PenaltyContact, AFrictionSpringThatSlipsIsStretchedNoFurtherThanItsLimit) {
+TEST(PenaltyContact, StretchesASlippingFrictionSpringNoFurtherThanItsLimit) {
   Pair pair({0, 0.05, 0}, 0.5);
   const double limit = 0.5 * force({0, 0.05, 0}, glm::dvec3(0.0)).y;
   for (int i = 0; i < 10; ++i) EXPECT_NEAR(pair.force({2, 0, 0}, 0.1).x, -limit, 1e-4);
@@ -135,7 +135,7 @@ TEST(PenaltyContact, AFrictionSpringThatSlipsIsStretchedNoFurtherThanItsLimit) {
   EXPECT_GT(pair.force({-0.1, 0, 0}, 2 * limit / 100 / 0.1).x, 0) << "and turns round at once";
 }
 
-TEST(PenaltyContact, FrictionSpringsArePassedOnToTheSameContactAcrossItsNewNormal) {
+TEST(PenaltyContact, HandsFrictionSpringsOnAcrossTheNewNormal) {
   Pair pair({0, 0.05, 0}, 5);
   pair.force({0.2, 0, 0}, 0.1);
   PenaltyContact next;
@@ -152,7 +152,7 @@ TEST(PenaltyContact, FrictionSpringsArePassedOnToTheSameContactAcrossItsNewNorma
   EXPECT_EQ(pair_of(next.pairs(), 2).stretch, glm::vec3(0.0f));
 }
 
-TEST(PenaltyContact, FrictionSpringsStayWithTheirContactsWhenAnEarlierBodyIsRemoved) {
+TEST(PenaltyContact, KeepsFrictionSpringsWhenAnEarlierBodyIsRemoved) {
   PenaltyContact penalty;
   const auto add = [&](const collide::Contact& contact, BodyId a, BodyId b, float stretch) {
     PenaltyPair pair{};
@@ -179,7 +179,7 @@ TEST(PenaltyContact, FrictionSpringsStayWithTheirContactsWhenAnEarlierBodyIsRemo
   EXPECT_EQ(pair_of(next.pairs(), 1).stretch, glm::vec3(4, 0, 0));
 }
 
-TEST(PenaltyLaw, ItsSlopesAndBoundHoldTheDerivativeOfItsPush) {
+TEST(PenaltyLaw, HasSlopesAndABoundThatItsPushDoesNotExceed) {
   constexpr double k = 100, h = 0.1, friction_spring = k;
   double steepest = 0;
   for (const double across : {0.0, 0.02, 0.08})
@@ -215,7 +215,7 @@ double damping(const glm::dvec3& apart, const glm::dvec3& velocity, double frict
   return most;
 }
 
-TEST(PenaltyContact, ItsDampersTakeNoMoreOfAVelocityThanTheyMay) {
+TEST(PenaltyContact, LimitsWhatItsDampersTakeOfAVelocity) {
   for (const double friction : {0.0, 0.5, 1.2}) {
     double most = 0;
     for (double s = -0.03; s < 0.1; s += 0.01)
@@ -233,7 +233,7 @@ TEST(PenaltyContact, ItsDampersTakeNoMoreOfAVelocityThanTheyMay) {
   }
 }
 
-TEST(PenaltyContact, ItsLimitedDampersLeaveTheStaticPushAlone) {
+TEST(PenaltyContact, KeepsTheStaticPushWhereItsDampersAreLimited) {
   for (const double s : {-0.02, 0.01, 0.05, 0.09}) {
     Pair free({0, s, 0}), limited({0, s, 0});
     limited.damper_limit = 1;

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -89,7 +88,7 @@ TEST(SolidShapes, OfABox) { expect_distance_to({box}, box_points(box), 0.06); }
 TEST(SolidShapes, OfACapsule) { expect_distance_to({capsule}, capsule_points(capsule), 0.06); }
 TEST(SolidShapes, OfACapsuleWithoutLength) { expect_distance_to({ball}, sphere_points(ball.from, ball.radius), 0.06); }
 
-TEST(SolidShapes, InsideABoxTheNearestFaceCounts) {
+TEST(SolidShapes, MeasureTheDepthInABoxFromItsNearestFace) {
   const Points points = box_points(box);
   std::mt19937 random(22);
   for (int i = 0; i < 300; ++i) {

@@ -35,7 +35,7 @@ TEST(StableStep, IsEightTenthsOfTheLimitOfOneOscillator) {
     }
 }
 
-TEST(StableStep, OfADamperAloneAndOfNothing) {
+TEST(StableStep, IsKnownForADamperAloneAndForNothing) {
   EXPECT_DOUBLE_EQ(stable_step(0, 5), 0.8 * 2 / 10);
   EXPECT_GT(stable_step(0, 0), 1e6);
   EXPECT_NEAR(stable_step(1e-12, 5), stable_step(0, 5), 1e-9);
