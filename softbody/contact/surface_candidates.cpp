@@ -20,7 +20,7 @@ constexpr float patience = 2;        // a motion is foreseen for so many times a
 constexpr float unknown = -1;        // in place of a gap at rest that was not needed yet
 constexpr float separation_depth = 0.25f;  // of the shorter mean edge: deeper bodies are parted as a whole
 
-/// m: how far a body may stray, if it strayed so far before.
+/// Returns how far (m) a body may stray that has strayed so far before.
 float slack_after(float stray, const collide::surface::SurfaceBody& before) {
   return std::max(2 * stray, before.slack / 2);
 }
@@ -32,8 +32,8 @@ void set_slack(collide::surface::SurfaceBody& body, float wanted) {
   body.slack = slack;
 }
 
-/// Whether a vertex faces the same way as the face of another body that it is closest to: surfaces that have met face
-/// each other, but those of bodies in one place do not.
+/// Returns true if a vertex faces the same way as the face of another body that it is closest to. Surfaces that have
+/// met face each other, but those of bodies in one place do not.
 bool faces_along(const Surface& own, const collide::VertexRun& own_at, Index vertex, const Surface& other,
                  const collide::VertexRun& other_at, Index face) {
   const auto normal = [](const Surface& surface, const collide::VertexRun& at, Index f) {
@@ -87,7 +87,8 @@ void SurfaceCandidates::update(const collide::surface::Motion& motion, float ela
   search(motion.positions, [&] { search_.update(motion, traits_, elapsed, ahead, workers); });
 }
 
-/// What is remembered belongs to the features that were found last: to none, if too many are near each other.
+/// Searches, and forgets everything if too many features are near each other: what is remembered belongs to those that
+/// were found last.
 template <class Search>
 void SurfaceCandidates::search(const collide::Frame& now, const Search& search) {
   try {
@@ -235,7 +236,8 @@ void SurfaceCandidates::find_interior_vertices(Pair& pair, const collide::Frame&
   pair.interior_end = std::uint32_t(interior_.size());
 }
 
-/// Greedily, in order: pairs of one colour share no body. Those for which no colour is left come last, one by one.
+/// Colours the pairs greedily, in order, so that pairs of one colour share no body. Those for which no colour is left
+/// come last, one by one.
 void SurfaceCandidates::colour() {
   constexpr std::size_t most = 64;
   std::vector<std::uint64_t> taken(bodies_.size(), 0);

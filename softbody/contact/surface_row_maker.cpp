@@ -32,7 +32,7 @@ ContactRow corners_of(const Closest& c, const SurfaceCandidates::Side& vertex_si
   return row;
 }
 
-/// Turns the normal to the side that is remembered; true if that is not the one it is on now.
+/// Turns the normal to the side that is remembered. Returns true if the features are on the other side now.
 bool orient(SurfaceCandidates::CachedContact& cached, bool inner, glm::vec3& normal) {
   const bool crossed = inner && glm::dot(cached.normal, normal) < 0;
   if (crossed) normal = -normal;
@@ -94,7 +94,7 @@ void SurfaceRowMaker::vertices_on_faces(Pair& pair, std::uint32_t begin, std::ui
   flush();
 }
 
-/// The rows of one vertex, whose near faces are listed.
+/// Adds the rows of one vertex, whose near faces are listed.
 void SurfaceRowMaker::vertex_on_faces(Pair& pair, const Side& vertex_side, const Side& face_side, bool oriented) {
   const auto& features = candidates_.search().features();
   const std::vector<NearFace>& near_faces = scratch_.near_faces;
@@ -144,7 +144,7 @@ void SurfaceRowMaker::vertex_on_faces(Pair& pair, const Side& vertex_side, const
   }
 }
 
-/// Those deep inside another body: towards the plane of the face that they are closest to.
+/// Adds the rows of vertices deep inside another body: each leaves by the plane of the face that it is closest to.
 void SurfaceRowMaker::add_interior_vertices(Pair& pair) {
   for (const SurfaceCandidates::InteriorVertex& d : candidates_.interior(pair)) {
     const Side vertex_side = candidates_.side(pair, d.of_b), face_side = candidates_.side(pair, !d.of_b);

@@ -58,7 +58,7 @@ struct LargestEigenvalue {
   bool ended;  // where a few of the eigenvectors, those that v has a part of, are all that is seen
 };
 
-/// Lanczos' method from v.
+/// Finds the largest eigenvalue by Lanczos' method from v.
 LargestEigenvalue largest_eigenvalue(const Laplacian& laplacian, Vector v) {
   constexpr Eigen::Index steps = 20;
   constexpr double reserve = 1.01;  // for eigenvalues so close to the largest that these steps do not tell them apart

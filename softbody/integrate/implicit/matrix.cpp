@@ -59,7 +59,7 @@ struct Assemble {
         entries.emplace_back(row * n + j, column * n + i, -b[column][row]);
       }
   }
-  /// On the diagonal of the two particles; it is taken from beside it.
+  /// Returns what stands on the diagonal of the two particles; beside the diagonal it is subtracted.
   glm::dmat3 block(Length c, const auto& law) const {
     const glm::dvec3 d = x[c.j] - x[c.i];
     const double length = glm::length(d);
@@ -152,7 +152,7 @@ CholeskyFactor copy(const Eigen::SimplicialLLT<Sparse>& llt) {
   return f;
 }
 
-/// dV/dx
+/// Returns dV/dx.
 Eigen::VectorXd volume_gradient(const BodyModel& model, const Shape& x) {
   const auto n = Eigen::Index(model.mesh.vertices.size());
   Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * n);
