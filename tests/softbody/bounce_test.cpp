@@ -137,8 +137,8 @@ TEST(Bounce, OfTwoBodiesKeepsTheirMomentumAndNearlySwapsTheirVelocities) {
   }
 }
 
-/// Contact stops a part of what the pressure was found for. Unless it is found again, heavy balls press too far into each
-/// other, and less comes back: 3.02 m/s.
+/// Contact stops a part of what the pressure was found for. Unless it is found again, heavy balls press too far into
+/// each other, and less comes back: 3.02 m/s.
 TEST(ImexBounce, OfHeavyBallsWithGasFindsThePressureAgain) {
   Material heavy = gas_ball();
   heavy[Material::mass] = 30;
