@@ -279,15 +279,6 @@ HWY_INLINE void kick(const LaneBodies<float>& b, const KickArguments& k, Field<f
   store(volumes.pressure + lane, V{});
 }
 
-/// Measures LaneVolumes::rate for the velocities v. f: A.
-template <class V, int width>
-HWY_INLINE void volume_rate(const LaneBodies<float>& b, Field<const float> v, float* result) {
-  V rate{};
-  for (std::size_t at = 0; at < b.model.mesh.vertices.size() * width; at += width)
-    rate += dot(load<V>(b.f, at), load<V>(v, at));
-  store(result, rate);
-}
-
 /// Changes the velocities by the gas, h P A / m: f: A. The pressure P depends on all particles, so that gas comes last:
 /// explicitly, or such as P is at the end of the substep, where the volume has become V + h A . (v + h P A / m). That
 /// is one number for each body, and stable at any h. The sum of A over a closed mesh is 0, so the momentum stays. What
