@@ -131,16 +131,13 @@ class PenaltyContact {
 
  private:
   friend struct PenaltyTestAccess;  // for tests that make pairs by hand
-  struct Share;
-  using Totals = std::pair<std::size_t, std::size_t>;
   /// Those of a batch, in the order of their slots.
   collide::Part particles_of(const Batch& batch) const {
     return pairs().empty() ? collide::Part{} : of_batch_[batch.index];
   }
   void gather(collide::Part particles, Field<const float> x, Field<const float> v);
-  void take(const Share& share, const DetectedContacts& detected, const State& state);
-  void group(const Share& share, std::size_t slots, std::span<const Batch> batches);
-  void group(std::size_t slots, std::span<const Batch> batches);
+  void take(const DetectedContacts& detected, const State& state, collide::Workers& workers, int threads);
+  void group(std::size_t slots, std::span<const Batch> batches, collide::Workers& workers, int threads);
   void set_traits(const State& state, const Batch& batch);
   void carry_over(collide::Part part, std::span<const collide::Contact> before, const VectorArray& stretch);
   template <class Real>
