@@ -118,7 +118,7 @@ TEST(StiffnessBound, HoldsACrumpledBody) {
       const SurfaceShape s = measure_surface(*p, x);
       const double norm = volume_pull(*p, s.volume).slope * s.area2 / p->particle_mass;
       const double geometric =
-          std::abs(data<GasPressure>(*p)->gauge(s.volume)) * p->largest_degree * s.two_medians / 6 / p->particle_mass;
+          std::abs(data<GasPressure>(*p)->pull(s.volume)) * p->largest_degree * s.two_medians / 6 / p->particle_mass;
       EXPECT_LE(bound, (springs + norm + geometric) * (1 + 1e-12)) << "no more than the sum of its parts";
     }
 }
