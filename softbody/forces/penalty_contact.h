@@ -12,7 +12,6 @@
 #include <cassert>
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "collide/core/detector.h"
