@@ -20,7 +20,7 @@ struct ContactRow {
   float mass;                     // kg, effective: 1 / sum of weight^2 / mass
   float relative_stiffness;  // of the spring that keeps the distance, times the substep squared, over the mass; 0: out
                              // of its reach
-  float bias;                // m/s, that it asks for
+  float bias;                // m/s, that the spring asks for
   float target;              // m/s, least normal speed
   float slack;               // m/s, by which it may be missed
   float push;                // m/s, at most so fast it pushes apart
@@ -33,10 +33,11 @@ struct ContactRow {
   std::uint32_t feature;       // what it is of: a place in the search's features, or in a list of SolidContact
 };
 
-/// ContactRow::feature of a row that nothing is remembered of.
+/// The value of ContactRow::feature where nothing is remembered of a row.
 inline constexpr std::uint32_t uncached = std::numeric_limits<std::uint32_t>::max();
 
-/// Of the two closest points. Bodies that do not move stand, whatever velocity they will set out with.
+/// Returns the relative velocity (m/s) of the two closest points. A body that does not move has none, whatever it will
+/// set out with.
 inline glm::vec3 relative_velocity(const ContactRow& row, Field<const float> v) {
   glm::vec3 velocity(0.0f);
   for (std::size_t k = 0; k < 4; ++k)
@@ -44,7 +45,7 @@ inline glm::vec3 relative_velocity(const ContactRow& row, Field<const float> v) 
   return velocity;
 }
 
-/// Changes the velocities of its corners.
+/// Changes the velocities of a row's corners by an impulse (N s).
 inline void apply(const ContactRow& row, const glm::vec3& impulse, Field<float> v) {
   for (std::size_t k = 0; k < 4; ++k) add(v, row.slot[k], row.mobility[k] * impulse);
 }

@@ -14,7 +14,7 @@ namespace {
 
 using namespace simd;
 
-/// Whether respond() may act in any lane, told without a root or a quotient where that is possible.
+/// Returns true if respond() may act in any lane, without a root or a quotient where that is possible.
 template <class V, class Shape>
 HWY_INLINE bool may_act(const SolidArguments&, const Shape&, const Vec<V>&, const Vec<V>&) {
   return true;

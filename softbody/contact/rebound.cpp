@@ -91,7 +91,8 @@ void Rebounds::forget(BodyId body) {
 
 void Rebounds::remove(BodyId body) {
   forget(body);
-  for (Pair& p : pairs_) p.a -= p.a > body, p.b -= p.b > body;
+  for (Pair& p : pairs_)
+    for (BodyId* id : {&p.a, &p.b}) *id -= *id > body;
 }
 
 }  // namespace softbody

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -49,11 +50,13 @@ glm::dvec3 way_out(std::span<const Solid> solids, const Solid& solid, const Plac
           const double now = gap_before(other, at);
           return now >= 0 || now >= gap_before(other, box);
         });
-    if (free) best = way, shortest = length;
+    if (!free) return;
+    best = way;
+    shortest = length;
   };
   consider(nearest);
   for (const glm::dvec3& way : {glm::dvec3(0, 1, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1)})
-    consider(way), consider(-way);
+    for (const double sign : {1.0, -1.0}) consider(sign * way);
   return best;
 }
 
@@ -182,6 +185,7 @@ void SolidContact::apply(const Batch& b, float h) {
 /// groove: they take turns until what is left is slow, or for so long (Gauss and Seidel). Returns false if no solid is
 /// near.
 bool SolidContact::apply_to_particles(const Batch& b, float h, bool again) {
+  assert(b.index < of_batch_.size() && h > 0);  // after begin_frame()
   constexpr int max_passes = 8;
   constexpr float slack = 1e-4f;  // m/s
   OfBatch& own = of_batch_[b.index];

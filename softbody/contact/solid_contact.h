@@ -38,7 +38,10 @@ class SolidContact {
   explicit SolidContact(State& state) : state_(state) {}
 
   /// features: faces and edges meet solids, too. restitution: some contact has it.
-  void set_parts(bool features, bool restitution) { has_features_ = features, has_restitution_ = restitution; }
+  void set_parts(bool features, bool restitution) {
+    has_features_ = features;
+    has_restitution_ = restitution;
+  }
 
   // A frame: begin_frame(), add() for each batch that moves, substeps, end_frame().
   void begin_frame();

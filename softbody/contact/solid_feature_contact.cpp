@@ -13,10 +13,10 @@
 namespace softbody {
 namespace {
 
-/// Where the balls round the two overlap.
+/// Returns true if the ball round the corners comes within that distance (m) of the core.
 bool may_meet(std::span<const glm::vec3> corners, const glm::vec3& from, const glm::vec3& to, float max_distance) {
   glm::vec3 middle(0.0f);
-  for (const glm::vec3& c : corners) middle += c / static_cast<float>(corners.size());
+  for (const glm::vec3& c : corners) middle += c / float(corners.size());
   float radius = 0;
   for (const glm::vec3& c : corners) radius = std::max(radius, glm::length(c - middle));
   const glm::vec3 along = to - from;
@@ -25,7 +25,7 @@ bool may_meet(std::span<const glm::vec3> corners, const glm::vec3& from, const g
   return glm::length(middle - from - t * along) <= radius + max_distance;
 }
 
-/// A body's face and a solid's point, or two edges: where they are closest to each other.
+/// Where a body's face and a solid's point, or two edges, are closest to each other.
 struct ClosestPoints {
   std::array<float, 3> weight{};  // of the body's corners
   glm::vec3 point{0.0f};          // m, on the body
@@ -47,8 +47,8 @@ ClosestPoints closest_points(const SolidFeature& f, std::span<const glm::vec3> x
   return m;
 }
 
-/// The normal of both, if it points away from all of a box's sides that meet in the core: else others tell which side
-/// the body is on.
+/// Returns the unit normal of both, if it points away from all of a box's sides that meet in the core: else other
+/// features tell which side the body is on.
 std::optional<glm::vec3> outward_normal(const SolidFeature& f, const ClosestPoints& m, const BoxShape<float>& box) {
   const float length = glm::length(m.across);
   if (!m.inner || !(length > 0)) return std::nullopt;
@@ -58,10 +58,10 @@ std::optional<glm::vec3> outward_normal(const SolidFeature& f, const ClosestPoin
   return n;
 }
 
-/// How far apart the two are: as seen from a round solid, which has the core inside. A box has it on its surface: there
-/// a point that is inside has crossed along the normal of both, and leaves on the near side. All others are out of the
-/// box, and so far from the core as they are: also those beyond the far side of a thin one. Nothing where it cannot be
-/// told.
+/// Returns how far apart the two are. A round solid has the core inside, and is seen as particles see it. A box has it
+/// on its surface: a point inside the box has crossed along the normal of both, and leaves on the near side. All others
+/// are outside, as far away as the core is, also those beyond the far side of a thin box. Returns nothing where it
+/// cannot be told.
 std::optional<SurfaceAt<float>> gap_of(const SolidFeature& f, const ClosestPoints& m, const SolidShape<float>& shape,
                                        const glm::vec3& place) {
   const glm::vec3 at = m.point - place;

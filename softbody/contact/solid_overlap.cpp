@@ -11,7 +11,7 @@ namespace {
 
 using Corners = std::array<glm::dvec3, 3>;
 
-/// Six times the volume of a tetrahedron, with its sign.
+/// Returns six times the volume of a tetrahedron, with its sign.
 double volume_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
   return glm::dot(glm::cross(b - a, c - a), d - a);
 }

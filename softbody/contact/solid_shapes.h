@@ -25,7 +25,7 @@ struct SurfaceAt {
 
 namespace simd {
 
-/// Of a sphere; at its very centre out is up.
+/// Returns the surface of a sphere as seen from d; at its very centre out is up.
 template <class Real, class V>
 HWY_INLINE SurfaceAt<V> surface_at(const SphereShape<Real>& s, Vec<V> d) {
   const V tiny(Real(1e-12));  // m
@@ -41,7 +41,7 @@ HWY_INLINE SurfaceAt<V> surface_at(const PlaneShape<Real>& p, Vec<V> d) {
   return {dot(d, n), n};
 }
 
-/// Outside, the distance to the nearest point of the box; inside, that to the nearest face; less the radius.
+/// Returns the distance to the nearest point of the box, or inside it to the nearest face, less the radius.
 template <class Real, class V>
 HWY_INLINE SurfaceAt<V> surface_at(const BoxShape<Real>& b, Vec<V> d) {
   const V zero{}, one(1), tiny(Real(1e-12));  // m
@@ -61,7 +61,7 @@ HWY_INLINE SurfaceAt<V> surface_at(const BoxShape<Real>& b, Vec<V> d) {
           {n.x * x.x + n.y * y.x + n.z * z.x, n.x * x.y + n.y * y.y + n.z * z.y, n.x * x.z + n.y * y.z + n.z * z.z}};
 }
 
-/// Of the sphere round the nearest point of the segment.
+/// Returns the surface of the sphere round the nearest point of the segment.
 template <class Real, class V>
 HWY_INLINE SurfaceAt<V> surface_at(const CapsuleShape<Real>& c, Vec<V> d) {
   const V zero{};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 #include "softbody/contact/law.h"
 #include "softbody/contact/surface_vectors.h"
@@ -19,7 +20,7 @@ constexpr float patience = 2;        // a motion is foreseen for so many times a
 constexpr float unknown = -1;        // in place of a gap at rest that was not needed yet
 constexpr float separation_depth = 0.25f;  // of the shorter mean edge: deeper bodies are parted as a whole
 
-/// m: how far a body may stray, if it strayed so far before.
+/// Returns how far (m) a body may stray that has strayed so far before.
 float slack_after(float stray, const collide::surface::SurfaceBody& before) {
   return std::max(2 * stray, before.slack / 2);
 }
@@ -31,8 +32,8 @@ void set_slack(collide::surface::SurfaceBody& body, float wanted) {
   body.slack = slack;
 }
 
-/// Whether a vertex faces the same way as the face of another body that it is closest to: surfaces that have met face
-/// each other, but those of bodies in one place do not.
+/// Returns true if a vertex faces the same way as the face of another body that it is closest to. Surfaces that have
+/// met face each other, but those of bodies in one place do not.
 bool faces_along(const Surface& own, const collide::VertexRun& own_at, Index vertex, const Surface& other,
                  const collide::VertexRun& other_at, Index face) {
   const auto normal = [](const Surface& surface, const collide::VertexRun& at, Index f) {
@@ -51,7 +52,7 @@ bool near_each_other(const collide::VertexRun& a, const collide::VertexRun& b) {
 glm::vec3 middle_of(const collide::VertexRun& at) {
   glm::vec3 sum(0.0f);
   for (Index i = 0; i < at.size; ++i) sum += at[i];
-  return sum / static_cast<float>(at.size);
+  return sum / float(at.size);
 }
 
 }  // namespace
@@ -59,6 +60,7 @@ glm::vec3 middle_of(const collide::VertexRun& at) {
 void SurfaceCandidates::find(const collide::surface::Motion& motion, std::vector<collide::surface::SurfaceBody> traits,
                              std::vector<ContactBody> bodies, const collide::surface::SurfaceQuery& query, float ahead,
                              collide::Workers& workers) {
+  assert(traits.size() == bodies.size());
   std::swap(traits, traits_);
   std::swap(bodies, bodies_);
   for (Index body = 0; body < traits_.size(); ++body) {
@@ -85,7 +87,8 @@ void SurfaceCandidates::update(const collide::surface::Motion& motion, float ela
   search(motion.positions, [&] { search_.update(motion, traits_, elapsed, ahead, workers); });
 }
 
-/// What is remembered belongs to the features that were found last: to none, if too many are near each other.
+/// Searches, and forgets everything if too many features are near each other: what is remembered belongs to those that
+/// were found last.
 template <class Search>
 void SurfaceCandidates::search(const collide::Frame& now, const Search& search) {
   try {
@@ -189,7 +192,7 @@ void SurfaceCandidates::carry_over() {
 /// Lists the vertices of two closed bodies that lie inside the other one, with the faces that they are closest to.
 void SurfaceCandidates::find_interior_vertices(Pair& pair, const collide::Frame& now, Shells& shells) {
   const auto run = [&](Index body) { return collide::vertices_of(now, body); };
-  pair.interior = static_cast<std::uint32_t>(interior_.size());
+  pair.interior = std::uint32_t(interior_.size());
   pair.interior_end = pair.interior;
   const bool both_closed = traits_[pair.range.a].surface->closed() && traits_[pair.range.b].surface->closed();
   const float deep = separation_depth * std::min(traits_[pair.range.a].mean_edge, traits_[pair.range.b].mean_edge);
@@ -230,10 +233,11 @@ void SurfaceCandidates::find_interior_vertices(Pair& pair, const collide::Frame&
   // which no vertex is deep, be pulled both ways for ever.
   pair.separating = both_closed && (deepest > deep || 2 * along > interior_.size() - pair.interior);
   if (pair.separating) interior_.resize(pair.interior);
-  pair.interior_end = static_cast<std::uint32_t>(interior_.size());
+  pair.interior_end = std::uint32_t(interior_.size());
 }
 
-/// Greedily, in order: pairs of one colour share no body. Those for which no colour is left come last, one by one.
+/// Colours the pairs greedily, in order, so that pairs of one colour share no body. Those for which no colour is left
+/// come last, one by one.
 void SurfaceCandidates::colour() {
   constexpr std::size_t most = 64;
   std::vector<std::uint64_t> taken(bodies_.size(), 0);
@@ -242,7 +246,7 @@ void SurfaceCandidates::colour() {
   std::vector<std::uint32_t> rest;
   for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
     std::uint64_t &a = taken[pairs_[i].range.a], &b = taken[pairs_[i].range.b];
-    const auto free = static_cast<std::size_t>(std::countr_one(a | b));
+    const auto free = std::size_t(std::countr_one(a | b));
     if (free == most) {
       rest.push_back(i);
       continue;
@@ -275,7 +279,7 @@ std::pair<Index, Index> SurfaceCandidates::vertex_at(const Pair& pair, std::uint
   const std::size_t end = a.first_slot + a.stride * traits_[pair.range.a].surface->vertex_count();
   const bool of_a = slot >= a.first_slot && slot < end && (slot - a.first_slot) % a.stride == 0;
   const ContactBody& own = of_a ? a : b;
-  return {of_a ? pair.range.a : pair.range.b, static_cast<Index>((slot - own.first_slot) / own.stride)};
+  return {of_a ? pair.range.a : pair.range.b, Index((slot - own.first_slot) / own.stride)};
 }
 
 /// Only features of which something is remembered are kept: most candidates are far apart and forgotten at once.
@@ -295,12 +299,12 @@ SurfaceCandidates::State SurfaceCandidates::save() const {
       state.features.push_back(search_.features()[i]);
       state.cached.push_back(cached_[i]);
     }
-    return static_cast<std::uint32_t>(state.features.size());
+    return std::uint32_t(state.features.size());
   };
   for (const Pair& pair : pairs_) {
     Pair& kept = state.pairs.emplace_back(pair);
     const collide::surface::SurfacePair& from = pair.range;
-    kept.range.vertex_face = static_cast<std::uint32_t>(state.features.size());
+    kept.range.vertex_face = std::uint32_t(state.features.size());
     kept.range.face_vertex = keep_features(from.vertex_face, from.face_vertex);
     kept.range.edge_edge = keep_features(from.face_vertex, from.edge_edge);
     kept.range.end = keep_features(from.edge_edge, from.end);

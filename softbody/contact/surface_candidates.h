@@ -82,15 +82,15 @@ class SurfaceCandidates {
   State save() const;
   void restore(const State& state);
 
-  /// The candidates of the coming `seconds`. traits and bodies: one a body; slack, and skin beyond the reach, are set
-  /// here. Bodies that are likely to stray are foreseen for less, but for the seconds `ahead` at least, and what is
-  /// strained fast for query.min_seconds. Throws std::length_error beyond query.max_features; then nothing is
+  /// Finds the candidates of the coming query.seconds. traits and bodies: one a body; slack, and skin beyond the reach,
+  /// are set here. Bodies that are likely to stray are foreseen for less, but for the seconds `ahead` at least, and
+  /// what is strained fast for query.min_seconds. Throws std::length_error beyond query.max_features; then nothing is
   /// remembered.
   void find(const collide::surface::Motion& motion, std::vector<collide::surface::SurfaceBody> traits,
             std::vector<ContactBody> bodies, const collide::surface::SurfaceQuery& query, float ahead,
             collide::Workers& workers);
-  /// `elapsed` seconds later: those of bodies that have strayed from the motion that was foreseen, or whose was not
-  /// foreseen for the seconds `ahead`, anew. Throws as find() does.
+  /// Finds the candidates anew, `elapsed` seconds later, of bodies that have strayed from the motion that was foreseen
+  /// for them, or whose motion was not foreseen for the seconds `ahead`. Throws as find() does.
   void update(const collide::surface::Motion& motion, float elapsed, float ahead, collide::Workers& workers);
   bool check_valid(const collide::Frame& now, float elapsed, float ahead) {
     return search_.check_valid(now, elapsed, ahead);

@@ -1,6 +1,7 @@
 #include "softbody/contact/surface_contact.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -13,7 +14,8 @@ namespace softbody {
 
 void SurfaceContact::make_rows(int thread, int threads, Field<const float> x, Field<const float> before, float elapsed,
                                float h) {
-  OfThread& own = of_thread_[static_cast<std::size_t>(thread)];
+  assert(thread >= 0 && std::size_t(thread) < of_thread_.size() && h > 0);
+  OfThread& own = of_thread_[std::size_t(thread)];
   own.rows.clear();
   SurfaceRowMaker maker(candidates_, {x, before, h, elapsed + h, last_h_ > 0 ? h / last_h_ : 0}, own.scratch, own.rows);
   const collide::Part part = collide::part_of(candidates_.pairs().size(), thread, threads);
@@ -60,10 +62,10 @@ SurfaceContact::State SurfaceContact::save() const {
   for (Pair& kept : state.candidates.pairs) {
     const std::span<const ContactRow> rows = rows_of(kept);
     kept.thread = 0;
-    kept.first_row = static_cast<std::uint32_t>(state.rows.size());
+    kept.first_row = std::uint32_t(state.rows.size());
     std::ranges::copy_if(rows, std::back_inserter(state.rows),
                          [](const ContactRow& row) { return row.normal_impulse > 0; });
-    kept.rows = static_cast<std::uint32_t>(state.rows.size()) - kept.first_row;
+    kept.rows = std::uint32_t(state.rows.size()) - kept.first_row;
   }
   return state;
 }
@@ -108,10 +110,10 @@ void SurfaceContact::separate(Pair& pair, Field<const float> x, Field<float> v) 
     Whole w;
     const Index count = s.surface->vertex_count();
     for (Index i = 0; i < count; ++i) {
-      w.centre += (read(x, s.slot + i * s.stride) + s.offset) / static_cast<float>(count);
-      w.velocity += read(v, s.slot + i * s.stride) / static_cast<float>(count);
+      w.centre += (read(x, s.slot + i * s.stride) + s.offset) / float(count);
+      w.velocity += read(v, s.slot + i * s.stride) / float(count);
     }
-    w.inverse_mass = s.inverse_mass / static_cast<float>(count);
+    w.inverse_mass = s.inverse_mass / float(count);
     return w;
   };
   const SurfaceCandidates::Side one = candidates_.side(pair, false), two = candidates_.side(pair, true);
@@ -208,7 +210,7 @@ void SurfaceContact::join_islands() {
 }
 
 void SurfaceContact::solve_island(int thread, const Island& island, std::span<ContactRow> solids, Field<float> v) {
-  OfThread& own = of_thread_[static_cast<std::size_t>(thread)];
+  OfThread& own = of_thread_[std::size_t(thread)];
   own.together.clear();
   for (const std::uint32_t i : island.pairs)
     for (ContactRow& row : rows_of(candidates_.pairs()[i])) own.together.push_back(&row);

@@ -41,7 +41,7 @@ class SurfaceContact {
   };
 
   /// Takes the threads that will call. To be called before candidates are found.
-  void set_threads(int threads) { of_thread_.resize(static_cast<std::size_t>(threads)); }
+  void set_threads(int threads) { of_thread_.resize(std::size_t(threads)); }
   SurfaceCandidates& candidates() { return candidates_; }
   const SurfaceCandidates& candidates() const { return candidates_; }
 
@@ -85,10 +85,10 @@ class SurfaceContact {
   };
 
   std::span<const ContactRow> rows_of(const Pair& pair) const {
-    return std::span(of_thread_[static_cast<std::size_t>(pair.thread)].rows).subspan(pair.first_row, pair.rows);
+    return std::span(of_thread_[std::size_t(pair.thread)].rows).subspan(pair.first_row, pair.rows);
   }
   std::span<ContactRow> rows_of(const Pair& pair) {
-    return std::span(of_thread_[static_cast<std::size_t>(pair.thread)].rows).subspan(pair.first_row, pair.rows);
+    return std::span(of_thread_[std::size_t(pair.thread)].rows).subspan(pair.first_row, pair.rows);
   }
   void keep(const ContactRow& row);
   void join_islands();

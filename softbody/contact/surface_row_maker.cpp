@@ -17,22 +17,22 @@ using collide::surface::FeaturePair;
 constexpr float hair = 0.02f;      // of the distance, that may be used up unsolved
 constexpr float push_kept = 0.8f;  // of an impulse that pushes out is handed on to the next substep; by trial
 
+void set_corner(ContactRow& row, std::size_t k, const SurfaceCandidates::Side& side, Index vertex, float weight) {
+  row.slot[k] = std::uint32_t(side.slot + vertex * side.stride);
+  row.weight[k] = weight;
+  row.mobility[k] = side.inverse_mass * weight;
+}
+
 ContactRow corners_of(const Closest& c, const SurfaceCandidates::Side& vertex_side, Index vertex,
                       const SurfaceCandidates::Side& face_side, Index face) {
   ContactRow row{};
-  row.slot[0] = static_cast<std::uint32_t>(vertex_side.slot + vertex * vertex_side.stride);
-  row.weight[0] = 1;
-  row.mobility[0] = vertex_side.inverse_mass;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Index corner = face_side.surface->triangles()[face][k];
-    row.slot[k + 1] = static_cast<std::uint32_t>(face_side.slot + corner * face_side.stride);
-    row.weight[k + 1] = -c.weight[k + 1];
-    row.mobility[k + 1] = face_side.inverse_mass * row.weight[k + 1];
-  }
+  set_corner(row, 0, vertex_side, vertex, 1);
+  for (std::size_t k = 1; k < 4; ++k)
+    set_corner(row, k, face_side, face_side.surface->triangles()[face][k - 1], -c.weight[k]);
   return row;
 }
 
-/// Turns the normal to the side that is remembered; true if that is not the one it is on now.
+/// Turns the normal to the side that is remembered. Returns true if the features are on the other side now.
 bool orient(SurfaceCandidates::CachedContact& cached, bool inner, glm::vec3& normal) {
   const bool crossed = inner && glm::dot(cached.normal, normal) < 0;
   if (crossed) normal = -normal;
@@ -43,7 +43,7 @@ bool orient(SurfaceCandidates::CachedContact& cached, bool inner, glm::vec3& nor
 }  // namespace
 
 void SurfaceRowMaker::add_rows(Pair& p) {
-  p.first_row = static_cast<std::uint32_t>(rows_.size());
+  p.first_row = std::uint32_t(rows_.size());
   p.rows = 0;
   if (p.separating) return;
   const bool interior = p.interior < p.interior_end;
@@ -51,7 +51,7 @@ void SurfaceRowMaker::add_rows(Pair& p) {
   vertices_on_faces(p, p.range.vertex_face, p.range.face_vertex, false);
   vertices_on_faces(p, p.range.face_vertex, p.range.edge_edge, true);
   if (!interior) edges_on_edges(p);
-  p.rows = static_cast<std::uint32_t>(rows_.size()) - p.first_row;
+  p.rows = std::uint32_t(rows_.size()) - p.first_row;
 }
 
 void SurfaceRowMaker::vertices_on_faces(Pair& pair, std::uint32_t begin, std::uint32_t end, bool vertex_of_b) {
@@ -94,7 +94,7 @@ void SurfaceRowMaker::vertices_on_faces(Pair& pair, std::uint32_t begin, std::ui
   flush();
 }
 
-/// The rows of one vertex, whose near faces are listed.
+/// Adds the rows of one vertex, whose near faces are listed.
 void SurfaceRowMaker::vertex_on_faces(Pair& pair, const Side& vertex_side, const Side& face_side, bool oriented) {
   const auto& features = candidates_.search().features();
   const std::vector<NearFace>& near_faces = scratch_.near_faces;
@@ -144,7 +144,7 @@ void SurfaceRowMaker::vertex_on_faces(Pair& pair, const Side& vertex_side, const
   }
 }
 
-/// Those deep inside another body: towards the plane of the face that they are closest to.
+/// Adds the rows of vertices deep inside another body: each leaves by the plane of the face that it is closest to.
 void SurfaceRowMaker::add_interior_vertices(Pair& pair) {
   for (const SurfaceCandidates::InteriorVertex& d : candidates_.interior(pair)) {
     const Side vertex_side = candidates_.side(pair, d.of_b), face_side = candidates_.side(pair, !d.of_b);
@@ -182,12 +182,8 @@ void SurfaceRowMaker::edges_on_edges(Pair& pair) {
     CachedContact& cached = candidates_.cached(i);
     ContactRow row{};
     for (std::size_t k = 0; k < 2; ++k) {
-      row.slot[k] = static_cast<std::uint32_t>(one.slot + e1[k] * one.stride);
-      row.slot[k + 2] = static_cast<std::uint32_t>(two.slot + e2[k] * two.stride);
-      row.weight[k] = c.weight[k];
-      row.weight[k + 2] = -c.weight[k + 2];
-      row.mobility[k] = one.inverse_mass * row.weight[k];
-      row.mobility[k + 2] = two.inverse_mass * row.weight[k + 2];
+      set_corner(row, k, one, e1[k], c.weight[k]);
+      set_corner(row, k + 2, two, e2[k], -c.weight[k + 2]);
     }
     row.feature = i;
     const float distance = std::sqrt(distance2);

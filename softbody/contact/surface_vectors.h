@@ -9,7 +9,7 @@ inline glm::vec3 normal_of(const glm::vec3& a, const glm::vec3& b, const glm::ve
   return glm::cross(b - a, c - a);
 }
 
-/// v, or `otherwise` if it has no length to speak of; of unit length.
+/// Returns the unit vector along v, or along `otherwise` if v has no length to speak of.
 inline glm::vec3 unit(const glm::vec3& v, const glm::vec3& otherwise) {
   const float length = glm::length(v);
   if (length > 1e-9f) return v / length;

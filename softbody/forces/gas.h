@@ -29,18 +29,14 @@ struct Gas {
   T ambient_pressure(T v) const {
     return T(ambient) * std::clamp(v / T(linear_end()), T(-1), T(1));
   }
-  /// Pressure in Pa that pushes the faces outwards.
-  template <class T>
-  T gauge(T v) const {
-    return pressure(v) - ambient_pressure(v);
-  }
+  /// Pressure in Pa that pulls the faces inwards: minus the gauge pressure.
   template <class T>
   T pull(T v) const {
-    return -gauge(v);
+    return -(pressure(v) - ambient_pressure(v));
   }
   /// Work done against the surroundings in J, 0 at V0; d/dV = ambient_pressure().
   double ambient_energy(double v) const;
-  /// Energy in J, 0 at V0: ambient_energy() minus the work done by the gas; d/dV = -gauge().
+  /// Energy in J, 0 at V0: ambient_energy() minus the work done by the gas; d/dV = pull().
   double stored(double v) const;
   /// Change of the energy in J, to within Simpson's rule: a logarithm has not the same last digits on all processors.
   double stored_change(double from, double to) const;

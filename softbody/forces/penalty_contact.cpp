@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -26,34 +25,9 @@ glm::vec3 PenaltyContact::between(std::size_t i, Field<const float> x) const {
   return read(x, pairs().slot_a[i]) - read(x, pairs().slot_b[i]) + read(field(pairs().offset), i);
 }
 
-/// What one of the threads does that share the search for pairs.
-struct PenaltyContact::Share {
-  int thread, threads;
-  collide::Workers* workers;    // may be nullptr if the thread is alone
-  std::vector<Totals>& totals;  // of all threads, and one more
-
-  collide::Part part(std::size_t count) const { return collide::part_of(count, thread, threads); }
-  /// Returns the totals of the threads before this one, when each has stated its own. Calls prepare(sums) once, before
-  /// any thread goes on.
-  Totals before(const Totals& own, const std::function<void(const Totals&)>& prepare) const {
-    totals[std::size_t(thread) + 1] = own;
-    barrier();
-    if (thread == 0) {
-      totals[0] = {};
-      for (std::size_t i = 1; i < totals.size(); ++i)
-        totals[i].first += totals[i - 1].first, totals[i].second += totals[i - 1].second;
-      prepare(totals.back());
-    }
-    barrier();
-    return totals[std::size_t(thread)];
-  }
-  void barrier() const {
-    if (threads > 1) workers->barrier();
-  }
-};
-
 void PenaltyContact::find(const DetectedContacts& detected, const State& state, double seconds,
                           collide::Workers& workers) {
+  assert(std::ranges::is_sorted(detected.contacts) && seconds > 0);
   ContactLayer& layer = memory_.layer;
   PenaltyPairs& pairs = memory_.pairs;
   layer.tolerance = detected.tolerance;
@@ -68,105 +42,112 @@ void PenaltyContact::find(const DetectedContacts& detected, const State& state, 
       restitution_[b.body[l]] = float(b.model->material[contact::restitution]);
   constexpr double contact_ns = 10;  // of work, between two barriers
   const int threads = workers.threads_for(contact_ns * double(detected.contacts.size()));
-  std::vector<Totals> totals(std::size_t(threads) + 1);
+  take(detected, state, workers, threads);
+  group(state.x[0].size(), state.batches(), workers, threads);
   workers.run_together(threads, [&](int thread) {
-    const Share share{thread, threads, &workers, totals};
-    take(share, detected, state);
-    share.barrier();
-    group(share, state.x[0].size(), state.batches());
-    share.barrier();
-    const collide::Part batches = share.part(state.batches().size());
+    const collide::Part batches = collide::part_of(state.batches().size(), thread, threads);
     for (const Batch& batch : state.batches().subspan(batches.begin, batches.end - batches.begin)) {
       gather(batch, field(state.x), field(state.v));
       set_traits(state, batch);
     }
-    share.barrier();
-    penalty_kernels().prepare(share.part(pairs.size()), pairs, motion_.data(), traits_.data());
-    share.barrier();
-    carry_over(share.part(pairs.size()), before, stretch);
+    workers.barrier();
+    const collide::Part own = collide::part_of(pairs.size(), thread, threads);
+    penalty_kernels().prepare(own, pairs, motion_.data(), traits_.data());
+    workers.barrier();
+    carry_over(own, before, stretch);
   });
 }
 
 /// Takes the contacts of bodies that move.
-void PenaltyContact::take(const Share& share, const DetectedContacts& detected, const State& state) {
+void PenaltyContact::take(const DetectedContacts& detected, const State& state, collide::Workers& workers,
+                          int threads) {
   PenaltyPairs& pairs = memory_.pairs;
   const auto body = [&](Index vertex) { return detected.vertex_body[vertex]; };
   const auto acts = [&](const collide::Contact& c) {
     return state.body(body(c.a)).moves() || state.body(body(c.b)).moves();
   };
-  const collide::Part part = share.part(detected.contacts.size());
-  const auto own = std::span(detected.contacts).subspan(part.begin, part.end - part.begin);
-  const auto count = std::size_t(std::ranges::count_if(own, acts));
-  std::size_t i = share.before({count, 0}, [&](const Totals& all) { pairs.resize(all.first); }).first;
-  for (const collide::Contact& c : own) {
-    if (!acts(c)) continue;
-    pairs.contact[i] = c;
-    const BodyId a = pairs.body_a[i] = body(c.a), b = pairs.body_b[i] = body(c.b);
-    pairs.restitution[i] = a == b ? 0 : law::common_restitution(restitution_[a], restitution_[b]);
-    pairs.slot_a[i] = std::uint32_t(state.slot(a, c.a - detected.vertices.first[a]));
-    pairs.slot_b[i] = std::uint32_t(state.slot(b, c.b - detected.vertices.first[b]));
-    const glm::vec3 offset(state.body(a).origin - state.body(b).origin);
-    for (int k = 0; k < 3; ++k) pairs.offset[std::size_t(k)][i] = offset[k];
-    ++i;
-  }
+  const auto contacts_of = [&](int thread) {
+    const collide::Part part = collide::part_of(detected.contacts.size(), thread, threads);
+    return std::span(detected.contacts).subspan(part.begin, part.end - part.begin);
+  };
+  std::vector<std::size_t> first(std::size_t(threads) + 1);  // pair of each thread
+  workers.run_together(threads, [&](int thread) {
+    first[std::size_t(thread) + 1] = std::size_t(std::ranges::count_if(contacts_of(thread), acts));
+  });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  pairs.resize(first.back());
+  workers.run_together(threads, [&](int thread) {
+    std::size_t i = first[std::size_t(thread)];
+    for (const collide::Contact& c : contacts_of(thread)) {
+      if (!acts(c)) continue;
+      pairs.contact[i] = c;
+      const BodyId a = pairs.body_a[i] = body(c.a), b = pairs.body_b[i] = body(c.b);
+      pairs.restitution[i] = a == b ? 0 : law::common_restitution(restitution_[a], restitution_[b]);
+      pairs.slot_a[i] = std::uint32_t(state.slot(a, c.a - detected.vertices.first[a]));
+      pairs.slot_b[i] = std::uint32_t(state.slot(b, c.b - detected.vertices.first[b]));
+      const glm::vec3 offset(state.body(a).origin - state.body(b).origin);
+      for (int k = 0; k < 3; ++k) pairs.offset[std::size_t(k)][i] = offset[k];
+      ++i;
+    }
+  });
 }
 
-void PenaltyContact::group(std::size_t slots, std::span<const Batch> batches) {
-  std::vector<Totals> totals(2);
-  group(Share{0, 1, nullptr, totals}, slots, batches);
-}
-
-/// Each thread finds the particles in its part of the slots: the ends of their pairs stay in order.
-void PenaltyContact::group(const Share& share, std::size_t slots, std::span<const Batch> batches) {
+/// Finds the particles that the pairs join by their slots, which are below `slots`, and the ends of pairs of each. Each
+/// thread finds those in its part of the slots: the ends of their pairs stay in order.
+void PenaltyContact::group(std::size_t slots, std::span<const Batch> batches, collide::Workers& workers, int threads) {
   assert(slots <= std::numeric_limits<std::uint32_t>::max());
   PenaltyPairs& pairs = memory_.pairs;
-  const auto [low, high] = share.part(slots);
-  const auto for_each_end = [&, first = low, count = high - low](const auto& use) {
+  const auto for_each_end = [&](const collide::Part& part, const auto& use) {
+    const std::size_t count = part.end - part.begin;
     for (std::uint32_t i = 0; i < pairs.size(); ++i) {
-      if (pairs.slot_a[i] - first < count) use(pairs.slot_a[i], pairs.a[i], PenaltyEnd{i, 0});
-      if (pairs.slot_b[i] - first < count) use(pairs.slot_b[i], pairs.b[i], PenaltyEnd{i, 1});
+      if (pairs.slot_a[i] - part.begin < count) use(pairs.slot_a[i] - part.begin, pairs.a[i], PenaltyEnd{i, 0});
+      if (pairs.slot_b[i] - part.begin < count) use(pairs.slot_b[i] - part.begin, pairs.b[i], PenaltyEnd{i, 1});
     }
   };
-  std::vector<std::uint32_t> of_slot(high - low, 0);  // the number of its ends, and then that of its particle
-  Totals own{};                                       // particles, ends
-  for_each_end([&, first = low](std::uint32_t slot, std::uint32_t&, PenaltyEnd) {
-    own.first += of_slot[slot - first]++ == 0;
-    ++own.second;
+  std::vector<std::size_t> particles(std::size_t(threads) + 1), ends(particles);  // the first ones of each thread
+  std::vector<std::vector<std::uint32_t>> of_slots(particles.size() - 1);  // ends, and then the number of a particle
+  workers.run_together(threads, [&](int thread) {
+    const collide::Part part = collide::part_of(slots, thread, threads);
+    std::vector<std::uint32_t> of_slot(part.end - part.begin, 0);
+    for_each_end(part, [&](std::size_t slot, std::uint32_t&, PenaltyEnd) { ++of_slot[slot]; });
+    particles[std::size_t(thread) + 1] = of_slot.size() - std::size_t(std::ranges::count(of_slot, 0u));
+    ends[std::size_t(thread) + 1] = std::accumulate(of_slot.begin(), of_slot.end(), std::size_t{0});
+    of_slots[std::size_t(thread)] = std::move(of_slot);
   });
-  const auto [first, first_end] = share.before(own, [&](const Totals& all) {
-    slot_.resize(all.first);
-    first_end_.resize(all.first + 1);
-    first_end_.back() = std::uint32_t(all.second);
-    motion_.resize(all.first), traits_.resize(all.first);
-    ends_.resize(all.second);
-    force_.resize(pairs.a.size());
-    stored_.resize(pairs.a.size() / lanes);
-    const bool bounces =
-        std::any_of(pairs.restitution.begin(), pairs.restitution.begin() + std::ptrdiff_t(pairs.size()),
-                    [](float e) { return e > 0; });
-    for (auto* sums : {&impulse_, &returned_}) sums->assign(bounces ? 2 * pairs.a.size() : 0, 0.0f);
-    of_batch_.resize(batches.size());
+  for (auto* sums : {&particles, &ends}) std::partial_sum(sums->begin(), sums->end(), sums->begin());
+  slot_.resize(particles.back());
+  first_end_.resize(particles.back() + 1);
+  first_end_.back() = std::uint32_t(ends.back());
+  for (auto* table : {&motion_, &traits_}) table->resize(particles.back());
+  ends_.resize(ends.back());
+  force_.resize(pairs.a.size());
+  stored_.resize(pairs.a.size() / lanes);
+  const bool bounces = std::any_of(pairs.restitution.begin(), pairs.restitution.begin() + std::ptrdiff_t(pairs.size()),
+                                   [](float e) { return e > 0; });
+  for (auto* sums : {&impulse_, &returned_}) sums->assign(bounces ? 2 * pairs.a.size() : 0, 0.0f);
+  workers.run_together(threads, [&](int thread) {
+    const collide::Part part = collide::part_of(slots, thread, threads);
+    std::vector<std::uint32_t>& of_slot = of_slots[std::size_t(thread)];
+    const std::size_t first = particles[std::size_t(thread)], last = particles[std::size_t(thread) + 1];
+    auto particle = std::uint32_t(first), end = std::uint32_t(ends[std::size_t(thread)]);
+    for (std::size_t i = 0; i < of_slot.size(); ++i) {
+      if (of_slot[i] == 0) continue;
+      slot_[particle] = std::uint32_t(part.begin + i);
+      first_end_[particle] = end;
+      end += std::exchange(of_slot[i], particle++);
+    }
+    std::vector<std::uint32_t> next(first_end_.begin() + std::ptrdiff_t(first),
+                                    first_end_.begin() + std::ptrdiff_t(last));
+    for_each_end(part, [&](std::size_t slot, std::uint32_t& of_pair, PenaltyEnd one) {
+      of_pair = of_slot[slot];
+      ends_[next[of_pair - first]++] = one;
+    });
   });
-  auto particle = std::uint32_t(first), end = std::uint32_t(first_end);
-  for (std::size_t i = 0; i < of_slot.size(); ++i) {
-    if (of_slot[i] == 0) continue;
-    slot_[particle] = std::uint32_t(low + i);
-    first_end_[particle] = end;
-    end += std::exchange(of_slot[i], particle++);
-  }
-  std::vector<std::uint32_t> next(first_end_.begin() + std::ptrdiff_t(first),
-                                  first_end_.begin() + std::ptrdiff_t(first + own.first));
-  for_each_end([&, from = low, base = first](std::uint32_t slot, std::uint32_t& of_pair, PenaltyEnd one) {
-    of_pair = of_slot[slot - from];
-    ends_[next[of_pair - base]++] = one;
-  });
-  share.barrier();
   const auto at = [this](std::size_t slot) {
     return std::size_t(std::ranges::lower_bound(slot_, slot) - slot_.begin());
   };
-  const auto [begin, last] = share.part(batches.size());
-  for (std::size_t i = begin; i < last; ++i)
-    of_batch_[i] = {at(batches[i].base), at(batches[i].base + batches[i].values())};
+  of_batch_.clear();
+  for (const Batch& b : batches) of_batch_.push_back({at(b.base), at(b.base + b.values())});
 }
 
 void PenaltyContact::set_traits(const State& state, const Batch& batch) {
@@ -226,7 +207,8 @@ void PenaltyContact::add_impact(PenaltyEnd end, double impulse, double taken) {
   assert(bounces() && end.pair < pairs().size());
   const std::size_t at = end.pair + (end.at_b ? pairs().a.size() : 0);
   const float e = pairs().restitution[end.pair];
-  impulse_[at] += float(impulse), returned_[at] += e * e * float(taken);
+  impulse_[at] += float(impulse);
+  returned_[at] += e * e * float(taken);
 }
 
 void PenaltyContact::take_impacts(Rebounds& rebounds) {

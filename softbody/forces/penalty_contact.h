@@ -12,7 +12,6 @@
 #include <cassert>
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "collide/core/detector.h"
@@ -83,7 +82,10 @@ class PenaltyContact {
   /// before on to them. The contacts ascend.
   void find(const DetectedContacts& detected, const State& state, double seconds, collide::Workers& workers);
   /// Forgets all pairs.
-  void clear() { memory_.pairs.clear(), impulse_.clear(), returned_.clear(); }
+  void clear() {
+    memory_.pairs.clear();
+    for (auto* sums : {&impulse_, &returned_}) sums->clear();
+  }
   /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up.
   void remove(BodyId body, Index first, Index count);
 
@@ -128,16 +130,13 @@ class PenaltyContact {
 
  private:
   friend struct PenaltyTestAccess;  // for tests that make pairs by hand
-  struct Share;
-  using Totals = std::pair<std::size_t, std::size_t>;
   /// Those of a batch, in the order of their slots.
   collide::Part particles_of(const Batch& batch) const {
     return pairs().empty() ? collide::Part{} : of_batch_[batch.index];
   }
   void gather(collide::Part particles, Field<const float> x, Field<const float> v);
-  void take(const Share& share, const DetectedContacts& detected, const State& state);
-  void group(const Share& share, std::size_t slots, std::span<const Batch> batches);
-  void group(std::size_t slots, std::span<const Batch> batches);
+  void take(const DetectedContacts& detected, const State& state, collide::Workers& workers, int threads);
+  void group(std::size_t slots, std::span<const Batch> batches, collide::Workers& workers, int threads);
   void set_traits(const State& state, const Batch& batch);
   void carry_over(collide::Part part, std::span<const collide::Contact> before, const VectorArray& stretch);
   template <class Real>

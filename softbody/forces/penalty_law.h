@@ -25,7 +25,7 @@ HWY_BEFORE_NAMESPACE();
 namespace softbody {
 namespace HWY_NAMESPACE {
 
-/// Of one pair, or of a pair in each lane. V: a float or double, or floats of all lanes.
+/// The law of one pair; with floats of all lanes for V, of one pair in each lane. V: a float or double, or such floats.
 template <class V>
 struct PenaltyLaw {
   using Real = simd::Value<V>;

@@ -17,7 +17,7 @@ void fit_shape(const ShapeMoments<Real>& moments, int used, ShapePose<Real>& pos
     const glm::dmat3 rotation = best_rotation(covariance);
     for (int c = 0; c < 3; ++c) {
       pose.centre[c][l] = moments.mean[c][l];
-      for (int r = 0; r < 3; ++r) pose.rotation[3 * c + r][l] = static_cast<Real>(rotation[c][r]);
+      for (int r = 0; r < 3; ++r) pose.rotation[3 * c + r][l] = Real(rotation[c][r]);
     }
   }
 }

@@ -20,7 +20,8 @@ void BatchShares::take(std::vector<const Batch*> moving, std::size_t particles) 
 }
 
 void BatchShares::deal(const std::function<std::size_t(const Batch&)>& cost) {
-  joined_.clear(), alone_.clear(), middle_.clear();
+  for (auto* list : {&joined_, &alone_}) list->clear();
+  middle_.clear();
   std::size_t sum = 0;
   for (const Batch* b : moving_) {
     const std::size_t own = cost(*b);

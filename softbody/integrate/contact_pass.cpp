@@ -91,18 +91,22 @@ void ContactPass::apply(const BatchShare& share, float h, float since_start) {
   const auto solids = [&] {
     for (const Batch* batch : share.batches) solids_.apply(*batch, h);
   };
-  apply_surfaces(share, h, since_start);
+  if (!meets_others(share)) return solids();
+  const Field<const float> x = field(std::as_const(state_.x));
+  const auto barrier = [&] { share.barrier(); };
+  barrier();  // the velocities of all bodies are there
+  surfaces_.make_rows(share.thread, shares_.active(), x, solids_.velocities_before(),
+                      since_found_[std::size_t(share.thread)] + since_start, h);
+  barrier();
+  surfaces_.solve(share.thread, shares_.active(), x, field(state_.v), h, barrier);
   solids();
-  if (!meets_others(share)) return;
   for (int pass = 0; pass < max_passes; ++pass) {
-    share.barrier();
-    if (!surfaces_.find_islands(share.thread, shares_.active(), field(std::as_const(state_.v)),
-                                [&] { share.barrier(); }))
-      break;
+    barrier();
+    if (!surfaces_.find_islands(share.thread, shares_.active(), field(std::as_const(state_.v)), barrier)) break;
     const std::vector<SurfaceContact::Island>& islands = surfaces_.islands();
     for (auto i = std::size_t(share.thread); i < islands.size(); i += std::size_t(shares_.active()))
       if (islands[i].closes) solve_island(share.thread, islands[i], h);
-    share.barrier();
+    barrier();
     solids();
   }
   surfaces_.add_row_work(share.thread, shares_.active());
@@ -119,16 +123,6 @@ void ContactPass::solve_island(int thread, const SurfaceContact::Island& island,
   surfaces_.solve_island(thread, island, rows, field(state_.v));
   for (std::size_t i = 0, first = 0; i < end.size(); first = end[i++])
     solids_.book(island.bodies[i], std::span(rows).subspan(first, end[i] - first));
-}
-
-void ContactPass::apply_surfaces(const BatchShare& share, float h, float since_start) {
-  if (!meets_others(share)) return;
-  const Field<const float> x = field(std::as_const(state_.x));
-  share.barrier();  // the velocities of all bodies are there
-  surfaces_.make_rows(share.thread, shares_.active(), x, solids_.velocities_before(),
-                      since_found_[std::size_t(share.thread)] + since_start, h);
-  share.barrier();
-  surfaces_.solve(share.thread, shares_.active(), x, field(state_.v), h, [&] { share.barrier(); });
 }
 
 void ContactPass::advance(const BatchShare& share, float h) {

@@ -60,7 +60,6 @@ class ContactPass {
  private:
   void keep_overlapping_awake();
   void solve_island(int thread, const SurfaceContact::Island& island, float h);
-  void apply_surfaces(const BatchShare& share, float h, float since_start);
   collide::Frame world_positions();
   collide::surface::Motion motion(const collide::Frame& now);
 

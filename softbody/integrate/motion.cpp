@@ -1,6 +1,7 @@
 #include "softbody/integrate/motion.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <utility>
 
@@ -130,6 +131,7 @@ void Motion::accelerations(const Batch& b) {
 }
 
 VectorArray& Motion::array(Quantity q) {
+  assert(q.index >= 0 && std::size_t(q.index) < 3 + scratch_.size());
   VectorArray* const own[] = {&parts_.state.x, &parts_.state.v, &parts_.state.f};
   return q.index < 3 ? *own[q.index] : scratch_[std::size_t(q.index - 3)];
 }

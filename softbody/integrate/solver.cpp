@@ -133,7 +133,7 @@ FrameResult Solver::take_substeps(double seconds, StepBound bound, const AfterSu
   Series series = plan_series(seconds, bound);
   FrameResult done{.needed = steps_.plan().needed};
   const auto take = [&](int count) {
-    run(count, static_cast<float>(series.h()), done.substeps == 0, after_substep);
+    run(count, float(series.h()), done.substeps == 0, after_substep);
     count_work(count);
     series.taken += count;
     done.substeps += count;
@@ -178,7 +178,8 @@ Solver::Series Solver::plan_series(double left, StepBound& bound) {
   const double without = series.substeps;
   if (contacts_.has_surfaces()) {  // candidates for the longest substeps that all else allows may ask for shorter ones
     steps_.spend(work::surface * contacts_.find(left, series.h(), series.h()));
-    for (const collide::surface::SurfacePair& p : candidates.search().pairs()) join(p.a), join(p.b);
+    for (const collide::surface::SurfacePair& p : candidates.search().pairs())
+      for (const BodyId body : {p.a, p.b}) join(body);
     bound.passing = std::max(bound.passing, double(candidates.substep_rate()));
     bound.surfaces_near = !candidates.empty();
     series.substeps = steps_.plan(bound, left).substeps;

@@ -63,7 +63,10 @@ class Solver {
   void remove(BodyId body);
 
   /// Forgets the impacts of a body that has been put elsewhere.
-  void forget_impacts(BodyId body) { state_.memory(body).impact = {}, rebounds_.forget(body); }
+  void forget_impacts(BodyId body) {
+    state_.memory(body).impact = {};
+    rebounds_.forget(body);
+  }
   /// Takes the contacts for the coming frame of `seconds`.
   void set_contacts(const DetectedContacts& detected, double seconds) {
     penalty_.find(detected, state_, seconds, shares_.workers());

@@ -73,9 +73,7 @@ double StepBounds::fastest() const {
   return paces.empty() ? 0 : *std::ranges::max_element(paces);
 }
 
-int StepBounds::substeps_in_shape(double fastest, double h) {
-  return static_cast<int>(std::min(16.0, 0.2 / (fastest * h)));
-}
+int StepBounds::substeps_in_shape(double fastest, double h) { return int(std::min(16.0, 0.2 / (fastest * h))); }
 
 double StepBounds::rounding(std::span<const Batch* const> batches, std::span<const Extent> extents) {
   constexpr double rounding = 1.0 / (1 << 24);

@@ -21,13 +21,15 @@ constexpr double max_count = 1e30;   // substeps of a frame: such short ones mov
 constexpr double max_needed = 5e8;   // substeps as they are reported: an int holds them, and no budget pays for them
 constexpr double nearly = 1 - 1e-9;  // rounding of what is left of a frame must not add a substep
 
-}  // namespace
-
+/// Returns the number of steps on the ladder that is not below `count`. Between 2^n and 2^(n+1) steps a frame it has
+/// `lengths` rungs.
 double on_ladder(double count, int lengths) {
   const double whole = std::ceil(std::clamp(count, 1.0, max_count) * nearly);
   const double unit = std::max(1.0, std::ldexp(1.0, std::ilogb(whole)) / lengths);
   return std::ceil(whole / unit) * unit;
 }
+
+}  // namespace
 
 void StepController::set_choice(const IntegratorChoice& choice) {
   chosen_ = &choice.integrator();

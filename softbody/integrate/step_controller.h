@@ -84,7 +84,7 @@ class StepController {
   /// frame's start, measured for bounds_of().
   void begin_frame(const FrameConditions& conditions, const StepBound& bound);
   /// Plans into how many substeps the last `left` seconds of the frame are divided, for this bound. Unless the number
-  /// is fixed it is on a ladder, so that substeps have few lengths: see on_ladder().
+  /// is fixed it is on a ladder, so that substeps have few lengths, see Integrator::step_lengths.
   const StepPlan& plan(const StepBound& bound, double left);
   /// Returns the last plan. Before the first one of a frame it has its integrator only.
   const StepPlan& plan() const { return plan_; }
@@ -123,9 +123,5 @@ class StepController {
   double work_of_substep_ = 0, work_of_bound_ = 0, spent_ = 0, most_ = 0;
   StepPlan plan_;
 };
-
-/// Returns the number of steps on the ladder that is not below `count`. Between 2^n and 2^(n+1) steps a frame it has
-/// `lengths` rungs.
-double on_ladder(double count, int lengths);
 
 }  // namespace softbody

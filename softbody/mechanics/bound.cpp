@@ -1,6 +1,7 @@
 #include "softbody/mechanics/bound.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -22,7 +23,8 @@ class Laplacian {
  public:
   Laplacian(std::size_t particles, std::span<const WeightedPair> pairs)
       : pairs_(pairs), sum_(Vector::Zero(Eigen::Index(particles))) {
-    for (const auto& [i, j, weight] : pairs_) sum_[i] += weight, sum_[j] += weight;
+    for (const auto& [i, j, weight] : pairs_)
+      for (const Index end : {i, j}) sum_[end] += weight;
   }
 
   double gershgorin() const { return 2 * sum_.maxCoeff(); }
@@ -56,7 +58,7 @@ struct LargestEigenvalue {
   bool ended;  // where a few of the eigenvectors, those that v has a part of, are all that is seen
 };
 
-/// Lanczos' method from v.
+/// Finds the largest eigenvalue by Lanczos' method from v.
 LargestEigenvalue largest_eigenvalue(const Laplacian& laplacian, Vector v) {
   constexpr Eigen::Index steps = 20;
   constexpr double reserve = 1.01;  // for eigenvalues so close to the largest that these steps do not tell them apart
@@ -80,6 +82,7 @@ LargestEigenvalue largest_eigenvalue(const Laplacian& laplacian, Vector v) {
 }  // namespace
 
 double pair_bound(std::size_t particles, std::span<const WeightedPair> pairs) {
+  assert(std::ranges::all_of(pairs, [&](const WeightedPair& p) { return p.i < particles && p.j < particles; }));
   const Laplacian laplacian(particles, pairs);
   if (laplacian.gershgorin() <= 0) return 0;
   const LargestEigenvalue first = largest_eigenvalue(laplacian, start(Eigen::Index(particles), false));

@@ -77,7 +77,7 @@ HWY_INLINE void shape_moments(std::span<const ShapePoint<Value<V>>> shape, Field
     covariance[1] = covariance[1] + b;
     covariance[2] = covariance[2] + c;
   }
-  const V share = V(Real(1) / static_cast<Real>(shape.size()));
+  const V share = V(Real(1) / Real(shape.size()));
   store(Field<Real>{m.mean[0], m.mean[1], m.mean[2]}, 0, from + share * sum);
   for (int k = 0; k < 3; ++k)
     store(Field<Real>{m.covariance[3 * k], m.covariance[3 * k + 1], m.covariance[3 * k + 2]}, 0, covariance[k]);
@@ -152,19 +152,19 @@ struct AddForces {
   HWY_INLINE void operator()(Volume, const auto& law) const {
     Real volume[lanes]{}, gauge[lanes]{};
     simd::volume<V, width>(b.model.mesh.triangles, b.x, volume);
-    for (int l = 0; l < std::min(b.used, lanes_of<V>); ++l) gauge[l] = static_cast<Real>(-law.pull(double(volume[l])));
+    for (int l = 0; l < std::min(b.used, lanes_of<V>); ++l) gauge[l] = Real(-law.pull(double(volume[l])));
     push_faces<V, width>(b.model.mesh.triangles, b.x, gauge, b.f);
   }
 
   HWY_INLINE void operator()(Offset c, const Vec<V>& place, const auto& law) const {
     const std::size_t i = c.i * width;
-    store(b.f, i, load<V>(b.f, i) + V(static_cast<Real>(law.stiffness)) * (place - load<V>(b.x, i)));
+    store(b.f, i, load<V>(b.f, i) + V(Real(law.stiffness)) * (place - load<V>(b.x, i)));
   }
 
   HWY_INLINE void operator()(Path c, const auto& law) const {
     const std::size_t i = c.i * width;
     if constexpr (std::is_same_v<Motion, Moving>) {
-      store(b.f, i, load<V>(b.f, i) - V(static_cast<Real>(law.damping)) * load<V>(motion.v, i));
+      store(b.f, i, load<V>(b.f, i) - V(Real(law.damping)) * load<V>(motion.v, i));
     } else if constexpr (std::is_same_v<Motion, SinceStart>) {
       const Vec<V> rate = V(motion.inverse_h) * (load<V>(b.x, i) - load<V>(motion.x, i)) +
                           V(motion.inverse_carry_time) * load<V>(motion.carried, i);
@@ -252,7 +252,7 @@ HWY_INLINE void kick(const LaneBodies<float>& b, const KickArguments& k, Field<f
   V three_volumes{}, rate{}, square{};
   for (std::size_t first = 0; first < particles; first += block) {
     V part{};
-    for (auto i = static_cast<Index>(first); i < std::min(first + block, particles); ++i) {
+    for (auto i = Index(first); i < std::min(first + block, particles); ++i) {
       const std::size_t at = i * width;
       const Vec<V> x = load<V>(b.x, at), before = load<V>(v, at);
       Vec<V> force = load<V>(b.f, at);
@@ -279,15 +279,6 @@ HWY_INLINE void kick(const LaneBodies<float>& b, const KickArguments& k, Field<f
   store(volumes.pressure + lane, V{});
 }
 
-/// Measures LaneVolumes::rate for the velocities v. f: A.
-template <class V, int width>
-HWY_INLINE void volume_rate(const LaneBodies<float>& b, Field<const float> v, float* result) {
-  V rate{};
-  for (std::size_t at = 0; at < b.model.mesh.vertices.size() * width; at += width)
-    rate += dot(load<V>(b.f, at), load<V>(v, at));
-  store(result, rate);
-}
-
 /// Changes the velocities by the gas, h P A / m: f: A. The pressure P depends on all particles, so that gas comes last:
 /// explicitly, or such as P is at the end of the substep, where the volume has become V + h A . (v + h P A / m). That
 /// is one number for each body, and stable at any h. The sum of A over a closed mesh is 0, so the momentum stays. What
@@ -303,8 +294,8 @@ HWY_INLINE void press(const LaneBodies<float>& b, const KickArguments& k, bool i
     const double yield = h * h_over_mass * double(volumes.square[lane]), before = double(volumes.pressure[lane]);
     const VolumeStep step{double(volumes.volume[lane]), h * double(volumes.rate[lane]) - yield * before, yield};
     const double pressure = pressure_at_end(step, b.model.start_volume, pull);
-    volumes.pressure[lane] = static_cast<float>(pressure);
-    push[l] = static_cast<float>(h_over_mass * (pressure - before)) * k.moves[l];
+    volumes.pressure[lane] = float(pressure);
+    push[l] = float(h_over_mass * (pressure - before)) * k.moves[l];
   }
   const V pushes = load<V>(push);
   for (std::size_t at = 0; at < b.model.mesh.vertices.size() * width; at += width)
@@ -380,7 +371,7 @@ struct Project {
   /// The exact end of a step of this damper alone.
   HWY_INLINE void operator()(Path c, const auto& law) const {
     const std::size_t i = c.i * width;
-    const float lost = 1 - 1 / (1 + p.h * static_cast<float>(law.damping) * inverse_mass);
+    const float lost = 1 - 1 / (1 + p.h * float(law.damping) * inverse_mass);
     store(p.d, i, (V(1.0f) - V(lost) * load<V>(p.moves)) * load<V>(p.d, i));
   }
 };

@@ -61,7 +61,10 @@ struct Kernels {
   }
   static void press_again(const LaneBodies<float>& all, const KickArguments& k, Field<float> v, LaneVolumes& volumes) {
     for_each_run(all, k, v, [&](const auto& b, const auto& own, Field<float> u, std::size_t lane) HWY_ATTR {
-      volume_rate<V, width>(b, u, volumes.rate + lane);
+      V rate{};
+      for (std::size_t at = 0; at < b.model.mesh.vertices.size() * width; at += width)
+        rate += dot(load<V>(b.f, at), load<V>(u, at));
+      store(volumes.rate + lane, rate);
       press<V, width>(b, own, true, u, volumes, lane);
     });
   }

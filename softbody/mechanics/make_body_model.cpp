@@ -1,6 +1,7 @@
 #include "softbody/mechanics/make_body_model.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -87,6 +88,7 @@ void give_material(BodyModel& model, const MeshSource& source, const Material& m
 }  // namespace
 
 std::vector<glm::dvec3> find_equilibrium(const BodyModel& model, const std::vector<glm::dvec3>& from) {
+  assert(from.size() == model.mesh.vertices.size());
   Relaxation relaxation(model, from);
   const ModelForces& all = *model.forces;
   const double scale = (all.pair_stiffness + all.pressure * model.radius) * model.radius;

@@ -52,17 +52,6 @@ TEST_F(BatchSharesTest, SharesJoinedBatchesByWhatTheyCostAndLeavesTheOthersAlone
   alone.barrier();  // nobody else is to come
 }
 
-TEST_F(BatchSharesTest, SharesItems) {
-  take(1);
-  std::size_t next = 0;
-  for (int i = 0; i < shares.active(); ++i) {
-    const collide::Part part = shares.share(i).part(100);
-    EXPECT_EQ(part.begin, next);
-    next = part.end;
-  }
-  EXPECT_EQ(next, 100u);
-}
-
 TEST_F(BatchSharesTest, LeavesFewParticlesToOneThread) {
   take(8);
   collide::Workers all(3);

@@ -44,10 +44,11 @@ class EveryKernel : public tests::OnEveryTarget {
   }
 
   /// What `run` makes of all lanes with the simplest instructions, and of blocks of every width with those of the test.
+  using Results = float[15][lanes];
   template <class Run>
   void expect_the_same(const Run& run) {
     LaneField all_x = x, all_v = v, all_f = f;
-    float result[lanes]{};
+    Results result{};
     {
       const tests::UseTarget simplest(tests::targets().back());
       run(lanes, 0, all_x.field(), all_v.field(), all_f.field(), result);
@@ -56,16 +57,17 @@ class EveryKernel : public tests::OnEveryTarget {
     for (int width = one_lane; width <= lanes; width = next_width(width))
       for (int first = 0; first < lanes; first += width) {
         NarrowField own_x(x, first, width), own_v(v, first, width), own_f(f, first, width);
-        float own_result[lanes];
-        for (int l = 0; l < lanes; ++l) own_result[l] = l < width ? 0 : -1.0f - float(l);
+        Results own_result;
+        for (auto& row : own_result)
+          for (int l = 0; l < lanes; ++l) row[l] = l < width ? 0 : -1.0f - float(l);
         run(width, first, own_x.field(), own_v.field(), own_f.field(), own_result);
         EXPECT_TRUE(own_x == NarrowField(all_x, first, width)) << first << " of " << width;
         EXPECT_TRUE(own_v == NarrowField(all_v, first, width)) << first << " of " << width;
         EXPECT_TRUE(own_f == NarrowField(all_f, first, width)) << first << " of " << width;
-        for (int l = 0; l < width; ++l)
-          EXPECT_TRUE(same_bits(own_result[l], result[first + l]))
-              << own_result[l] << " and " << result[first + l] << ", lane " << first + l << " of " << width;
-        for (int l = width; l < lanes; ++l) EXPECT_EQ(own_result[l], -1.0f - float(l)) << "written to";
+        for (std::size_t k = 0; k < std::size(result); ++k)
+          for (int l = 0; l < lanes; ++l)
+            EXPECT_TRUE(same_bits(own_result[k][l], l < width ? result[k][first + l] : -1.0f - float(l)))
+                << own_result[k][l] << " in place " << k << ", lane " << first << " + " << l << " of " << width;
       }
   }
 
@@ -79,47 +81,48 @@ class EveryKernel : public tests::OnEveryTarget {
 
 using Values = Field<float>;
 
-TEST_P(EveryKernel, OfForcesGivesTheSameBits) {
+TEST_P(EveryKernel, GivesTheSameBitsForForces) {
   const auto bodies = [&](int width, Values xs, Values fs) { return LaneBodies<float>{*model, width, xs, fs}; };
   for_each_force(Forces{}, [&]<class F>(Name<F>) {
     SCOPED_TRACE(F::key);
     if constexpr (HasElements<F>)
-      expect_the_same([&](int width, int, Values xs, Values vs, Values fs, float*) {
+      expect_the_same([&](int width, int, Values xs, Values vs, Values fs, Results&) {
         force_kernels(width).add[index_of<F>](bodies(width, xs, fs), {vs});
       });
     if constexpr (is_projected<F>())
-      expect_the_same([&](int width, int first, Values xs, Values vs, Values, float*) {
+      expect_the_same([&](int width, int first, Values xs, Values vs, Values, Results&) {
         LaneField room(n);
         force_kernels(width).project[index_of<F>](bodies(width, xs, {}), {0.01f, moves + first, xs, vs, room.field()});
       });
   });
-  for (const auto property :
-       {&SurfaceShape::volume, &SurfaceShape::area2, &SurfaceShape::stretch, &SurfaceShape::two_medians})
-    expect_the_same([&](int width, int, Values xs, Values, Values fs, float* result) {
-      SurfaceShape shapes[lanes];
-      for (float* component : {fs.x, fs.y, fs.z}) std::fill_n(component, n * std::size_t(width), 0.0f);
-      force_kernels(width).measure_surfaces(bodies(width, xs, fs), shapes);
-      for (int l = 0; l < width; ++l) result[l] = float(shapes[l].*property);
-    });
+  expect_the_same([&](int width, int, Values xs, Values, Values fs, Results& results) {
+    SurfaceShape shapes[lanes];
+    for (float* component : {fs.x, fs.y, fs.z}) std::fill_n(component, n * std::size_t(width), 0.0f);
+    force_kernels(width).measure_surfaces(bodies(width, xs, fs), shapes);
+    for (int l = 0; l < width; ++l) {
+      const SurfaceShape& s = shapes[l];
+      for (int k = 0; const double value : {s.volume, s.area2, s.stretch, s.two_medians})
+        results[k++][l] = float(value);
+    }
+  });
 }
 
-TEST_P(EveryKernel, OfMotionGivesTheSameBits) {
-  expect_the_same([&](int width, int first, Values, Values vs, Values fs, float*) {
+TEST_P(EveryKernel, GivesTheSameBitsForMotion) {
+  expect_the_same([&](int width, int first, Values, Values vs, Values fs, Results&) {
     state_kernels(width).kick(width, {n, 1, 0.5f, 0.25f, -1, 2, moves + first}, fs, vs);
   });
-  expect_the_same([&](int width, int first, Values xs, Values vs, Values, float*) {
+  expect_the_same([&](int width, int first, Values xs, Values vs, Values, Results&) {
     state_kernels(width).add(width, n, moves + first, 0.125f, vs, xs);
   });
-  for (int which = 0; which < 8; ++which)
-    expect_the_same([&](int width, int, Values xs, Values vs, Values, float* result) {
-      Extent e;
-      state_kernels(width).extent(width, n, xs, vs, e);
-      const float* values[]{e.lo.x, e.lo.y, e.lo.z, e.hi.x, e.hi.y, e.hi.z, e.length2, e.sum2};
-      std::copy_n(values[which], width, result);
-    });
+  expect_the_same([&](int width, int, Values xs, Values vs, Values, Results& results) {
+    Extent e;
+    state_kernels(width).extent(width, n, xs, vs, e);
+    for (int k = 0; const float* values : {e.lo.x, e.lo.y, e.lo.z, e.hi.x, e.hi.y, e.hi.z, e.length2, e.sum2})
+      std::copy_n(values, width, results[k++]);
+  });
 }
 
-TEST_P(EveryKernel, ThatUnpacksWritesOneBodyAfterAnother) {
+TEST_P(EveryKernel, UnpacksOneBodyAfterAnother) {
   DoubleLaneVector offset;
   for (int l = 0; l < lanes; ++l) offset.set(std::size_t(l), {1e3 + l, -7.3 * l, 0.1});
   for (int width = one_lane; width <= lanes; width = next_width(width))
@@ -142,17 +145,14 @@ TEST_P(EveryKernel, ThatUnpacksWritesOneBodyAfterAnother) {
     }
 }
 
-TEST_P(EveryKernel, OfRigidMotionGivesTheSameBits) {
-  for (int which = 0; which < 15; ++which)
-    expect_the_same([&](int width, int, Values xs, Values vs, Values, float* result) {
-      RigidSums s;
-      state_kernels(width).rigid_sums(width, n, xs, vs, s);
-      const DoubleLaneVector* const vectors[]{&s.place, &s.velocity, &s.momentum, &s.square, &s.mixed};
-      const DoubleLaneVector& sum = *vectors[which / 3];
-      const double* const components[]{sum.x, sum.y, sum.z};
-      std::copy_n(components[which % 3], width, result);
-    });
-  expect_the_same([&](int width, int first, Values xs, Values vs, Values, float*) {
+TEST_P(EveryKernel, GivesTheSameBitsForRigidMotion) {
+  expect_the_same([&](int width, int, Values xs, Values vs, Values, Results& results) {
+    RigidSums s;
+    state_kernels(width).rigid_sums(width, n, xs, vs, s);
+    for (int k = 0; const DoubleLaneVector* sum : {&s.place, &s.velocity, &s.momentum, &s.square, &s.mixed})
+      for (const double* component : {sum->x, sum->y, sum->z}) std::copy_n(component, width, results[k++]);
+  });
+  expect_the_same([&](int width, int first, Values xs, Values vs, Values, Results&) {
     RigidChange change{};
     for (int l = 0; l < width; ++l) {
       change.acts[l] = moves[first + l];
@@ -163,14 +163,15 @@ TEST_P(EveryKernel, OfRigidMotionGivesTheSameBits) {
   });
 }
 
-TEST_P(EveryKernel, OfSolidsGivesTheSameBits) {
+TEST_P(EveryKernel, GivesTheSameBitsForSolids) {
   const SolidShape<float> shapes[]{
       SphereShape<float>{0.4f}, PlaneShape<float>{{0, 1, 0}},
       BoxShape<float>{{{0.6f, 0.8f, 0}, {-0.8f, 0.6f, 0}, {0, 0, 1}}, {0.5f, 0.2f, 1}, 0.01f},
       CapsuleShape<float>{{1, 0, 0.25f}, 0.2f}};
   for (const auto& one : shapes) {
     unsigned acted = 0;
-    expect_the_same([&](int width, int first, Values xs, Values vs, Values fs, float* returned) {
+    expect_the_same([&](int width, int first, Values xs, Values vs, Values fs, Results& results) {
+      float* const returned = results[0];
       LaneVector impulse{};
       float work[lanes]{};
       SolidArguments solid{n, 0.02f, 0.5f, 0.25f, one, {}, moves + first, {field(impulse), returned, work}};

@@ -4,9 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <vector>
 
 namespace softbody::test {

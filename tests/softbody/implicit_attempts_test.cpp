@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "collide/surface/surface.h"
@@ -44,7 +43,7 @@ glm::dvec3 impulse(const ImplicitRig& rig, std::size_t lane) {
   return sum;
 }
 
-TEST(SecondOrderStep, FallsAndSpinsAsGravityHasIt) {
+TEST(SecondOrderStep, FallsAndSpinsByTheClosedForm) {
   ImplicitRig rig(1e6);
   rig.gravity = {0, -9.81, 0};
   const glm::dvec3 velocity(1, 2, -3), spin(2, -1, 0.5);
@@ -112,7 +111,7 @@ TEST(SecondOrderStep, RefusesWhatDoesNotConverge) {
   EXPECT_FALSE(rig.solver.converged()[5]);
 }
 
-TEST(FirstOrderStep, FallsAsBackwardEulerHasIt) {
+TEST(FirstOrderStep, FallsByTheClosedFormOfBackwardEuler) {
   ImplicitRig rig;
   rig.gravity = {0, -9.81, 0};
   const glm::dvec3 velocity(1, 2, -3);

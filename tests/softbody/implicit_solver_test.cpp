@@ -150,7 +150,7 @@ TEST(ContactForces, StickOrSlideByCoulombsLaw) {
   }
 }
 
-TEST(ContactForces, OfSpringsCorrectWhatIsLeft) {
+TEST(ContactForces, CorrectWhatIsLeftBySprings) {
   Pressed p(0.01);
   p.bodies.planes[0].force = {0, 3, 0};
   p.bodies.planes[0].friction = 0.5;
@@ -166,7 +166,7 @@ TEST(ContactForces, OfSpringsCorrectWhatIsLeft) {
 }
 
 /// Planes that face each other ask for what no forces give.
-TEST(ContactForces, SayWhereThereAreNone) {
+TEST(ContactForces, AreNotFoundWherePlanesContradictEachOther) {
   Pressed p(0.1);
   p.bodies.planes.push_back(plane(3, 0, {0, -1, 0}, 0.1));
   p.contact.start(false);

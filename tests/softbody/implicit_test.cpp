@@ -92,7 +92,7 @@ TEST(ImplicitMatrix, IsTheDerivativeOfAllForcesInBalance) {
 }
 
 /// With another step length only the shape in balance is taken over.
-TEST(ImplicitMatrix, OfAnothersShapeIsThatOfItsOwnStepLength) {
+TEST(ImplicitMatrix, TakesOnlyTheShapeFromOneOfAnotherStepLength) {
   Material m = gas_ball();
   m[Material::start_in_equilibrium] = false;  // so that the shape in balance is not the one of the start
   const auto p = make_body_model({}, m);
@@ -113,7 +113,7 @@ TEST(ImplicitMatrix, OfAnothersShapeIsThatOfItsOwnStepLength) {
   EXPECT_NE(x, otherwise);
 }
 
-TEST(ImplicitMatrix, IsToBeHadOfHardlyAnyMass) {
+TEST(ImplicitMatrix, CanBeFactoredWithHardlyAnyMass) {
   Material m = gas_ball();
   m.set(StructuralSprings::keys, {1e9, 0.1});
   m[Material::mass] = 1e-12;
@@ -122,7 +122,7 @@ TEST(ImplicitMatrix, IsToBeHadOfHardlyAnyMass) {
 }
 
 /// Between planes that leave it no place there are no contact forces to be found.
-TEST(QuasiNewton, IsDoneWithACrushedBodySoon) {
+TEST(QuasiNewton, LimitsItsWorkOnACrushedBody) {
   const auto p = make_body_model({}, gas_ball());
   const double h = 1.0 / 60, r = p->radius;
   const ImplicitMatrix matrix(*p, h);

@@ -42,7 +42,7 @@ TEST(BodyOrigin, FollowsItsParticlesWithoutAJump) {
   EXPECT_GT(moves, 100);
 }
 
-TEST(Energy, OfAFallingBodyIsThatOfItsStart) {
+TEST(Energy, StaysTheSameWhileABodyFalls) {
   Scene scene = lone_body(gas_ball());
   scene.gravity = {0, -9.81, 0};
   World world(scene, {});
@@ -53,7 +53,7 @@ TEST(Energy, OfAFallingBodyIsThatOfItsStart) {
   EXPECT_NEAR(measure(world).momentum.y, -9.81, 1e-3) << "1 kg after a second";
 }
 
-TEST(Energy, OfShearSpringsIsThatOfTheDiagonalsStretch) {
+TEST(Energy, CountsTheStretchOfTheDiagonals) {
   constexpr int columns = 3, rows = 2;
   constexpr double width = 0.2, depth = 0.3, shift = 0.4,
                    k = 70;  // of a quad, m; of a row against the next, per m; N/m
@@ -78,7 +78,7 @@ TEST(Energy, OfShearSpringsIsThatOfTheDiagonalsStretch) {
               1e-5);
 }
 
-TEST(Measures, OfAllBodiesAreTheirExtremes) {
+TEST(Measures, AreTheExtremesOfAllBodies) {
   Scene scene = lone_body(spring_ball());
   add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
   World world(scene, {});

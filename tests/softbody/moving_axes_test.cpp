@@ -77,7 +77,7 @@ TEST(MovingAxes, TurnDirectionsAndForcesAlike) {
   EXPECT_LT(glm::distance(axes.leave(2, axes.enter(2, normal)), normal), 1e-12);
 }
 
-TEST(Rotation, IsTheOneOfItsVector) {
+TEST(Rotation, TurnsAboutItsVectorByItsLength) {
   const glm::dvec3 axis = glm::normalize(glm::dvec3(1, -2, 2)), out = glm::cross(axis, glm::dvec3(1, 0, 0));
   for (const double angle : {0.0, 1e-8, 0.3, 2.0, 6.0}) {
     const glm::dvec3 turned = rotation(angle * axis) * out;

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <glm/geometric.hpp>
-
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

@@ -80,7 +80,7 @@ const Case cases[]{
 INSTANTIATE_TEST_SUITE_P(All, SolidFeatures, testing::ValuesIn(cases),
                          [](const auto& c) { return std::string(c.param.name); });
 
-TEST(CoresOf, AreTheCornersAndEdgesOfABox) {
+TEST(InteriorOf, HasTheCornersAndEdgesOfABoxAsCores) {
   const SolidBox b = box({0.5, 0.25, -0.5}, {0.7, 0.2, 0.4}, {1, 1.4, 0}, {-1, 1, 1});
   std::vector<glm::dvec3> corners;
   int edges = 0;

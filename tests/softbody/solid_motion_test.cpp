@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/contact/law.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -13,30 +12,6 @@ namespace {
 
 constexpr double g = 9.81, thrown = 100;    // m/s^2, m/s
 const double deepest_allowed = 0.02 * 0.5;  // m, of bodies of 0.5 m
-
-/// How high a flat sheet jumps that fell from `height` on a box.
-double jump(double height, double restitution) {
-  Scene scene = sheet_on_ground(0.5, {0, -g, 0}, glm::dvec3(0.0));
-  remove_solids<Ground>(scene);
-  set_solid(scene, {.shape = SolidBox{.centre = {0, -1, 0}, .half_size = {2, 1, 2}}, .restitution = restitution});
-  scene.bodies[0].position.y = height;
-  World world(scene, {});
-  double highest = 0;
-  bool hit = false;
-  for (int i = 0; i < 120; ++i) {
-    world.step();
-    const Motion m = motion(world, 0);
-    hit = hit || m.velocity.y > 0 || m.centre.y < 1e-3;
-    if (hit) highest = std::max(highest, m.centre.y);
-  }
-  EXPECT_TRUE(hit);
-  return highest;
-}
-
-TEST(Restitution, ReturnsItsSquareOfTheHeight) {
-  for (const double e : {0.3, 0.5, 0.8, 1.0}) EXPECT_NEAR(jump(1, e), e * e, 0.03) << "restitution " << e;
-  EXPECT_LT(jump(1, 0), 1e-3);
-}
 
 /// Energies (J) of a ball without dampers before and after a bounce off something smooth.
 struct BallBounce {

@@ -177,7 +177,7 @@ TEST(OverlappingBodies, OfOnePlacePartAtABoundedSpeed) {
   EXPECT_TRUE(overlapping_bodies(world).empty());
 }
 
-TEST(MiddleOf, IsASolidsRectangleSegmentOrPoint) {
+TEST(InteriorOf, HasARectangleASegmentOrAPointInTheMiddle) {
   const auto plate = interior_of(SolidBox{.centre = {1, 2, 3}, .half_size = {0.5, 0.1, 0.7}}).middle;
   EXPECT_NEAR(plate->depth, 0.1, 1e-12);
   EXPECT_NEAR(glm::length(plate->sides[0]), 0.4, 1e-12);
@@ -190,7 +190,7 @@ TEST(MiddleOf, IsASolidsRectangleSegmentOrPoint) {
 
 /// A ball so soft that it wraps around the edge holds the middle of the box. It came from outside: contact keeps its
 /// particles out, and nothing eases it through the box.
-TEST(SolidOverlap, IsNoneOfASlackBallThatIsThrownAroundAnEdge) {
+TEST(SolidOverlap, DoesNotEaseABallOutThatWrapsAroundAnEdge) {
   int wrapped = 0;  // frames
   for (const double aside : {0.0, 0.07}) {
     Scene scene = lone_body(gas_ball(0.05), {0, -40, 0});

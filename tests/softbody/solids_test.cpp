@@ -18,7 +18,7 @@ Scene falling(const glm::dvec3& position, const glm::dvec3& velocity) {
   return scene;
 }
 
-TEST(Solids, NoParticleIsDeeperThanTenMicrometresInAFall) {
+TEST(Solids, KeepParticlesOutToTenMicrometresInAFall) {
   for (const double speed : {0.0, 10.0, 50.0}) {
     Scene scene = falling({0.1, 4, 0.05}, {0, -speed, 0});
     set_solid(scene, {SolidSphere{.centre = {0, 1, 0}}});
@@ -35,7 +35,7 @@ TEST(Solids, NoParticleIsDeeperThanTenMicrometresInAFall) {
 }
 
 /// Its narrow walls push what falls in from one to the other: they are asked in turn until neither is entered.
-TEST(Solids, NoParticleIsPushedThroughOneWallOfAGrooveByTheOther) {
+TEST(Solids, PushNoParticleThroughTheOtherWallOfAGroove) {
   Scene scene = sheet_on_ground(0, {0, -9.81, 0}, {0.5, -5, 0});
   remove_solids<Ground>(scene);
   scene.bodies[0].position = {0, 0.3, 0};
@@ -54,7 +54,7 @@ TEST(Solids, NoParticleIsPushedThroughOneWallOfAGrooveByTheOther) {
   EXPECT_GT(touched, 100u);
 }
 
-TEST(Solids, WhatGravityTakesThereFromRestWithinOneFrameIsStopped) {
+TEST(Solids, StopABodyThatFallsOntoThemWithinOneFrame) {
   Scene scene = falling({0, 0.6, 0}, glm::dvec3(0.0));
   scene.gravity = {0, -1000, 0};
   set_solid(scene, {Ground{}});

@@ -35,7 +35,7 @@ TEST(StableStep, IsEightTenthsOfTheLimitOfOneOscillator) {
     }
 }
 
-TEST(StableStep, OfADamperAloneAndOfNothing) {
+TEST(StableStep, IsKnownForADamperAloneAndForNothing) {
   EXPECT_DOUBLE_EQ(stable_step(0, 5), 0.8 * 2 / 10);
   EXPECT_GT(stable_step(0, 0), 1e6);
   EXPECT_NEAR(stable_step(1e-12, 5), stable_step(0, 5), 1e-9);
@@ -118,7 +118,7 @@ TEST(StiffnessBound, HoldsACrumpledBody) {
       const SurfaceShape s = measure_surface(*p, x);
       const double norm = volume_pull(*p, s.volume).slope * s.area2 / p->particle_mass;
       const double geometric =
-          std::abs(data<GasPressure>(*p)->gauge(s.volume)) * p->largest_degree * s.two_medians / 6 / p->particle_mass;
+          std::abs(data<GasPressure>(*p)->pull(s.volume)) * p->largest_degree * s.two_medians / 6 / p->particle_mass;
       EXPECT_LE(bound, (springs + norm + geometric) * (1 + 1e-12)) << "no more than the sum of its parts";
     }
 }

@@ -99,13 +99,6 @@ TEST(StepController, DividesTheRestOfAFrame) {
   EXPECT_EQ(rest("implicit", 2, 0.625), 5) << "eighths do not make up halves";
 }
 
-TEST(StepController, PlansTheSameForTheSameBound) {
-  StepController steps = with("auto");
-  const int before = substeps(steps, stable(21));
-  EXPECT_EQ(steps.plan(stable(21), frame).substeps, before);
-  EXPECT_EQ(steps.plan(stable(21), frame / 2).substeps, before / 2);
-}
-
 TEST(StepController, KeepsTheRateForAWhile) {
   StepController steps = with("semi-implicit-euler");
   const int before = substeps(steps, stable(100));

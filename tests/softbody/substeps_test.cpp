@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <glm/geometric.hpp>
-
 #include "softbody/forces/penalty_law.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_test_access.h"

@@ -233,6 +233,21 @@ TEST(SurfaceContact, TakesShortStepsWhileSurfacesPressAlsoBesideASleeper) {
   EXPECT_EQ(WorldTestAccess::solver(world).steps().plan().integrator->key, "semi-implicit-euler");
 }
 
+TEST(SurfaceContact, PartsBodiesOfUnlikeMassAndMeshWithoutMomentum) {
+  for (const int subdivisions : {1, 3}) {  // of the heavy one
+    Scene scene = ball_in_space(rubber());
+    scene.materials.push_back(scene.materials[0]);
+    scene.materials[1][Material::mass] = 8;
+    add_body(scene, {0.2, 0.05, 0}, glm::dvec3(0.0));
+    scene.bodies[1].material = 1;
+    scene.bodies[1].mesh.subdivisions = subdivisions;
+    World world(scene, {});
+    run(world, 10);
+    EXPECT_GT(glm::length(motion(world, 0).velocity), 0.1) << "they part";
+    EXPECT_LT(glm::length(measure(world).momentum), 1e-4) << subdivisions;
+  }
+}
+
 TEST(SurfaceContact, ABodyWhollyInsideAnotherComesOut) {
   Scene scene = ball_in_space(rubber(0));
   add_body(scene, {0.1, 0.02, 0.03}, glm::dvec3(0.0));

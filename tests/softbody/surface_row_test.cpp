@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/law.h"

@@ -54,7 +54,10 @@ struct PenaltyTestAccess {
     p.restitution[i] = pair.restitution;
   }
   /// Finds the particles that the pairs join by their slots, which are below `slots`.
-  static void group(PenaltyContact& penalty, std::size_t slots) { penalty.group(slots, {}); }
+  static void group(PenaltyContact& penalty, std::size_t slots) {
+    collide::Workers alone(1);
+    penalty.group(slots, {}, alone, 1);
+  }
   /// Hands the friction springs of the pairs `before` on to the same contacts; both ascend.
   static void carry_over(PenaltyContact& penalty, const PenaltyPairs& before) {
     penalty.carry_over({0, penalty.pairs().size()}, before.contact, before.stretch);

@@ -76,7 +76,10 @@ Lanes mean_velocities(const ImplicitStep& step, const Lanes& x, double h) {
 void finish(const MovingAxes& axes, Lanes x, Lanes v, ImplicitBodies& bodies) {
   axes.leave(x, v);
   for (std::size_t i = 0; i < x.size(); ++i)
-    if (axes.active()[i % implicit_lanes]) bodies.end_x[i] = x[i], bodies.end_v[i] = v[i];
+    if (axes.active()[i % implicit_lanes]) {
+      bodies.end_x[i] = x[i];
+      bodies.end_v[i] = v[i];
+    }
 }
 
 }  // namespace

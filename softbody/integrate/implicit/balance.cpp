@@ -108,7 +108,8 @@ double energy_gain(const BodyModel& model, const ImplicitBodies& bodies, std::si
   glm::dvec3 before_mean(0.0), after_mean(0.0);
   for (std::size_t i = 0; i < n; ++i) {
     fallen += model.particle_mass * glm::dot(gravity, end_x(i) - x(i));
-    before_mean += v(i) / double(n), after_mean += end_v(i) / double(n);
+    before_mean += v(i) / double(n);
+    after_mean += end_v(i) / double(n);
   }
   const std::vector<glm::dvec3> start = shape_of(model, x), end = shape_of(model, end_x);
   const double before = kinetic_energy(model, v), after = kinetic_energy(model, end_v),

@@ -14,7 +14,8 @@ namespace {
 using namespace simd;
 using V = Wide<double, implicit_lanes>;
 
-/// The unknowns of a run, once what stands before it is known; two rows below it at a time keep the processor busy.
+/// Solves for the unknowns of a run, once those before it are known. Two rows below it at a time keep the processor
+/// busy.
 void substitute_forward(const CholeskyFactor& f, const CholeskyFactor::Supernode& run, double* z) {
   const std::size_t w = run.columns;
   const double* v = f.value.data() + run.value;
@@ -43,7 +44,7 @@ void substitute_forward(const CholeskyFactor& f, const CholeskyFactor::Supernode
   store(z + row[r] * implicit_lanes, a);
 }
 
-/// Likewise for the transpose, once what stands after the run is known.
+/// Solves for the unknowns of a run in the transpose, once those after it are known.
 void substitute_back(const CholeskyFactor& f, const CholeskyFactor::Supernode& run, double* z) {
   const std::size_t w = run.columns;
   const double *diagonal = f.value.data() + run.value, *below = diagonal + w * w;
@@ -94,14 +95,14 @@ void turn(std::size_t particles, const double (*rotation)[implicit_lanes], bool 
   }
 }
 
-/// A sum a lane.
+/// Writes the inner product in each lane.
 void inner_product(std::size_t count, const double* a, const double* b, double* result) {
   V sum{};
   for (std::size_t at = 0; at < count * implicit_lanes; at += implicit_lanes) sum += load<V>(a + at) * load<V>(b + at);
   store(result, sum);
 }
 
-/// y += times * a, one factor a lane.
+/// Adds a, times the factor of each lane, to y.
 void add_scaled(std::size_t count, const double* times, const double* a, double* y) {
   const V t = load<V>(times);
   for (std::size_t at = 0; at < count * implicit_lanes; at += implicit_lanes)

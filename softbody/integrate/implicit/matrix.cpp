@@ -59,7 +59,7 @@ struct Assemble {
         entries.emplace_back(row * n + j, column * n + i, -b[column][row]);
       }
   }
-  /// On the diagonal of the two particles; it is taken from beside it.
+  /// Returns what stands on the diagonal of the two particles; beside the diagonal it is subtracted.
   glm::dmat3 block(Length c, const auto& law) const {
     const glm::dvec3 d = x[c.j] - x[c.i];
     const double length = glm::length(d);
@@ -143,8 +143,7 @@ CholeskyFactor copy(const Eigen::SimplicialLLT<Sparse>& llt) {
   CholeskyFactor f;
   Sparse l = llt.matrixL();
   l.makeCompressed();
-  for (Eigen::Index i = 0; i < l.cols(); ++i)
-    f.place.push_back(static_cast<std::uint32_t>(llt.permutationP().indices()[i]));
+  for (Eigen::Index i = 0; i < l.cols(); ++i) f.place.push_back(std::uint32_t(llt.permutationP().indices()[i]));
   for (Eigen::Index first = 0, c = 0; c < l.cols(); ++c) {
     if (c + 1 < l.cols() && goes_on(l, c)) continue;
     copy_run(l, first, c + 1, f);
@@ -153,9 +152,9 @@ CholeskyFactor copy(const Eigen::SimplicialLLT<Sparse>& llt) {
   return f;
 }
 
-/// dV/dx
+/// Returns dV/dx.
 Eigen::VectorXd volume_gradient(const BodyModel& model, const Shape& x) {
-  const auto n = static_cast<Eigen::Index>(model.mesh.vertices.size());
+  const auto n = Eigen::Index(model.mesh.vertices.size());
   Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * n);
   for (const auto& [i, j, k] : model.mesh.triangles) {
     const glm::dvec3 sixth = glm::cross(x[j] - x[i], x[k] - x[i]) / 6.0;

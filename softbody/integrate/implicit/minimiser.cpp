@@ -1,6 +1,7 @@
 #include "softbody/integrate/implicit/minimiser.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace softbody {
@@ -71,7 +72,10 @@ void Minimiser::search_line(const Objective& objective, const Lanes& x, const Pe
   }
   for (std::size_t l = 0; l < implicit_lanes; ++l) {
     if (std::isfinite(end[l])) continue;
-    for (std::size_t i = l; i < x.size(); i += implicit_lanes) trial_[i] = x[i], trial_gradient_[i] = gradient_[i];
+    for (std::size_t i = l; i < x.size(); i += implicit_lanes) {
+      trial_[i] = x[i];
+      trial_gradient_[i] = gradient_[i];
+    }
   }
 }
 
@@ -90,6 +94,7 @@ void Minimiser::remember(const Lanes& x) {
 }
 
 bool Minimiser::minimise(const Objective& objective, Lanes& x, const PerLane& max_step, double enough, int iterations) {
+  assert(x.size() == gradient_.size());
   objective.gradient(x, gradient_);
   converged_.reset();
   for (int i = 0; i < iterations && !converged_.all(); ++i) {

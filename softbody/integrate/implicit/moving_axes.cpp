@@ -42,7 +42,8 @@ void MovingAxes::for_each(Lanes& x, Lanes& v, const Change& change) const {
 
 void MovingAxes::enter(const Lanes& x, const Lanes& v, ImplicitStart& start) const {
   for (std::size_t l = 0; l < implicit_lanes; ++l) start.moves[l] = active_[l] ? 1.0f : 0.0f;
-  start.x = x, start.v = v;
+  start.x = x;
+  start.v = v;
   start.a.resize(x.size());
   start.carried.assign(x.size(), 0.0);
   for_each(start.x, start.v, [&](const Axes& f, glm::dvec3& place, glm::dvec3& velocity, std::size_t at) {

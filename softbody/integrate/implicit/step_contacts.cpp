@@ -100,7 +100,10 @@ LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, I
                         .slopes = slopes};
     s.force = b.penalty.force(end);
     s.friction = double(pairs.friction[i]);
-    if (b.is_moving(end.at_b ? pairs.body_a[i] : pairs.body_b[i])) s.partner = h * velocity(other_slot), s.share = 0.5;
+    if (b.is_moving(end.at_b ? pairs.body_a[i] : pairs.body_b[i])) {
+      s.partner = h * velocity(other_slot);
+      s.share = 0.5;
+    }
     s.start_separation = h * velocity(slot) - s.partner;
     s.max_work = b.penalty.max_work(i, b.x, glm::length(s.partner));
     bodies.penalty_pairs.push_back(s);
