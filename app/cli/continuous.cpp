@@ -33,7 +33,7 @@ struct Figures {
   double ms = 0;
 
   void count(const FeatureMeeting& meeting, bool own) {
-    KindCounts& kind = kinds[static_cast<std::size_t>(meeting.kind)];
+    KindCounts& kind = kinds[std::size_t(meeting.kind)];
     ++(own ? kind.meetings.own : kind.meetings.others);
     if (meeting.passes) ++(own ? kind.passages.own : kind.passages.others);
   }

@@ -207,8 +207,8 @@ void print_table(const SequenceTask& task, const MethodRuns& all) {
     }
     const Totals sum = totals_of(run.rows);
     std::cout << fmt::format("{:28} {:10} {:>8} {:>9} {:12.3f} {:15} {:14}\n", run.method->key, sum.contacts,
-                             share(sum.recall), share(sum.precision), sum.ms / static_cast<double>(run.rows.size()),
-                             sum.pair_tests, sum.hashes);
+                             share(sum.recall), share(sum.precision), sum.ms / double(run.rows.size()), sum.pair_tests,
+                             sum.hashes);
   }
 }
 

@@ -45,7 +45,7 @@ Table detection_table(const DetectionResults& results) {
                      {"pair_tests", when(run, r.counters.pair_tests)},
                      {"hashes", when(run, r.counters.hashes)},
                      {"boxes", when(run, r.counters.boxes)},
-                     {"coverage", when(run, coverage_names.at(static_cast<std::size_t>(r.coverage)))},
+                     {"coverage", when(run, coverage_names.at(std::size_t(r.coverage)))},
                      {"memory_bytes", when(run, r.memory)}};
         for (std::size_t kind = 0; kind < r.skipped.size(); ++kind)
           row.push_back({fmt::format("skipped_{}", collide::skip_kinds[kind].key), when(run, r.skipped[kind])});
@@ -83,7 +83,7 @@ class ZeroBand {
   }
 
  private:
-  double lane(std::size_t number) const { return top_ * std::pow(0.7, static_cast<double>(number) + 1); }
+  double lane(std::size_t number) const { return top_ * std::pow(0.7, double(number) + 1); }
 
   double top_;  // the smallest error that the axis shows
 };

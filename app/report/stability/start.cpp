@@ -24,7 +24,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Returns how many springs at most join any two particles: twice as many as join one particle and the farthest.
 /// Returns nothing if springs do not join all particles.
 std::optional<int> longest_chain(const softbody::BodyModel& body) {
-  const int none = static_cast<int>(body.mesh.vertices.size());  // more than any chain has
+  const int none = int(body.mesh.vertices.size());  // more than any chain has
   std::vector<int> distance(body.mesh.vertices.size(), none);
   distance[0] = 0;
   for (bool changed = true; changed;) {
@@ -80,8 +80,7 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
   StabilityStart s{.scene = from.scene, .particles = all_particles(world), .first_frame = from.first_frame};
   std::ranges::stable_sort(s.scene.bodies, {}, &softbody::BodySource::appear);
   for (const softbody::BodySource& source : s.scene.bodies) {
-    const auto model =
-        softbody::shared_body_model(source.mesh, s.scene.materials[static_cast<std::size_t>(source.material)]);
+    const auto model = softbody::shared_body_model(source.mesh, s.scene.materials[std::size_t(source.material)]);
     s.members.push_back({model, spring_chain_of(*model), glm::dot(source.velocity, source.velocity)});
   }
   assert(!s.members.empty());
