@@ -1,7 +1,6 @@
 #include "app/report/stability/results.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "app/report/solid_passages.h"
@@ -16,14 +15,6 @@ namespace {
 using glm::dvec3;
 using softbody::BodyId;
 using softbody::World;
-
-/// Returns the longest side (m) of the box around some points.
-double extent_of(const std::vector<dvec3>& points) {
-  assert(!points.empty());
-  collide::surface::Box box;
-  for (const dvec3& p : points) box.add(p);
-  return std::max({box.extent(0), box.extent(1), box.extent(2)});
-}
 
 /// A run, frame by frame.
 class Run {
@@ -91,7 +82,9 @@ class Run {
       available -= height_energy(world, x, b);
       if (const softbody::Gas* own = softbody::gas_of(world.model(b)))
         gas += own->stored(reference::volume_of(x, world.model(b).mesh.triangles));
-      extents.push_back(extent_of(x));
+      collide::surface::Box box;
+      for (const dvec3& p : x) box.add(p);
+      extents.push_back(std::max({box.extent(0), box.extent(1), box.extent(2)}));
     }
     const double min_energy = 1e-9 * s.scale;  // what has flown away has lost all to gravity
     const auto particle_mass = [](const StabilityStart::Member& m) { return m.model->particle_mass; };
