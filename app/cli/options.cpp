@@ -325,6 +325,7 @@ const collide::Method& chosen_method(const DetectionOptions& options, std::strin
 }
 
 void apply(const DetectionOptions& options, collide::Settings& settings) {
+  assert(collide::problem(settings).empty());
   const auto check = [&](const std::string& option) {
     if (const std::string wrong = collide::problem(settings); !wrong.empty()) throw UsageError(option + ": " + wrong);
   };
