@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "collide/methods.h"
 #include "tests/cli/detect_rig.h"
@@ -84,6 +85,8 @@ TEST(DetectionReport, SaysHowItWasMadeAndShowsItsPlots) {
   EXPECT_NE(text.find("--quick --out DIR`"), std::string::npos);
   EXPECT_NE(text.find("1 thread,"), std::string::npos);
   EXPECT_EQ(text.find("nan"), std::string::npos);
+  EXPECT_TRUE(std::regex_search(text, std::regex(R"(\n\| Brute force \| \|.*\| \| 2\.00 \|)")))
+      << "pair tests are quadratic";
   for (const std::string& name : file_names(quick_report())) {
     EXPECT_GT(std::filesystem::file_size(quick_report() / name), 1000u) << name;
     if (name.ends_with(".svg")) {
