@@ -105,6 +105,7 @@ TEST(DetectionReport, HasThePapersScenesInTable1) {
   EXPECT_EQ(o.status, 0) << o.err;
   const std::string text = read_file(folder.path() / "report.md");
   EXPECT_NE(text.find("| method | A: 3 bodies, 101 buckets |"), std::string::npos);
+  EXPECT_NE(text.find(" --threads 2 --out DIR`"), std::string::npos);
   EXPECT_NE(text.find("2 threads,"), std::string::npos);
   EXPECT_EQ(text.find("Growth"), std::string::npos) << "three bodies are too few to grow";
 }
