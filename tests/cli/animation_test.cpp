@@ -104,7 +104,7 @@ TEST(Animation, KeepsAPictureForAsLongAsNothingMoves) {
   EXPECT_EQ(film(file).ends, (std::vector<int>{1400, 1433, 1467, 1500, 1533, 1567, 1600}));
 }
 
-TEST(Animation, OfOnePictureIsAStillImage) {
+TEST(Animation, IsAStillImageIfItHasOnePicture) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "run.webp";
   ASSERT_EQ(run(animate("2", file)).status, 0);

@@ -166,7 +166,7 @@ TEST_F(DetectRefuses, FilesThatDoNotMatch) {
   refuse({"--rest", lone, "--tolerance", "1"}, {lone, "number of bodies"});
 }
 
-TEST_F(DetectRefuses, FilesOfOtherParts) {
+TEST_F(DetectRefuses, FilesWhoseBodiesHaveOtherVertices) {
   const auto file = [&](const std::string& name, const std::vector<std::vector<unsigned>>& faces, float x) {
     before.insert(name);
     return folder.write(name, ply({{x, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {5, 0, 0}}, faces)).string();
