@@ -8,7 +8,6 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <exception>
