@@ -20,6 +20,7 @@ using collide::oracle::FeatureMeeting;
 /// Numbers of pairs of features.
 struct Counts {
   std::size_t own = 0, others = 0;  // of one surface; of two
+  void add(bool of_one) { ++(of_one ? own : others); }
 };
 
 /// Of one kind of pairs.
@@ -31,12 +32,6 @@ struct KindCounts {
 struct Figures {
   std::array<KindCounts, 2> kinds{{{"vf", "vertex and face"}, {"ee", "edge and edge"}}};  // as in FeatureMeeting::Kind
   double ms = 0;
-
-  void count(const FeatureMeeting& meeting, bool own) {
-    KindCounts& kind = kinds[static_cast<std::size_t>(meeting.kind)];
-    ++(own ? kind.meetings.own : kind.meetings.others);
-    if (meeting.passes) ++(own ? kind.passages.own : kind.passages.others);
-  }
 };
 
 /// Returns a number with the fewest digits that identify it.
@@ -63,7 +58,10 @@ Figures find(const files::MotionFiles& motion, const Options& options) {
   collide::Workers workers(options.threads);
   const auto take = [&](const std::vector<FeatureMeeting>& meetings) {
     for (const FeatureMeeting& m : meetings) {
-      figures.count(m, motion.mesh.body[m.feature[0]] == motion.mesh.body[m.against[0]]);
+      const bool own = motion.mesh.body[m.feature[0]] == motion.mesh.body[m.against[0]];
+      KindCounts& kind = figures.kinds[std::size_t(m.kind)];
+      kind.meetings.add(own);
+      if (m.passes) kind.passages.add(own);
       if (csv) csv->write(csv_line(m));
     }
   };

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <iterator>
 #include <utility>
 
-#include <fmt/core.h>
+#include <fmt/compile.h>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/method_runs.h"
@@ -70,16 +69,11 @@ void write_contacts(files::OutputFile& csv, const SequenceTask& task, std::size_
   std::array<char, 160> line;  // five integers of at most 20 digits, and a real number
   for (auto [a, b] : contacts) {
     if (file_vertex[a] > file_vertex[b]) std::swap(a, b);
-    char* end = line.begin();
-    for (const std::size_t number :
-         std::array<std::size_t, 5>{frame, file_vertex[a], file_vertex[b], bodies->body_of(a), bodies->body_of(b)}) {
-      end = std::to_chars(end, line.end(), number).ptr;  // not by fmt: a table may have millions of lines
-      *end++ = ',';
-    }
     const double distance{std::sqrt(collide::squared_distance(x[a], y[a], z[a], x[b], y[b], z[b]))};
-    end = std::to_chars(end, line.end(), distance, std::chars_format::general, 9).ptr;
-    *end++ = '\n';
-    csv.write({line.begin(), end});
+    // A compiled format, since a table may have millions of lines.
+    const char* const end = fmt::format_to(line.data(), FMT_COMPILE("{},{},{},{},{},{:.9g}\n"), frame, file_vertex[a],
+                                           file_vertex[b], bodies->body_of(a), bodies->body_of(b), distance);
+    csv.write({line.data(), end});
   }
 }
 
@@ -207,8 +201,8 @@ void print_table(const SequenceTask& task, const MethodRuns& all) {
     }
     const Totals sum = totals_of(run.rows);
     std::cout << fmt::format("{:28} {:10} {:>8} {:>9} {:12.3f} {:15} {:14}\n", run.method->key, sum.contacts,
-                             share(sum.recall), share(sum.precision), sum.ms / static_cast<double>(run.rows.size()),
-                             sum.pair_tests, sum.hashes);
+                             share(sum.recall), share(sum.precision), sum.ms / double(run.rows.size()), sum.pair_tests,
+                             sum.hashes);
   }
 }
 

@@ -85,9 +85,8 @@ class SideBySide {
 
   /// Returns the work that the method will have done at the end if each frame from this one on takes as much as it.
   std::uint64_t work_with(std::size_t m, std::size_t f) const {
-    const auto frames = static_cast<std::uint64_t>(task_.frames.size()),
-               repeat = static_cast<std::uint64_t>(task_.repeat);
-    const std::uint64_t left = (repeat - static_cast<std::uint64_t>(repetition_)) * frames - f;
+    const auto frames = std::uint64_t(task_.frames.size()), repeat = std::uint64_t(task_.repeat);
+    const std::uint64_t left = (repeat - std::uint64_t(repetition_)) * frames - f;
     return runners_[m].work + left * cost_model_.of(m).cost();
   }
 

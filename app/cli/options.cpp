@@ -37,7 +37,7 @@ glm::ivec2 parse_size(const std::string& text) {
     const auto pixels = parts.size() == 2 ? parse_integer(parts[which]) : std::nullopt;
     if (!pixels || *pixels < 1 || *pixels > 16384)
       throw UsageError("--size " + text + ": must be WIDTHxHEIGHT, each from 1 to 16384, e.g. 1280x720");
-    return static_cast<int>(*pixels);
+    return int(*pixels);
   };
   return {side(0), side(1)};
 }
@@ -50,7 +50,7 @@ void parse_captures(const std::string& text, Options& options) {
     const auto frame = parse_integer(item);
     if (!frame || *frame < 1) refuse(item, "is no frame number; write e.g. 100,400,600,800");
     if (*frame > options.frames) refuse(item, "lies beyond --frames " + std::to_string(options.frames));
-    options.captures.push_back(static_cast<int>(*frame));
+    options.captures.push_back(int(*frame));
   }
   std::sort(options.captures.begin(), options.captures.end());
 }
@@ -312,8 +312,7 @@ void check_play(const CLI::App& cli, const Options& options) {
 /// Throws UsageError unless a scene file may have this length: a saved scene must be readable again.
 void require_length(const std::string& option, double metres, const softbody::Key& key) {
   const auto [least, most] = key.limits;
-  if (!(static_cast<float>(metres) >= static_cast<float>(least) &&
-        static_cast<float>(metres) <= static_cast<float>(most)))
+  if (!(float(metres) >= float(least) && float(metres) <= float(most)))
     throw UsageError(option + fmt::format(": must be a number of metres from {:g} to {:.0f}", least, most));
 }
 
@@ -326,13 +325,14 @@ const collide::Method& chosen_method(const DetectionOptions& options, std::strin
 }
 
 void apply(const DetectionOptions& options, collide::Settings& settings) {
+  assert(collide::problem(settings).empty());
   const auto check = [&](const std::string& option) {
     if (const std::string wrong = collide::problem(settings); !wrong.empty()) throw UsageError(option + ": " + wrong);
   };
   if (options.levels) settings.levels = *options.levels;
   if (options.buckets) settings.buckets = *options.buckets;
   if (options.tolerance) {
-    settings.tolerance = static_cast<float>(*options.tolerance);
+    settings.tolerance = float(*options.tolerance);
     check(fmt::format("--tolerance {:.9g}", *options.tolerance));
   }
   if (options.cell_size) settings.cell_size = read_cell_size(*options.cell_size);
@@ -348,12 +348,12 @@ std::vector<std::string> warnings(const collide::Method& method, const collide::
 
 int frames_per_picture(double frame_time) {
   const double frames = 1 / (30 * frame_time);
-  return std::max(1, static_cast<int>(std::ceil(frames - 0.01)));  // 0.0166667 is meant as 1/60
+  return std::max(1, int(std::ceil(frames - 0.01)));  // 0.0166667 is meant as 1/60
 }
 
 std::optional<Options> parse_options(int argc, const char* const* argv) {
   Options options;
-  options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  options.threads = std::max(1, int(std::thread::hardware_concurrency()));
   std::string size, captures;
 
   CLI::App cli{

@@ -9,23 +9,22 @@
 namespace app::reference {
 
 void StabilityFigures::add(const StabilitySample& s, const StabilityLimits& limits) {
-  const double excess = s.excess / s.scale, of_speed = s.speed / s.reachable_speed,
-               of_extent = s.extent / s.reachable_extent, depth = s.depth / limits.radius;
+  const double depth = s.depth / limits.radius;
   // std::max would ignore NaN.
   const auto is_finite = [](double figure) { return std::isfinite(figure); };
-  finite = s.finite && std::ranges::all_of(std::array{excess, of_speed, of_extent, depth}, is_finite);
+  finite = s.finite && std::ranges::all_of(std::array{s.excess, s.speed, s.extent, depth}, is_finite);
   if (!finite) {
     blow_up_time = s.time;
     return;
   }
-  energy = std::max(energy, excess);
-  speed = std::max(speed, of_speed);
-  extent = std::max(extent, of_extent);
+  energy = std::max(energy, s.excess);
+  speed = std::max(speed, s.speed);
+  extent = std::max(extent, s.extent);
   constexpr int frames_to_come_out = 10;
   if (!limits.begins_inside || s.frame > frames_to_come_out) transient = std::max(transient, depth);
   if (s.time > 0.75 * limits.seconds) steady = std::max(steady, depth);
   passed_through = s.passed_through;
-  if (excess > 10) blow_up_time = s.time;
+  if (s.excess > 10) blow_up_time = s.time;
 }
 
 std::vector<std::string> failures(const StabilityFigures& f) {

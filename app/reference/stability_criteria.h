@@ -20,12 +20,13 @@ struct StabilitySample {
   double time = 0;     // s, at its end
   int frame = 0;       // from 1
   bool finite = true;  // all positions and velocities are; if not, the rest has no meaning
-  double excess = 0;   // J, energy from nowhere that has not been lost again, see softbody::EnergyLedger
-  double scale = 0;    // J, max(E0 - E_eq, m g R) of the bodies that are there by now
-  double speed = 0, reachable_speed = 0;    // m/s: of the fastest particle; what all the energy could give it
-  double extent = 0, reachable_extent = 0;  // m: longest side of a body's box; to what that energy could stretch it
-  double depth = 0;                         // m, of the deepest particle in a solid
-  std::size_t passed_through = 0;           // bodies that have gone through a solid so far
+  /// Energy from nowhere that has not been lost again, see softbody::EnergyLedger, in max(E0 - E_eq, m g R) of the
+  /// bodies that are there by now.
+  double excess = 0;
+  double speed = 0;                // of the fastest particle, in what all the energy could give it
+  double extent = 0;               // longest side of a body's box, in that to which this energy could stretch it
+  double depth = 0;                // m, of the deepest particle in a solid
+  std::size_t passed_through = 0;  // bodies that have gone through a solid so far
 };
 
 /// How the end of a run differs from the reference's.

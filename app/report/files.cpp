@@ -17,7 +17,7 @@ std::vector<std::pair<std::string, std::string>> draw_all(const std::vector<Plot
   std::vector<std::pair<std::string, std::string>> pictures;
   try {
     for (const Plot& plot : plots) {
-      say("plot " + plot.name, static_cast<double>(pictures.size() / 2) / static_cast<double>(plots.size()));
+      say("plot " + plot.name, double(pictures.size() / 2) / double(plots.size()));
       pictures.emplace_back(plot.name + ".svg", draw(plot, "svg size 960,720 font 'sans-serif,14'"));
       pictures.emplace_back(plot.name + ".png", draw(plot, "pngcairo size 960,720 font 'sans,11'"));
     }
@@ -38,7 +38,7 @@ void say(const std::string& what, double progress) {
 void run_in_parallel(collide::Workers& workers, std::size_t count, const std::function<std::string(std::size_t)>& what,
                      const std::function<void(std::size_t)>& task) {
   workers.share(workers.threads(), count, [&](int thread, std::size_t i) {
-    if (thread == 0) say(what(i), static_cast<double>(i) / static_cast<double>(count));
+    if (thread == 0) say(what(i), double(i) / double(count));
     task(i);
   });
 }

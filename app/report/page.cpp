@@ -10,6 +10,8 @@
 
 namespace app::report {
 
+constexpr std::string_view begin_of_plot = "![";  // in Markdown; no other part begins so
+
 std::string command_of(const ReportOptions& o) {
   std::string text = "sbcollide report " + o.name;
   if (o.scene) text.append(" --scene ").append(*o.scene);
@@ -63,21 +65,14 @@ void Page::warn_if_busy(const TimedParts& timed) {
 
 void Page::plot(Plot plot) {
   if (plot.series.empty()) return;
+  parts_.push_back(fmt::format("{}{}](<{}.svg>)\n", begin_of_plot, plot.caption, plot.name));
   plots_.push_back(std::move(plot));
-  parts_.emplace_back();
 }
 
 std::string Page::markdown(bool with_plots) const {
   std::string text;
-  auto plot = plots_.begin();
-  for (const std::string& part : parts_) {
-    if (part.empty() && !with_plots) continue;
-    if (!text.empty()) text += '\n';
-    text += part;
-    if (!part.empty()) continue;
-    text += fmt::format("![{}](<{}.svg>)\n", plot->caption, plot->name);
-    ++plot;
-  }
+  for (const std::string& part : parts_)
+    if (with_plots || !part.starts_with(begin_of_plot)) text.append(text.empty() ? "" : "\n").append(part);
   return text;
 }
 

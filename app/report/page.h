@@ -72,7 +72,7 @@ class Page {
   static Plot empty_plot(std::string name, const std::string& text);
 
   ReportOptions options_;
-  std::vector<std::string> parts_;  // empty: the next plot
+  std::vector<std::string> parts_;
   std::vector<Plot> plots_;
   std::string warning_;
 };

@@ -67,7 +67,7 @@ std::string draw(const Plot& plot, std::string_view terminal) {
 }
 
 std::string colour(const collide::Method& method) {
-  const auto byte = [](float part) { return static_cast<int>(std::lround(255 * part)); };
+  const auto byte = [](float part) { return int(std::lround(255 * part)); };
   const glm::vec3 colour = compare::style(method).colour;
   return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.r), byte(colour.g), byte(colour.b));
 }

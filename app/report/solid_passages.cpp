@@ -23,12 +23,12 @@ glm::dvec3 middle_of(const softbody::World& world, collide::Index body) {
   glm::dvec3 sum{0.0};
   for (collide::Index v = at.bodies->first[body]; v < at.bodies->first[body + 1]; ++v)
     sum += glm::dvec3(at.x[v], at.y[v], at.z[v]);
-  return sum / static_cast<double>(at.bodies->size(body));
+  return sum / double(at.bodies->size(body));
 }
 
 bool SolidPassages::passed(const softbody::World& world, const glm::dvec3& from, const glm::dvec3& to,
                            double radius) const {
-  const int parts = 1 + static_cast<int>(std::min(16 * glm::distance(from, to) / radius, 4000.0));
+  const int parts = 1 + int(std::min(16 * glm::distance(from, to) / radius, 4000.0));
   std::optional<glm::vec3> in;  // the solid's normal where the line went in
   softbody::SolidDepth before = softbody::solid_depth(world.scene(), from);
   for (int i = 1; i <= parts; ++i) {

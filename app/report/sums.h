@@ -12,7 +12,7 @@ namespace app::report {
 template <class Rows, class Figure>
 double sum_of(const Rows& rows, const Figure& figure) {
   double sum = 0;
-  for (const auto& row : rows) sum += static_cast<double>(std::invoke(figure, row));
+  for (const auto& row : rows) sum += double(std::invoke(figure, row));
   return sum;
 }
 
@@ -20,7 +20,7 @@ double sum_of(const Rows& rows, const Figure& figure) {
 template <class Rows, class Figure>
 double max_of(const Rows& rows, const Figure& figure) {
   double max = 0;
-  for (const auto& row : rows) max = std::max(max, static_cast<double>(std::invoke(figure, row)));
+  for (const auto& row : rows) max = std::max(max, double(std::invoke(figure, row)));
   return max;
 }
 

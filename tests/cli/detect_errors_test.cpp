@@ -79,11 +79,12 @@ TEST(DetectErrors, NameTheLineOfABadObjFile) { expect_bad("bad.obj", bad_files);
 const std::string begin_text = "ply\nformat ascii 1.0\n";
 const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
 const std::string list = "property list uchar int vertex_indices\n";
-const std::string three_rows = "0 0 0\n1 0 0\n0 1 0\n";
+const std::string vertex = begin_text + "element vertex 1\n", face = begin_text + "element face 1\n";
+const std::string point = vertex + xyz + "end_header\n";
 /// The head of a text file with three vertices and these faces; its last line is number 9.
 std::string with_faces(const std::string& rows, const std::string& count = "1") {
-  return begin_text + "element vertex 3\n" + xyz + "element face " + count + "\n" + list + "end_header\n" + three_rows +
-         rows;
+  return begin_text + "element vertex 3\n" + xyz + "element face " + count + "\n" + list +
+         "end_header\n0 0 0\n1 0 0\n0 1 0\n" + rows;
 }
 std::string binary(const std::vector<std::vector<unsigned>>& faces,
                    const std::vector<std::array<float, 3>>& vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}) {
@@ -98,35 +99,23 @@ const BadFile bad_ply_files[]{
     {"empty", "", {":1: ", "'ply'"}},
     {"obj", "v 0 0 0\n", {":1: ", "'ply'"}},
     {"no_header", "ply\n", {":2: ", "'end_header'"}},
-    {"header_cut_off", begin_text + "element vertex 1\n" + xyz, {":7: ", "'end_header'"}},
+    {"header_cut_off", vertex + xyz, {":7: ", "'end_header'"}},
     {"no_format", "ply\nelement vertex 1\n" + xyz + "end_header\n0 0 0\n", {":6: ", "'format'"}},
     {"unknown_format", "ply\nformat utf8 1.0\n", {":2: ", "'utf8'"}},
     {"unknown_line", begin_text + "vertices 3\n", {":3: ", "'vertices'"}},
-    {"unknown_type", begin_text + "element vertex 1\nproperty half x\n", {":4: ", "'half'"}},
+    {"unknown_type", vertex + "property half x\n", {":4: ", "'half'"}},
     {"no_count", begin_text + "element vertex\n", {":3: ", "NAME COUNT"}},
     {"count_of_text", begin_text + "element vertex 3x\n", {":3: ", "NAME COUNT"}},
     {"huge_count", begin_text + "element vertex 4000001\n", {":3: ", "more than 4000000 vertices"}},
     {"overflowing_count", begin_text + "element vertex 99999999999999999999\n", {":3: ", "NAME COUNT"}},
-    {"two_elements_vertex",
-     begin_text + "element vertex 1\n" + xyz + "element vertex 1\n",
-     {":7: ", "second element 'vertex'"}},
+    {"two_elements_vertex", vertex + xyz + "element vertex 1\n", {":7: ", "second element 'vertex'"}},
     {"property_first", begin_text + "property float x\n", {":3: ", "before the first element"}},
-    {"list_of_real_length",
-     begin_text + "element face 1\nproperty list float int vertex_indices\n",
-     {":4: ", "length"}},
-    {"real_indices", begin_text + "element face 1\nproperty list uchar float vertex_indices\n", {":4: ", "indices"}},
-    {"two_lists",
-     begin_text + "element face 1\n" + list + "property list uchar int vertex_index\n",
-     {":5: ", "second list"}},
-    {"no_y",
-     begin_text + "element vertex 1\nproperty float x\nproperty float z\nend_header\n0 0\n",
-     {":6: ", "x, y and z"}},
-    {"list_for_x",
-     begin_text + "element vertex 1\nproperty list uchar float x\nend_header\n0\n",
-     {":5: ", "x, y and z"}},
-    {"no_indices",
-     begin_text + "element vertex 1\n" + xyz + "element face 1\nproperty int i\nend_header\n0 0 0\n1\n",
-     {":9: ", "vertex_indices"}},
+    {"list_of_real_length", face + "property list float int vertex_indices\n", {":4: ", "length"}},
+    {"real_indices", face + "property list uchar float vertex_indices\n", {":4: ", "indices"}},
+    {"two_lists", face + list + "property list uchar int vertex_index\n", {":5: ", "second list"}},
+    {"no_y", vertex + "property float x\nproperty float z\nend_header\n0 0\n", {":6: ", "x, y and z"}},
+    {"list_for_x", vertex + "property list uchar float x\nend_header\n0\n", {":5: ", "x, y and z"}},
+    {"no_indices", vertex + xyz + "element face 1\nproperty int i\nend_header\n0 0 0\n1\n", {":9: ", "vertex_indices"}},
     {"no_property", begin_text + "element other 9000000000000\nend_header\n", {":4: ", "'other'", "no property"}},
     {"no_vertex", begin_text + "element vertex 0\n" + xyz + "end_header\n", {"no vertex"}},
     {"cut_off_in_vertices", begin_text + "element vertex 2\n" + xyz + "end_header\n0 0 0\n", {":9: ", "the file ends"}},
@@ -134,8 +123,8 @@ const BadFile bad_ply_files[]{
     {"too_many_faces_said", with_faces("3 0 1 2\n", "2"), {":14: ", "the file ends"}},
     {"too_few_faces_said", with_faces("3 0 1 2\n3 0 1 2\n"), {":14: ", "goes on"}},
     {"many_faces_said", with_faces("3 0 1 2\n", "4000000000000000000"), {":14: ", "the file ends"}},
-    {"vertex_of_four", begin_text + "element vertex 1\n" + xyz + "end_header\n0 0 0 1\n", {":8: ", "more numbers"}},
-    {"nan", begin_text + "element vertex 1\n" + xyz + "end_header\n0 nan 0\n", {":8: ", "'nan'"}},
+    {"vertex_of_four", point + "0 0 0 1\n", {":8: ", "more numbers"}},
+    {"nan", point + "0 nan 0\n", {":8: ", "'nan'"}},
     {"two_corners", with_faces("2 0 1\n"), {":13: ", "fewer than 3 corners"}},
     {"length_below_zero", replaced(with_faces("-3 0 1 2\n"), "uchar", "char"), {":13: ", "-3 items"}},
     {"index_below_zero", with_faces("3 0 1 -1\n"), {":13: ", "vertex -1"}},
@@ -145,14 +134,12 @@ const BadFile bad_ply_files[]{
     {"binary_without_rows", cut(binary({}), 36), {"element 'vertex', row 0", "the file ends"}},
     {"binary_goes_on", binary({{0, 1, 2}}) + "x", {"goes on"}},
     {"binary_nan", binary({}, {{0, 0, 0}, {0, NAN, 0}}), {"element 'vertex', row 1", "not finite"}},
-    {"binary_overflow",
-     ply({{0, 0, INFINITY}}, {}, {.format = "binary_big_endian", .real = "double"}),
-     {"row 0", "not finite"}},
+    {"binary_overflow", ply({{0, 0, INFINITY}}, {}, {"binary_big_endian", "double"}), {"row 0", "not finite"}},
     {"binary_two_corners", binary({{0, 1, 2}, {0, 1}}), {"element 'face', row 1", "fewer than 3 corners"}},
     {"binary_index_beyond", binary({{0, 1, 2}, {0, 1, 3}}), {"face 1 (counted from 0)", "vertex 3 of 3"}},
     {"binary_index_below_zero", binary({{0, 1, 4294967295}}), {"row 0", "vertex -1"}},
     {"long_row", with_faces("3 0 1 2 " + std::string(2 << 20, '1') + "\n"), {":13: ", "longer than 1 MiB"}},
-    {"control_characters", begin_text + "element vertex 1\nproperty fl\x1b[31m x\n", {":4: ", "'fl?[31m'"}},
+    {"control_characters", vertex + "property fl\x1b[31m x\n", {":4: ", "'fl?[31m'"}},
 };
 
 TEST(DetectErrors, NameThePlaceInABadPlyFile) { expect_bad("bad.ply", bad_ply_files); }
@@ -179,7 +166,7 @@ TEST_F(DetectRefuses, FilesThatDoNotMatch) {
   refuse({"--rest", lone, "--tolerance", "1"}, {lone, "number of bodies"});
 }
 
-TEST_F(DetectRefuses, FilesOfOtherParts) {
+TEST_F(DetectRefuses, FilesWhoseBodiesHaveOtherVertices) {
   const auto file = [&](const std::string& name, const std::vector<std::vector<unsigned>>& faces, float x) {
     before.insert(name);
     return folder.write(name, ply({{x, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {5, 0, 0}}, faces)).string();

@@ -2,8 +2,6 @@
 // States for `detect`, and an oracle that knows only the contract of the program.
 
 #include <array>
-#include <cstdint>
-#include <random>
 #include <string>
 #include <vector>
 

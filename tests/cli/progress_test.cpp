@@ -59,7 +59,7 @@ Shown run_on(const Terminal& terminal, const std::vector<std::string>& arguments
 
 const std::string cleared = "\r" + std::string(60, ' ') + "\r";
 
-TEST(Progress, OfSimulateIsShownOnATerminalAndCleared) {
+TEST(Progress, IsShownOnATerminalAndClearedBySimulate) {
   const Terminal terminal;
   if (terminal.device().empty()) GTEST_SKIP() << "no pseudo-terminals";
   const std::vector<std::string> arguments{"simulate", "--scene", "drop", "--frames", "30", "--json-lines"};
@@ -72,7 +72,7 @@ TEST(Progress, OfSimulateIsShownOnATerminalAndCleared) {
   EXPECT_EQ(lines.terminal.find("frame 20 of 30"), std::string::npos) << "the lines themselves are the progress";
 }
 
-TEST(Progress, OfReportIsShownOnATerminalAndCleared) {
+TEST(Progress, IsShownOnATerminalAndClearedByReport) {
   const Terminal terminal;
   if (terminal.device().empty()) GTEST_SKIP() << "no pseudo-terminals";
   const TemporaryFolder folder;

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/reference/reference_trajectory.h"
-#include "softbody/contact/keys.h"
+#include "app/report/worlds.h"
 #include "softbody/forces/model_forces.h"
 #include "softbody/mechanics/bound.h"
 #include "tests/solids.h"
@@ -17,18 +17,9 @@ namespace {
 using glm::dvec3;
 
 softbody::Scene lone_ball(double stiffness, double damping_ratio) {
-  softbody::Scene scene;
-  softbody::Material m;
-  m.set(softbody::StructuralSprings::keys, {stiffness, damping_ratio});
-  m.set(softbody::BendSprings::keys, {stiffness / 4, damping_ratio});
+  softbody::Material m = report::ball_material(stiffness, damping_ratio);
   m[softbody::GasPressure::inside] = 0.5 * stiffness;
-  m[softbody::contact::rolling_resistance] = 0;
-  scene.materials.push_back(m);
-  scene.bodies.push_back({.mesh = {}, .position = dvec3(0.0)});
-  scene.gravity = {};
-  scene.collision.self_collision = false;
-  scene.sleep.speed = 0;
-  return scene;
+  return report::lone_scene(m);
 }
 
 /// Two particles, joined by a spring of 1 m.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/report/contact/results.h"
 #include "tests/cli/report_rig.h"
 
 namespace cli::test {
@@ -102,6 +103,19 @@ TEST(ContactReport, GivesNoFiguresOfFramesThatAreCutShort) {
   Row surface = rows_of(ball + "velocity = [1000, 0, 0]\n" + ball + "position = [5, 3, 0]\nvelocity = [-1000, 0, 0]\n")
                     .at("surface");
   EXPECT_NE(surface["not_run"].find("more work than there may be"), std::string::npos) << surface["not_run"];
+}
+
+TEST(ContactTrial, SaysWhatIsWrong) {
+  using app::report::ContactTrial;
+  const std::vector<std::pair<ContactTrial, Words>> rows{
+      {{.radius = 0.5, .solid_depth = 0.0099, .settles = true, .asleep = true, .end_depth = 0.0099}, {}},
+      {{.radius = 0.5, .solid_depth = 0.011}, {"0.022 R deep in a solid"}},
+      {{.radius = 0.5, .end_depth = 0.011}, {"0.022 R deep at the end"}},
+      {{.solid_depth = 1}, {}},  // without a closed body depths have no meaning
+      {{.passed = 3, .through_solids = 2, .finite = false}, {"not finite", "through a solid: 2", "passed: 3"}},
+      {{.settles = true, .self_intersecting = 1}, {"pierce themselves: 1", "awake"}},
+      {{.not_run = "over the budget", .passed = 3}, {"over the budget"}}};
+  for (const auto& [trial, failures] : rows) EXPECT_EQ(trial.failures(), failures);
 }
 
 TEST(ContactReport, ListsASceneOverBudgetAndDoesNotRunIt) {

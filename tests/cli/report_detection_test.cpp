@@ -1,9 +1,9 @@
 // `report detection`: its files and their contents.
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "collide/methods.h"
 #include "tests/cli/detect_rig.h"
@@ -12,25 +12,17 @@
 namespace cli::test {
 namespace {
 
-/// Returns a scene of four balls that fall into each other. Its key has characters that must be quoted.
-const std::filesystem::path& balls() {
-  static const TemporaryFolder folder;
-  static const auto file = folder.write("four, 'balls'.toml", R"(
-[collision]
-tolerance = 0.1
-[ground]
-[[body]]
-position = [0, 0.6, 0]
-lattice = {size = [2, 2, 1], spacing = [1.02, 1.05, 1], jitter = 0.02}
-)");
-  return file;
-}
-
-/// Returns the folder of a quick report on them, which is made once.
+/// Returns the folder of a quick report on four balls that fall into each other, which is made once. The key of the
+/// scene has characters that must be quoted.
 const std::filesystem::path& quick_report() {
   static const TemporaryFolder folder;
   static const auto out = folder.path() / "new" / "report";
-  static const Outcome o = run({"report", "detection", "--quick", "--scene", balls(), "--out", out});
+  static const Outcome o = [] {
+    const auto scene = folder.write("four, 'balls'.toml",
+                                    "[collision]\ntolerance = 0.1\n[ground]\n[[body]]\nposition = [0, 0.6, 0]\n"
+                                    "lattice = {size = [2, 2, 1], spacing = [1.02, 1.05, 1], jitter = 0.02}\n");
+    return run({"report", "detection", "--quick", "--scene", scene, "--out", out});
+  }();
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_EQ(printed_files(o, out), file_names(out));
   EXPECT_EQ(errors_of(o), "") << "progress is for terminals";
@@ -44,11 +36,12 @@ std::set<std::string> all_methods() {
   return keys;
 }
 
-TEST(DetectionReport, HasEveryMethodWithAllItsSettingsInEveryState) {
+TEST(DetectionReport, HasEveryMethodWithAllItsSettingsInEveryStateAndGrowth) {
   std::map<std::string, std::set<std::string>> settings;  // by method and frame
-  std::set<std::string> frames, methods;
+  std::set<std::string> frames, methods, grown;
   bool missed = false;  // something, by the literal method
   for (Row row : read_csv(quick_report() / "detection.csv")) {
+    if (row["part"] == "growth") grown.insert(row["bodies"]);
     if (row["part"] != "sweep") continue;
     EXPECT_EQ(row["scene"], "four, 'balls'");
     EXPECT_EQ(row["bodies"], "4");
@@ -76,6 +69,7 @@ TEST(DetectionReport, HasEveryMethodWithAllItsSettingsInEveryState) {
         << "measured twice";
   }
   EXPECT_TRUE(missed);
+  EXPECT_EQ(grown, (std::set<std::string>{"3", "4"}));
   EXPECT_EQ(methods, all_methods());
   EXPECT_EQ(frames.size(), 2u);
   for (const std::string& frame : frames) {
@@ -85,20 +79,14 @@ TEST(DetectionReport, HasEveryMethodWithAllItsSettingsInEveryState) {
   }
 }
 
-TEST(DetectionReport, MeasuresGrowthOnMoreAndMoreBodies) {
-  std::set<std::string> bodies;
-  for (Row row : read_csv(quick_report() / "detection.csv")) {
-    if (row["part"] == "growth") bodies.insert(row["bodies"]);
-  }
-  EXPECT_EQ(bodies, (std::set<std::string>{"3", "4"}));
-}
-
 TEST(DetectionReport, SaysHowItWasMadeAndShowsItsPlots) {
   const std::string text = read_file(quick_report() / "report.md");
   EXPECT_NE(text.find("`sbcollide report detection --scene "), std::string::npos);
   EXPECT_NE(text.find("--quick --out DIR`"), std::string::npos);
   EXPECT_NE(text.find("1 thread,"), std::string::npos);
   EXPECT_EQ(text.find("nan"), std::string::npos);
+  EXPECT_TRUE(std::regex_search(text, std::regex(R"(\n\| Brute force \| \|.*\| \| 2\.00 \|)")))
+      << "pair tests are quadratic";
   for (const std::string& name : file_names(quick_report())) {
     EXPECT_GT(std::filesystem::file_size(quick_report() / name), 1000u) << name;
     if (name.ends_with(".svg")) {
@@ -117,6 +105,7 @@ TEST(DetectionReport, HasThePapersScenesInTable1) {
   EXPECT_EQ(o.status, 0) << o.err;
   const std::string text = read_file(folder.path() / "report.md");
   EXPECT_NE(text.find("| method | A: 3 bodies, 101 buckets |"), std::string::npos);
+  EXPECT_NE(text.find(" --threads 2 --out DIR`"), std::string::npos);
   EXPECT_NE(text.find("2 threads,"), std::string::npos);
   EXPECT_EQ(text.find("Growth"), std::string::npos) << "three bodies are too few to grow";
 }
@@ -176,17 +165,16 @@ TEST_F(SequenceReport, TakesBodiesAndRestShapes) {
 
 TEST(DetectionReport, LeavesOutOnlyThePlotsWithoutGnuplot) {
   const TemporaryFolder folder;
-  const std::string path = getenv("PATH");
-  setenv("PATH", folder.path().c_str(), 1);
-  const Outcome o = run({"report", "detection", "--quick", "--scene", balls(), "--out", folder.path()});
-  setenv("PATH", path.c_str(), 1);
+  const auto two = folder.write("two.obj", "v 0 0 0\no b\nv 0 .01 0\n"), out = folder.path() / "out";
+  const Outcome o = run({"report", "detection", two, "--tolerance", "0.1", "--quick", "--out", out}, "/",
+                        {"PATH=" + folder.path().string()});
   EXPECT_EQ(o.status, 0);
   const std::string errors = errors_of(o);
   EXPECT_NE(errors.find("gnuplot-nox"), std::string::npos) << errors;
   EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1);
-  EXPECT_EQ(printed_files(o, folder.path()), file_names(folder.path()));
-  EXPECT_EQ(file_names(folder.path()), (std::set<std::string>{"detection.csv", "report.md"}));
-  EXPECT_EQ(read_file(folder.path() / "report.md").find("!["), std::string::npos) << "no links to what is not there";
+  EXPECT_EQ(printed_files(o, out), file_names(out));
+  EXPECT_EQ(file_names(out), (std::set<std::string>{"detection.csv", "report.md"}));
+  EXPECT_EQ(read_file(out / "report.md").find("!["), std::string::npos) << "no links to what is not there";
 }
 
 TEST(Report, RefusesBadInputInOneLineAndWritesNothing) {

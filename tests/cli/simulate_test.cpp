@@ -318,12 +318,18 @@ TEST(SimulateJsonLines, CountByTheOracleWhatIsSimulatedOfFineMeshes) {
 }
 
 TEST(Simulate, PrintsAShortTableWithoutJson) {
-  const Outcome o = run({"simulate", "--scene", "drop", "--frames", "100"});
+  const Words sixty{"--scene", "B", "--frames", "60"};
+  const Outcome o = run(with({"simulate"}, sixty));
   EXPECT_EQ(o.status, 0);
   EXPECT_EQ(o.err, "") << "progress is for terminals";
-  EXPECT_NE(
-      o.out.find("state hash " + simulate({"--scene", "drop", "--frames", "100"})["state_hash"].get<std::string>()),
-      std::string::npos);
+  const json d = simulate(sixty), f = d["frames"][59];
+  const auto number = [&](const char* path) { return f.at(json::json_pointer(path)).get<double>(); };
+  const std::string row =
+      fmt::format("{:9.0f} {:7.0f} {:7.0f} {:12.4f} {:7.3f} {:7.3f} {:12.2e} {:10.4f}\n", number("/contacts/bodies"),
+                  number("/contacts/self"), number("/contacts/solid"), number("/energy"), number("/volume_ratio/min"),
+                  number("/volume_ratio/max"), number("/deepest_penetration"), number("/max_speed"));
+  EXPECT_NE(o.out.find(row), std::string::npos) << row << o.out;
+  EXPECT_NE(o.out.find("state hash " + d["state_hash"].get<std::string>()), std::string::npos);
   EXPECT_LT(std::count(o.out.begin(), o.out.end(), '\n'), 40);
 }
 

@@ -41,7 +41,7 @@ reference::StabilityFigures run(const softbody::Scene& scene, std::string_view i
 }
 
 /// An explicit Euler step adds 1/2 m (g dt)^2 to a body that begins to fall, a Verlet step nothing.
-TEST(StabilityCell, CountsTheGainOfAJoinersFirstFrame) {
+TEST(StabilityCell, CountsTheGainOfAJoiningBodyInItsFirstFrame) {
   constexpr int appear = 5;
   for (const double height : {-40.0, 40.0}) {  // m: also one whose energy is negative
     softbody::Scene scene = balls({joiner(0, {9, 0, 0}), joiner(appear, {0, height, 0}, {0, 3, 0})});
@@ -65,7 +65,7 @@ softbody::Scene joined_by(const softbody::BodySource& second) {
   return scene;
 }
 
-TEST(StabilityCell, CreditsJoinersWithWhatPairsHoldWhereTheyJoin) {
+TEST(StabilityCell, CreditsAJoiningBodyWithTheEnergyOfItsContacts) {
   softbody::Scene scene = joined_by(joiner(3, {0.7, 0.01, 0.02}));
   scene.materials[0][softbody::contact::stiffness] = 1e3;
   EXPECT_LE(run(scene, "auto", 12).energy, reference::stability_bounds.energy);
@@ -73,7 +73,7 @@ TEST(StabilityCell, CreditsJoinersWithWhatPairsHoldWhereTheyJoin) {
 
 /// It flies into the other ball from afar. In that frame no penalty contact has acted, and explicit Euler adds 1/2 m (g
 /// dt)^2.
-TEST(StabilityCell, DoesNotCreditWhatAJoinersFirstFrameCarriesItInto) {
+TEST(StabilityCell, DoesNotCreditContactsThatAJoiningBodyReachesInItsFirstFrame) {
   constexpr int appear = 3;
   constexpr double speed = 100, g = speed / dt;  // m/s, m/s^2
   softbody::Scene scene = joined_by(joiner(appear, {0.7 + speed * dt, 0.01, 0.02}, {-speed, 0, 0}));
@@ -121,7 +121,7 @@ TEST(StabilityCell, TellsBodiesApartByWhenTheyJoin) {
 }
 
 /// The hardest case of the report: frames of 1/30 s, in which a stiff ball flies 33 m.
-TEST(StabilityCell, RunsAHitWith1000MetresASecondWithinTheAllowedSteps) {
+TEST(StabilityCell, SimulatesAHitAt1000MetresASecondInFull) {
   const auto all = report::stability_cases();
   const auto hit = std::ranges::find(all, "impact-1000", &report::StabilityCase::key);
   ASSERT_NE(hit, all.end());

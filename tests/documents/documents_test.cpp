@@ -5,9 +5,9 @@
 //
 // writes them anew.
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -35,25 +35,22 @@ std::string read(const char* file) {
 
 const std::string head = "| key | unit | left out | limits | meaning |\n|---|---|---|---|---|\n";
 
+std::string shown(const Key& key, double value) {
+  if (key.options.is_switch) return value != 0 ? "true" : "false";
+  return shortest_text(value);
+}
+
 std::string row_of(const Key& key, const std::string& left_out) {
-  const auto shown = [&key](double value) {
-    return key.options.is_switch ? std::string(value != 0 ? "true" : "false") : shortest_text(value);
-  };
   const auto [least, most] = key.limits;
-  std::string text;
-  text.append("| `").append(key.name).append("` | ").append(key.unit).append(" | ").append(left_out).append(" | ");
-  if (least < most) text.append(shown(least)).append(key.options.is_switch ? " or " : " to ").append(shown(most));
-  return text.append(" | ").append(key.summary).append(" |\n");
+  const std::string limits =
+      least < most ? shown(key, least) + (key.options.is_switch ? " or " : " to ") + shown(key, most) : "";
+  return fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, key.unit, left_out, limits, key.summary);
 }
 
 std::string keys_of_materials() {
   std::string text = head;
-  for (const Key* key : material_keys()) {
-    std::string left_out = shortest_text(key->fallback);
-    if (key->options.is_switch) left_out = key->fallback != 0 ? "true" : "false";
-    if (std::isnan(key->fallback)) left_out = key->options.if_missing;
-    text += row_of(*key, left_out);
-  }
+  for (const Key* key : material_keys())
+    text += row_of(*key, std::isnan(key->fallback) ? std::string(key->options.if_missing) : shown(*key, key->fallback));
   text.pop_back();  // the end of the last line
   return text;
 }
@@ -65,11 +62,13 @@ std::string keys_of_scenes() {
   const Scene scene;
   const auto add = [&text](const Key& key, const auto& value) {
     std::string left_out(key.options.if_missing);
-    for (const double number : numbers_of(value))
-      left_out += (left_out.empty() ? "" : ", ") +
-                  (key.options.is_switch ? std::string(number != 0 ? "true" : "false")
-                                         : (number == std::floor(number) ? shortest_text(std::int64_t(number))
-                                                                         : shortest_text(float(number))));
+    for (const double number : numbers_of(value)) {
+      const bool whole = number == std::floor(number);
+      left_out += left_out.empty() ? "" : ", ";
+      left_out += key.options.is_switch ? shown(key, number)
+                  : whole               ? shortest_text(std::int64_t(number))
+                                        : shortest_text(float(number));
+    }
     if constexpr (std::is_convertible_v<decltype(value), std::string>) left_out = "`" + value + "`";
     if constexpr (std::is_same_v<decltype(value), const ContactSurface&>) left_out = "`vertex-vertex`";
     text += row_of(key, left_out);
@@ -99,14 +98,11 @@ std::string wrapped(const std::string& text) {
 std::string descriptions_of_methods() {
   std::string text;
   for (const collide::MethodGroupName& group : collide::method_groups) {
-    text.append("### ").append(group.name).append("\n");
-    for (const collide::Method& method : collide::method_table()) {
-      if (method.group != group.group) continue;
-      std::string paragraph("**");
-      paragraph.append(method.name).append("** (`").append(method.key).append("`). ").append(method.description);
-      text.append("\n").append(wrapped(paragraph));
-    }
-    text.append("\n");
+    text += fmt::format("### {}\n", group.name);
+    for (const collide::Method& method : collide::method_table())
+      if (method.group == group.group)
+        text += '\n' + wrapped(fmt::format("**{}** (`{}`). {}", method.name, method.key, method.description));
+    text += '\n';
   }
   return text;
 }

@@ -35,7 +35,7 @@ ContactResults planned(const ReportOptions& options) {
       r.cases.push_back({scene, r.limits});
   for (const Impact impact : options.scene ? std::span<const Impact>() : impacts())
     for (const double speed : quick ? std::span<const double>(quick_speeds) : speeds) {
-      const int frames = 60 + static_cast<int>(60 * 0.3 / speed);  // until a second after the ball got there
+      const int frames = 60 + int(60 * 0.3 / speed);  // until a second after the ball got there
       r.cases.push_back({impact(speed), {.frames = frames, .stride = 1, .seconds = r.limits.seconds}, speed});
     }
   for (ContactCase& c : r.cases)
@@ -56,7 +56,7 @@ void report_contact(const ReportOptions& options) {
   run_in_parallel(workers, r.cases.size() * choices, what, [&](std::size_t i) {
     ContactCase& c = r.cases[i / choices];
     ContactTrial& trial = c.trials[i % choices];
-    if (vertex_count(c.scene) * static_cast<std::uint64_t>(c.limits.frames) > r.vertex_frames)
+    if (vertex_count(c.scene) * std::uint64_t(c.limits.frames) > r.vertex_frames)
       trial.not_run = "over the budget of vertices times frames";
     else
       trial = run_contact_trial(c.scene, trial.choice, c.limits);

@@ -30,7 +30,7 @@ Table contact_table(const ContactResults& results) {
           {"part", c.speed ? "impact" : "scene"},
           {"scene", c.scene.key},
           {"speed", c.speed},
-          {"contact_surface", softbody::contact_surfaces[static_cast<std::size_t>(t.choice.surface)].key},
+          {"contact_surface", softbody::contact_surfaces[std::size_t(t.choice.surface)].key},
           {"method", when(vertices, t.choice.method)},
           {"tolerance_ratio", when(vertices, t.choice.tolerance)},
           {"tolerance", when(vertices && run, t.tolerance)},
@@ -88,7 +88,7 @@ Plot passed_against_speed(const Page& page, std::span<const ContactCase> cases) 
     std::vector<Point> points;
     for (const ContactCase& c : cases) {
       const ContactTrial& t = c.trials[i];
-      if (t.was_run()) points.push_back({*c.speed, static_cast<double>(solid ? t.through_solids : t.passed)});
+      if (t.was_run()) points.push_back({*c.speed, double(solid ? t.through_solids : t.passed)});
     }
     plot.add(series(first.trials[i].choice, "linespoints", std::move(points)));
   }
@@ -169,7 +169,7 @@ void add_scene(Page& page, const ContactCase& c) {
     if (run && t.radius > 0) plot.add(series(t.choice, "points", {{t.cpu_ms, t.deepest / t.radius}}));
     const auto in_radii = [&](double depth) { return when(run && t.radius > 0, brief(t.in_radii(depth))); };
     table.add({{"contact", choice_name(t.choice)},
-               {"penetrating", when(run, brief(static_cast<double>(t.penetrations) / std::max(t.looks, 1)))},
+               {"penetrating", when(run, brief(double(t.penetrations) / std::max(t.looks, 1)))},
                {"missed", when(run, missed_share(double(t.missed), double(t.penetrations), t.choice))},
                {"deepest, R", in_radii(t.deepest)},
                {"mean, R", in_radii(t.mean_depth)},

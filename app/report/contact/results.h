@@ -25,7 +25,7 @@ struct TrialLimits {
 };
 
 struct ContactTrial {
-  ContactChoice choice;
+  ContactChoice choice{};
   std::string not_run{};  // why it was not run to the end; if empty, all of these have a meaning
   double tolerance = 0;   // m
   double radius = 0;      // R, m: of the smallest closed body; 0: there is none, and depths have no meaning

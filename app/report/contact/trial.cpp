@@ -85,7 +85,7 @@ class Trial {
     result_.asleep = world_.all_at_rest();
     const double frames = std::max(1, world_.frame());
     for (double* sum : {&result_.cpu_ms, &result_.detect_ms, &result_.solve_ms}) *sum /= frames;
-    if (result_.penetrations > 0) result_.mean_depth = depths_ / static_cast<double>(result_.penetrations);
+    if (result_.penetrations > 0) result_.mean_depth = depths_ / double(result_.penetrations);
     if (awake_particles_ > 0 && !result_.asleep) result_.jitter = std::sqrt(squares_ / awake_particles_);
   }
 
@@ -137,7 +137,7 @@ class Trial {
     result_.penetrations += overlaps.penetrations.size();
     result_.missed += missed.penetrations.size();
     result_.deepest = std::max(result_.deepest, figures.deepest);
-    depths_ += figures.mean_depth * static_cast<double>(overlaps.penetrations.size());
+    depths_ += figures.mean_depth * double(overlaps.penetrations.size());
     result_.end_depth = figures.deepest;
     result_.overlapping_pairs = figures.overlapping_pairs;
     result_.self_intersecting = figures.self_intersecting_bodies;
@@ -247,7 +247,7 @@ ContactTrial run_contact_trial(softbody::Scene scene, const ContactChoice& choic
   ContactTrial result{.choice = choice};
   scene.contact_surface = choice.surface;
   scene.method = choice.method;
-  scene.collision.tolerance *= static_cast<float>(choice.tolerance);
+  scene.collision.tolerance *= float(choice.tolerance);
   try {
     Trial(std::move(scene), limits, result).run();
   } catch (const softbody::SceneError& error) {

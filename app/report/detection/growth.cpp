@@ -14,7 +14,7 @@ namespace {
 /// Returns the hashes of a scene with the automatic cell: of the vertex hash, then of the boxes' corners by level.
 TableRow hash_row(const SceneResult& scene) {
   const double vertices = sum_of(scene.states, [](const MeasuredState& s) { return s.bodies.vertex_count(); }) /
-                          static_cast<double>(scene.states.size());  // on average: bodies may appear between the states
+                          double(scene.states.size());  // on average: bodies may appear between the states
   const std::vector<Mean> all = means(scene);
   const auto hashes = [&](std::string_view method, int level) -> std::string {
     const Mean* found = find(all, method, level);
@@ -63,7 +63,7 @@ std::string range(const SceneResult& growth, const Cost& cost) {
 std::string cost(const compare::SweepRow& row, collide::Index vertices) {
   if (!row.not_run.empty()) return "over budget";
   const double ms = row.times.median();
-  return fmt::format("{} ({})", brief(ms), brief(1e6 * ms / std::max(1.0, static_cast<double>(vertices))));
+  return fmt::format("{} ({})", brief(ms), brief(1e6 * ms / std::max(1.0, double(vertices))));
 }
 
 Table growth_table(const SceneResult& growth) {
@@ -97,7 +97,7 @@ Plot cost_against_bodies(const Page& page, const SceneResult& growth) {
                               dashed ? 2 : 1)};
     for (const MeasuredState& state : growth.states)
       if (const compare::SweepRow& row = state.sweep.rows[i]; row.not_run.empty())
-        series.points.push_back({static_cast<double>(state.bodies.count()), row.times.median()});
+        series.points.push_back({double(state.bodies.count()), row.times.median()});
     plot.add(std::move(series));
   }
   return plot;

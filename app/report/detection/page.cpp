@@ -45,7 +45,7 @@ Table detection_table(const DetectionResults& results) {
                      {"pair_tests", when(run, r.counters.pair_tests)},
                      {"hashes", when(run, r.counters.hashes)},
                      {"boxes", when(run, r.counters.boxes)},
-                     {"coverage", when(run, coverage_names.at(static_cast<std::size_t>(r.coverage)))},
+                     {"coverage", when(run, coverage_names.at(std::size_t(r.coverage)))},
                      {"memory_bytes", when(run, r.memory)}};
         for (std::size_t kind = 0; kind < r.skipped.size(); ++kind)
           row.push_back({fmt::format("skipped_{}", collide::skip_kinds[kind].key), when(run, r.skipped[kind])});
@@ -62,34 +62,8 @@ namespace {
 
 // ---- plots ----
 
-/// Places points without any error on the logarithmic axis of errors, which has no 0: in a band below all others, with
-/// a lane per method, so that they do not hide each other.
-class ZeroBand {
- public:
-  explicit ZeroBand(const std::vector<Mean>& means) {
-    double min = 0.1;
-    for (const Mean& m : means)
-      if (m.ran && m.error > 0) min = std::min(min, m.error);
-    top_ = std::pow(10, std::floor(std::log10(min)));
-  }
-  Point point(const Mean& m) const { return {m.ms, m.error > 0 ? m.error : lane(m.configuration.method)}; }
-  double bottom() const { return lane(collide::method_table().size()); }
-  double top() const { return top_; }
-  /// Returns the ticks above the band as gnuplot reads them.
-  std::string ticks() const {
-    std::string ticks;
-    for (double tick = 1; tick > 0.99 * top_; tick /= 10) ticks += fmt::format("'{0:g}' {0:g}, ", tick);
-    return ticks;
-  }
-
- private:
-  double lane(std::size_t number) const { return top_ * std::pow(0.7, static_cast<double>(number) + 1); }
-
-  double top_;  // the smallest error that the axis shows
-};
-
 /// Adds the points of a method, with one entry in the key: the higher the level, the larger.
-void add_method(Plot& plot, const std::vector<Mean>& means, const ZeroBand& band, std::size_t method) {
+void add_method(Plot& plot, const std::vector<Mean>& means, const auto& point, std::size_t method) {
   const collide::Method& row = collide::method_table()[method];
   std::string title = row.name;
   for (auto level = compare::sweep_levels.rbegin(); level != compare::sweep_levels.rend(); ++level) {
@@ -98,7 +72,7 @@ void add_method(Plot& plot, const std::vector<Mean>& means, const ZeroBand& band
                   fmt::format("points pointtype {} pointsize {:g} linewidth 1.5", point_type(row), size)};
     for (const Mean& m : means)
       if (m.ran && m.configuration.method == method && (!row.uses_levels || m.configuration.settings.levels == *level))
-        series.points.push_back(band.point(m));
+        series.points.push_back(point(m));
     if (!series.points.empty()) title.clear();
     plot.add(std::move(series));
     if (!row.uses_levels) return;
@@ -107,14 +81,24 @@ void add_method(Plot& plot, const std::vector<Mean>& means, const ZeroBand& band
 
 Plot error_against_time(const Page& page, const SceneResult& scene) {
   const std::vector<Mean> all = means(scene);
-  const ZeroBand band(all);
+  double min = 0.1;
+  for (const Mean& m : all)
+    if (m.ran && m.error > 0) min = std::min(min, m.error);
+  // The logarithmic axis of errors has no 0. Points without any error lie in a band below all others, with a lane per
+  // method, so that they do not hide each other.
+  const double top = std::pow(10, std::floor(std::log10(min)));
+  const auto lane = [&](std::size_t number) { return top * std::pow(0.7, double(number) + 1); };
+  const auto point = [&](const Mean& m) { return Point{m.ms, m.error > 0 ? m.error : lane(m.configuration.method)}; };
+  const double bottom = lane(collide::method_table().size());
+  std::string ticks;  // above the band
+  for (double tick = 1; tick > 0.99 * top; tick /= 10) ticks += fmt::format("'{0:g}' {0:g}, ", tick);
   Plot plot = page.plot_of("error against time", "error-time-" + scene.scene, fmt::arg("scene", scene.name),
-                           fmt::arg("bottom", band.bottom()), fmt::arg("top", band.top()),
-                           fmt::arg("ticks", band.ticks()), fmt::arg("middle", std::sqrt(band.top() * band.bottom())));
+                           fmt::arg("bottom", bottom), fmt::arg("top", top), fmt::arg("ticks", ticks),
+                           fmt::arg("middle", std::sqrt(top * bottom)));
   std::vector<Point> front;
-  for (const std::size_t i : pareto_front(all)) front.push_back(band.point(all[i]));
+  for (const std::size_t i : pareto_front(all)) front.push_back(point(all[i]));
   plot.add({"Pareto front", "#000000", "steps linewidth 1.5", front});
-  for (std::size_t m = 0; m < collide::method_table().size(); ++m) add_method(plot, all, band, m);
+  for (std::size_t m = 0; m < collide::method_table().size(); ++m) add_method(plot, all, point, m);
   plot.add({"", "#000000", "points pointtype 6 pointsize 1.5 linewidth 1.5", front});
   return plot;
 }

@@ -25,7 +25,7 @@ MeasuredState copy(const softbody::World& world) {
 glm::dvec3 middle(const MeasuredState& state, collide::Index begin, collide::Index end) {
   glm::dvec3 sum{0.0};
   for (collide::Index v = begin; v < end; ++v) sum += glm::dvec3(position(state.view(), v));
-  return sum / std::max(1.0, static_cast<double>(end - begin));
+  return sum / std::max(1.0, double(end - begin));
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ glm::dvec3 middle(const MeasuredState& state, collide::Index begin, collide::Ind
 SceneResult record(const softbody::Scene& scene, bool quick, int threads) {
   const std::uint64_t vertices = std::max<std::uint64_t>(vertex_count(scene), 1);
   const std::uint64_t steps = quick ? 1'000'000 : 60'000'000;  // of one vertex each
-  const auto last = static_cast<int>(std::clamp<std::uint64_t>(steps / vertices, 2, 800));
+  const auto last = int(std::clamp<std::uint64_t>(steps / vertices, 2, 800));
   const bool large = vertices >= large_scene;
   std::set<int> frames{last};
   if (!quick) frames.insert(std::max(1, last / 8));
@@ -64,10 +64,10 @@ SceneResult record(const softbody::Scene& scene, bool quick, int threads) {
 SceneResult record_sequence(const ReportOptions& options) {
   files::FrameSequence sequence({options.files.begin(), options.files.end()}, {.by = options.by, .rest = options.rest});
   collide::Settings settings;
-  settings.tolerance = static_cast<float>(*options.tolerance);
+  settings.tolerance = float(*options.tolerance);
   const auto state = [&](std::size_t frame) {
     files::SequenceFrame read = sequence.read(frame);
-    return MeasuredState{{{std::move(read.at)}, read.of->bodies}, static_cast<int>(frame)};
+    return MeasuredState{{{std::move(read.at)}, read.of->bodies}, int(frame)};
   };
   const std::size_t count = sequence.count(), last = count - 1;
   std::size_t busiest = 0, max_contacts = 0;
@@ -75,7 +75,7 @@ SceneResult record_sequence(const ReportOptions& options) {
   collide::Workers workers(options.cores);
   collide::Result found;
   for (std::size_t frame = 0; frame < count; ++frame) {
-    say("looking for the frame with the most contacts", static_cast<double>(frame) / static_cast<double>(count));
+    say("looking for the frame with the most contacts", double(frame) / double(count));
     const MeasuredState here = state(frame);
     try {
       detector->detect(here.view(), settings, workers, found);

@@ -19,7 +19,7 @@ std::vector<Mean> means(const SceneResult& scene) {
     }
     if (!mean.ran) continue;
     mean.ms = mean.mean([](const compare::SweepRow* row) { return row->times.median(); });
-    const auto true_contacts = static_cast<double>(mean.true_contacts);
+    const auto true_contacts = double(mean.true_contacts);
     const double contacts = sum_of(mean.rows, &compare::SweepRow::contacts),
                  missed = sum_of(mean.rows, &compare::SweepRow::missed), found = true_contacts - missed;
     if (true_contacts > 0) mean.error = missed / true_contacts;

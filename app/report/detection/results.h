@@ -62,7 +62,7 @@ struct Mean {
 
   template <class Figure>
   double mean(const Figure& figure) const {
-    return sum_of(rows, figure) / static_cast<double>(rows.size());
+    return sum_of(rows, figure) / double(rows.size());
   }
 };
 

@@ -4,7 +4,6 @@
 #include "app/reference/body_shape.h"
 #include "app/report/files.h"
 #include "app/report/solver/results.h"
-#include "softbody/model/body_model.h"
 #include "softbody/world/world.h"
 
 namespace app::report {

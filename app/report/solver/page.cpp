@@ -53,7 +53,7 @@ namespace {
 
 /// Returns the height (R) of the crosses of curve `number`. Each curve has a row above all errors, so that crosses do
 /// not hide each other.
-double cross_height(std::size_t number) { return 20 * std::pow(1.6, static_cast<double>(number)); }
+double cross_height(std::size_t number) { return 20 * std::pow(1.6, double(number)); }
 
 void add_errors(Plot& plot, const WorkCurve& curve, std::size_t number, std::optional<double> order) {
   // The single point of an integrator that chooses its steps lies under others' curves: a large open diamond shows

@@ -25,8 +25,6 @@ struct SolverScene {
   bool at_rest = false;            // all motion is jitter
   bool of_centres = false;         // the error is the largest of a body's centre; else the RMS of all particles
   double promised = 0.01;          // R, the error that `auto` promises, see SolverCase::allowed()
-  /// Copies side by side do not touch, so a batch of them can be timed.
-  bool repeatable = true;
 };
 
 /// Returns the scenes of `report solver`: easy ones, and those in which IMEX Euler is weakest.

@@ -39,7 +39,8 @@ void repeat(TimedPoint& p, SolverResults& results) {
     return times.median() / solver_seconds / copies / double(p.scene.scene.bodies.size());
   };
   p.point.cpu_alone = time(p.alone, 1);
-  if (p.scene.repeatable) p.point.cpu_batch = time(p.batch, softbody::lanes);
+  if (!results.options.scene)  // copies of such a scene might touch
+    p.point.cpu_batch = time(p.batch, softbody::lanes);
 }
 
 void measure(const std::vector<SolverScene>& scenes, SolverResults& results) {
@@ -75,7 +76,7 @@ std::vector<SolverScene> scenes_for(const ReportOptions& options) {
     const auto starts = [](const softbody::BodySource& b) { return b.appear <= 0; };
     if (std::ranges::any_of(scene.bodies, joins) || std::ranges::none_of(scene.bodies, starts))
       throw UsageError("scene '" + scene.key + "': bodies join after the start; set appear = 0");
-    return {{.key = scene.key, .name = scene.name, .scene = scene, .repeatable = false}};
+    return {{.key = scene.key, .name = scene.name, .scene = scene}};
   }
   std::vector<SolverScene> scenes = solver_scenes();
   if (options.quick)

@@ -1,7 +1,5 @@
 #include "app/report/stability/results.h"
 
-#include <array>
-
 #include <glm/geometric.hpp>
 
 #include "app/files/inputs.h"
@@ -132,39 +130,38 @@ StabilityScene pile(double k) {
   return s;
 }
 
-constexpr std::array all_cases{
-    StabilityCase{"rest", "At rest", lone},
-    StabilityCase{"stretched", "Stretched 10 times", [](double k) { return stretched_by(k, dvec3(10, 1, 1)); }},
-    StabilityCase{"flattened", "Flattened", [](double k) { return stretched_by(k, dvec3(1, 0, 1)); }},
-    StabilityCase{"collapsed", "Collapsed to a point",
-                  [](double k) { return placed(k, [](const dvec3&) { return dvec3(0.0); }); }},
-    StabilityCase{"nearly-collapsed", "Collapsed to a thousandth",
-                  [](double k) { return stretched_by(k, dvec3(1e-3)); }},
-    StabilityCase{"random", "Random vertices", random_vertices},
-    StabilityCase{"inside-out", "Inside out", [](double k) { return stretched_by(k, dvec3(-1)); }},
-    StabilityCase{"mass-ratio", "1000 kg on 1 kg", mass_ratio},
-    StabilityCase{"stiffness-ratio", "A body hits one 1e6 times as stiff", stiffness_ratio},
-    StabilityCase{"tiny-mass", "Mass 1e-6 kg, half flat", tiny_mass},
-    StabilityCase{"impact-10", "At a thin plate with 10 m/s", [](double k) { return impact(k, 10); }},
-    StabilityCase{"impact-100", "At a thin plate with 100 m/s", [](double k) { return impact(k, 100); }},
-    StabilityCase{"impact-1000", "At a thin plate with 1000 m/s", [](double k) { return impact(k, 1000); }},
-    StabilityCase{"long-frame", "A frame of 0.5 s, falling", long_frame},
-    StabilityCase{"overpressure", "Pressure x 100", [](double k) { return pressure_times(k, 100); }},
-    StabilityCase{"pressure-lost", "Pressure lost", [](double k) { return pressure_times(k, 0); }},
-    StabilityCase{"inside-solid", "Begins 0.15 R in the ground", inside_solid},
-    StabilityCase{"on-the-ground", "On the ground", on_the_ground},
-    StabilityCase{"duplicates", "Duplicate vertices, half flat",
-                  [](double k) { return damaged_mesh(k, [](dvec3& a, dvec3& b, dvec3&) { b = a; }); }},
-    StabilityCase{"degenerate", "Degenerate faces, half flat",
-                  [](double k) { return damaged_mesh(k, [](dvec3& a, dvec3& b, dvec3& c) { c = 0.5 * (a + b); }); }},
-    StabilityCase{"far", "1 km from the origin, half flat",
-                  [](double k) { return placed(k, [](const dvec3& p) { return 1000.0 + p * dvec3(1, 0.5, 1); }); }},
-    StabilityCase{"pile", "A pile of 47", pile},
-};
-
 }  // namespace
 
-std::span<const StabilityCase> stability_cases() { return all_cases; }
+const std::vector<StabilityCase>& stability_cases() {
+  static const std::vector<StabilityCase> all{
+      {"rest", "At rest", lone},
+      {"stretched", "Stretched 10 times", [](double k) { return stretched_by(k, dvec3(10, 1, 1)); }},
+      {"flattened", "Flattened", [](double k) { return stretched_by(k, dvec3(1, 0, 1)); }},
+      {"collapsed", "Collapsed to a point",
+       [](double k) { return placed(k, [](const dvec3&) { return dvec3(0.0); }); }},
+      {"nearly-collapsed", "Collapsed to a thousandth", [](double k) { return stretched_by(k, dvec3(1e-3)); }},
+      {"random", "Random vertices", random_vertices},
+      {"inside-out", "Inside out", [](double k) { return stretched_by(k, dvec3(-1)); }},
+      {"mass-ratio", "1000 kg on 1 kg", mass_ratio},
+      {"stiffness-ratio", "A body hits one 1e6 times as stiff", stiffness_ratio},
+      {"tiny-mass", "Mass 1e-6 kg, half flat", tiny_mass},
+      {"impact-10", "At a thin plate with 10 m/s", [](double k) { return impact(k, 10); }},
+      {"impact-100", "At a thin plate with 100 m/s", [](double k) { return impact(k, 100); }},
+      {"impact-1000", "At a thin plate with 1000 m/s", [](double k) { return impact(k, 1000); }},
+      {"long-frame", "A frame of 0.5 s, falling", long_frame},
+      {"overpressure", "Pressure x 100", [](double k) { return pressure_times(k, 100); }},
+      {"pressure-lost", "Pressure lost", [](double k) { return pressure_times(k, 0); }},
+      {"inside-solid", "Begins 0.15 R in the ground", inside_solid},
+      {"on-the-ground", "On the ground", on_the_ground},
+      {"duplicates", "Duplicate vertices, half flat",
+       [](double k) { return damaged_mesh(k, [](dvec3& a, dvec3& b, dvec3&) { b = a; }); }},
+      {"degenerate", "Degenerate faces, half flat",
+       [](double k) { return damaged_mesh(k, [](dvec3& a, dvec3& b, dvec3& c) { c = 0.5 * (a + b); }); }},
+      {"far", "1 km from the origin, half flat",
+       [](double k) { return placed(k, [](const dvec3& p) { return 1000.0 + p * dvec3(1, 0.5, 1); }); }},
+      {"pile", "A pile of 47", pile}};
+  return all;
+}
 
 StabilityScene scaled(softbody::Scene scene, double factor) {
   for (softbody::Material& m : scene.materials)

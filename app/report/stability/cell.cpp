@@ -1,7 +1,6 @@
 #include "app/report/stability/results.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "app/report/solid_passages.h"
@@ -16,14 +15,6 @@ namespace {
 using glm::dvec3;
 using softbody::BodyId;
 using softbody::World;
-
-/// Returns the longest side (m) of the box around some points.
-double extent_of(const std::vector<dvec3>& points) {
-  assert(!points.empty());
-  collide::surface::Box box;
-  for (const dvec3& p : points) box.add(p);
-  return std::max({box.extent(0), box.extent(1), box.extent(2)});
-}
 
 /// A run, frame by frame.
 class Run {
@@ -56,16 +47,14 @@ class Run {
     passages_.observe(world);
     count_excess(world);
     const softbody::Measures m = softbody::measure(world);
-    const double weight = sum_of(present(), &StabilityStart::Member::weight);
+    const double scale = std::max(above_balance_, sum_of(present(), &StabilityStart::Member::weight));  // J
     reference::StabilitySample s{.time = time_,
                                  .frame = frame_,
                                  .finite = m.finite,
-                                 .excess = excess_,
-                                 .scale = std::max(above_balance_, weight),
-                                 .speed = m.max_speed,
+                                 .excess = excess_ / scale,
                                  .depth = m.deepest_penetration,
                                  .passed_through = passages_.count()};
-    if (m.finite) add_reach(world, s);
+    if (m.finite) add_reach(world, m.max_speed, scale, s);
     figures_.add(s, start_.limits);
   }
 
@@ -81,9 +70,8 @@ class Run {
     excess_ = excess < 0 ? 0 : excess;  // what is not a number stays
   }
 
-  void add_reach(const World& world, reference::StabilitySample& s) {
-    // J, for all but gravity and gas
-    double available = available_ + reference::stability_bounds.energy * s.scale;
+  void add_reach(const World& world, double max_speed, double scale, reference::StabilitySample& s) {
+    double available = available_ + reference::stability_bounds.energy * scale;  // J, for all but gravity and gas
     double gas = 0;
     std::vector<double> extents;
     for (BodyId b = 0; b < world.bodies().count(); ++b) {
@@ -91,18 +79,19 @@ class Run {
       available -= height_energy(world, x, b);
       if (const softbody::Gas* own = softbody::gas_of(world.model(b)))
         gas += own->stored(reference::volume_of(x, world.model(b).mesh.triangles));
-      extents.push_back(extent_of(x));
+      collide::surface::Box box;
+      for (const dvec3& p : x) box.add(p);
+      extents.push_back(std::max({box.extent(0), box.extent(1), box.extent(2)}));
     }
-    const double min_energy = 1e-9 * s.scale;  // what has flown away has lost all to gravity
+    const double min_energy = 1e-9 * scale;  // what has flown away has lost all to gravity
     const auto particle_mass = [](const StabilityStart::Member& m) { return m.model->particle_mass; };
     const double balance = sum_of(present(), &StabilityStart::Member::balance),
                  lightest = particle_mass(std::ranges::min(present(), {}, particle_mass));
-    s.reachable_speed = std::sqrt(2 * std::max(available - balance, min_energy) / lightest);
-    s.reachable_extent = 1;
+    s.speed = max_speed / std::sqrt(2 * std::max(available - balance, min_energy) / lightest);
     for (std::size_t b = 0; b < extents.size(); ++b) {
       const auto& [length, stiffness] = start_.members[b].chain;
       const double reach = length + std::sqrt(2 * std::max(available - gas, min_energy) / stiffness);
-      if (extents[b] / reach > s.extent / s.reachable_extent) s.extent = extents[b], s.reachable_extent = reach;
+      s.extent = std::max(s.extent, extents[b] / reach);
     }
   }
 

@@ -3,9 +3,7 @@
 
 #include <functional>
 #include <memory>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "app/reference/reference_trajectory.h"
@@ -25,11 +23,11 @@ struct StabilityScene {
 };
 
 struct StabilityCase {
-  std::string_view key, name;
-  StabilityScene (*make)(double stiffness);  // N/m
+  std::string key, name;
+  std::function<StabilityScene(double stiffness)> make;  // N/m; of a scene from a file the factor to its own
 };
 
-std::span<const StabilityCase> stability_cases();
+const std::vector<StabilityCase>& stability_cases();
 
 /// Returns the scene with all its stiffnesses and pressures times a factor.
 StabilityScene scaled(softbody::Scene scene, double factor);
@@ -90,11 +88,9 @@ struct StabilityCell {
 };
 
 /// A case, or the user's scene, at one stiffness.
-struct StabilityRow {
-  std::string key, name;                       // of the case
-  double stiffness;                            // N/m; of a scene from a file the factor to its own
-  std::function<StabilityScene(double)> make;  // of this stiffness
-  StabilityStart start{};                      // that all cells share
+struct StabilityRow : StabilityCase {
+  double stiffness = 0;    // as `make` takes it
+  StabilityStart start{};  // that all cells share
   std::vector<StabilityCell> cells{};
 };
 

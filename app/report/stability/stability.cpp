@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "app/base/usage_error.h"
 #include "app/files/output_file.h"
@@ -15,10 +16,9 @@ constexpr std::array quick_stiffnesses{1e1, 1e4, 1e8};
 constexpr std::array quick_factors{1e-1, 1e0, 1e3};
 constexpr std::array quick_cases{"rest", "flattened", "impact-100"};
 
-void add_rows(StabilityResults& r, std::string_view key, std::string_view name, std::span<const double> values,
-              const std::function<StabilityScene(double)>& make) {
+void add_rows(StabilityResults& r, const StabilityCase& of, std::span<const double> values) {
   for (const double stiffness : values) {
-    StabilityRow& row = r.rows.emplace_back(StabilityRow{std::string(key), std::string(name), stiffness, make});
+    StabilityRow& row = r.rows.emplace_back(StabilityRow{of, stiffness});
     for (std::size_t i = 0; i < r.integrators.size(); ++i)
       for (std::size_t dt = 0; dt < r.dts.size(); ++dt) row.cells.push_back({i, dt});
   }
@@ -31,13 +31,13 @@ StabilityResults planned(const ReportOptions& options) {
   if (options.scene) {
     const softbody::Scene scene = chosen_scenes(options).front();
     if (scene.bodies.empty()) throw UsageError("scene '" + scene.key + "': no body to judge; add a [[body]]");
-    add_rows(r, scene.key, scene.name, quick ? std::span<const double>(quick_factors) : factors,
-             [scene](double factor) { return scaled(scene, factor); });
+    add_rows(r, {scene.key, scene.name, [scene](double factor) { return scaled(scene, factor); }},
+             quick ? std::span<const double>(quick_factors) : factors);
     return r;
   }
   for (const StabilityCase& c : stability_cases())
     if (!quick || std::ranges::count(quick_cases, c.key) > 0)
-      add_rows(r, c.key, c.name, quick ? std::span<const double>(quick_stiffnesses) : stiffnesses, c.make);
+      add_rows(r, c, quick ? std::span<const double>(quick_stiffnesses) : stiffnesses);
   return r;
 }
 

@@ -21,32 +21,26 @@ using softbody::World;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Returns how many springs at most join any two particles: twice as many as join one particle and the farthest.
-/// Returns nothing if springs do not join all particles.
-std::optional<int> longest_chain(const softbody::BodyModel& body) {
-  const int none = static_cast<int>(body.mesh.vertices.size());  // more than any chain has
+StabilityStart::SpringChain spring_chain_of(const softbody::BodyModel& body) {
+  const int none = int(body.mesh.vertices.size());  // more springs than any chain has
   std::vector<int> distance(body.mesh.vertices.size(), none);
   distance[0] = 0;
+  double longest = 0, softest = infinite;
   for (bool changed = true; changed;) {
     changed = false;
     for (const softbody::Spring& s : softbody::springs<softbody::StructuralSprings>(body)) {
+      longest = std::max(longest, s.rest);
+      softest = std::min(softest, s.stiffness);
       int &i = distance[s.i], &j = distance[s.j];
       changed = changed || std::abs(i - j) > 1;
       i = std::min(i, j + 1);
       j = std::min(j, i + 1);
     }
   }
-  const int max = std::ranges::max(distance);
-  return max == none ? std::nullopt : std::optional(2 * max);
-}
-
-StabilityStart::SpringChain spring_chain_of(const softbody::BodyModel& body) {
-  const auto chain = longest_chain(body);
-  if (!chain) return {infinite, infinite};
-  double longest = 0, softest = infinite;
-  for (const softbody::Spring& s : softbody::springs<softbody::StructuralSprings>(body))
-    longest = std::max(longest, s.rest), softest = std::min(softest, s.stiffness);
-  return {*chain * longest, softest / *chain};
+  const int farthest = std::ranges::max(distance);
+  if (farthest == none) return {infinite, infinite};
+  const int chain = 2 * farthest;  // joins any two: from one to particle 0 and from there to the other
+  return {chain * longest, softest / chain};
 }
 
 /// True if shape and volume agree.
@@ -80,8 +74,7 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
   StabilityStart s{.scene = from.scene, .particles = all_particles(world), .first_frame = from.first_frame};
   std::ranges::stable_sort(s.scene.bodies, {}, &softbody::BodySource::appear);
   for (const softbody::BodySource& source : s.scene.bodies) {
-    const auto model =
-        softbody::shared_body_model(source.mesh, s.scene.materials[static_cast<std::size_t>(source.material)]);
+    const auto model = softbody::shared_body_model(source.mesh, s.scene.materials[std::size_t(source.material)]);
     s.members.push_back({model, spring_chain_of(*model), glm::dot(source.velocity, source.velocity)});
   }
   assert(!s.members.empty());
