@@ -3,7 +3,6 @@
 // pictures in.
 
 #include <array>
-#include <cassert>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -50,10 +49,7 @@ class Exporter {
   /// Returns true during a recording. Then the world moves one step per picture, so that no frame is lost, and only if
   /// may_step().
   bool recording() const { return recording_ && !recording_->progress().stopping; }
-  bool may_step() const {
-    assert(recording_);
-    return recording_->has_room();
-  }
+  bool may_step() const { return !recording() || recording_->has_room(); }
   /// Returns the size of pictures; nothing: as shown.
   std::optional<glm::uvec2> picture_size() const;
   /// Returns true if frame() will ask for a picture as shown.

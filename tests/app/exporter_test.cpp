@@ -39,7 +39,7 @@ class ExporterTest : public testing::Test {
 
   /// Runs a frame of the demo's loop. The picture's colour is the number of the world's frame.
   void frame() {
-    exporter.recording() ? session.advance_one(0.02, exporter.may_step()) : session.advance(0.02);
+    session.advance(0.02);
     exporter.frame([&](bool with_panel, const std::optional<glm::uvec2>& asked) {
       const glm::ivec2 pixels = asked ? glm::ivec2(*asked) : glm::ivec2(width, 6);
       if (pixels.x > largest) throw std::runtime_error("too large");
@@ -290,10 +290,7 @@ TEST_F(ExporterTest, WritesAVideoWithTheRealFfmpeg) {
 class NumberWriter : public session::FrameWriter {
  public:
   explicit NumberWriter(std::vector<int>& numbers) : numbers_(numbers) {}
-  void write(const session::RecordedFrame& frame) override {
-    if (frame.number < 0) throw std::runtime_error("no number");
-    numbers_.push_back(frame.number);
-  }
+  void write(const session::RecordedFrame& frame) override { numbers_.push_back(frame.number); }
   void finish() override { numbers_.push_back(0); }
   std::string name() const override { return "numbers"; }
 
@@ -337,16 +334,6 @@ TEST(FrameRecording, HasRoomForAFewFrames) {
     EXPECT_TRUE(recording.has_room());
   }
   EXPECT_EQ(numbers.size(), session::FrameRecording::max_waiting + 1) << "its end waits for all";
-}
-
-TEST(FrameRecording, EndsWithTheFirstFrameThatCannotBeWritten) {
-  std::vector<int> numbers;
-  session::FrameRecording recording(std::make_unique<NumberWriter>(numbers));
-  for (const int number : {1, -1, 2}) recording.add(numbered(number));
-  while (!recording.update().ended) continue;
-  EXPECT_EQ(recording.progress().error, "no number");
-  EXPECT_EQ(recording.progress().written, 1);
-  EXPECT_FALSE(recording.progress().stopping);
 }
 
 TEST_F(ExporterTest, WritesALineOfCurvesForEachFrame) {
