@@ -11,7 +11,7 @@
 
 #include "app/window/scene_mouse.h"
 #include "softbody/model/body_model.h"
-#include "tests/app/hands.h"
+#include "tests/app/scenes.h"
 #include "tests/support/world_test_access.h"
 
 namespace app {
