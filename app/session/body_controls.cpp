@@ -14,20 +14,6 @@ using softbody::BodyId;
 using softbody::Material;
 using softbody::World;
 
-bool BodyControls::can_drop() const {
-  const softbody::Scene& scene = simulation_.world().scene();
-  return scene.dropper || !scene.bodies.empty();
-}
-
-void BodyControls::drop(int count) {
-  if (!can_drop()) return;
-  const std::string bodies = count == 1 ? "a body" : std::to_string(count) + " bodies";
-  simulation_.change_bodies("drop of " + bodies, [count](World& world) {
-    world.drop(count);
-    return true;
-  });
-}
-
 namespace {
 
 /// Returns the velocity that carries a body over `way` under gravity: of the two with this speed the one that arrives
@@ -41,23 +27,6 @@ glm::dvec3 velocity_over(const glm::dvec3& way, double speed, const glm::dvec3& 
   const glm::dvec3 velocity = way / time - 0.5 * time * gravity;
   return velocity * std::min(1.0, BodyControls::max_throw_speed / glm::length(velocity));
 }
-
-}  // namespace
-
-void BodyControls::throw_body(const glm::dvec3& eye, const glm::dvec3& target) {
-  assert(eye != target);
-  if (!can_drop()) return;
-  std::optional<BodyId> body;
-  simulation_.change_bodies("throw of a body", [&](World& world) {
-    body = world.throw_body(eye, velocity_over(target - eye, throw_speed, world.scene().gravity));
-    if (body) select(body);
-    return body.has_value();
-  });
-  if (!body && !simulation_.notice.is_error())
-    simulation_.notice.set("there is no room for a body before the camera: turn or move it");
-}
-
-namespace {
 
 /// Returns the index of such a material, whatever it is called; the size of `all` if there is none.
 std::size_t find_material(const std::vector<Material>& all, Material material) {
@@ -75,6 +44,33 @@ void make_name_new(std::string& name, const std::vector<Material>& all) {
 }
 
 }  // namespace
+
+bool BodyControls::can_drop() const {
+  const softbody::Scene& scene = simulation_.world().scene();
+  return scene.dropper || !scene.bodies.empty();
+}
+
+void BodyControls::drop(int count) {
+  if (!can_drop()) return;
+  const std::string bodies = count == 1 ? "a body" : std::to_string(count) + " bodies";
+  simulation_.change_bodies("drop of " + bodies, [count](World& world) {
+    world.drop(count);
+    return true;
+  });
+}
+
+void BodyControls::throw_body(const glm::dvec3& eye, const glm::dvec3& target) {
+  assert(eye != target);
+  if (!can_drop()) return;
+  std::optional<BodyId> body;
+  simulation_.change_bodies("throw of a body", [&](World& world) {
+    body = world.throw_body(eye, velocity_over(target - eye, throw_speed, world.scene().gravity));
+    if (body) select(body);
+    return body.has_value();
+  });
+  if (!body && !simulation_.notice.is_error())
+    simulation_.notice.set("there is no room for a body before the camera: turn or move it");
+}
 
 void BodyControls::add(softbody::BodySource body, Material material) {
   try {

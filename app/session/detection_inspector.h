@@ -15,13 +15,13 @@ class DetectionInspector {
   /// The method whose boxes, cells and buckets are shown: the driving one if it has a hash table, else the paper's.
   const collide::Method& shown_method() const;
   const collide::DebugGeometry& shown_geometry() const;
-  /// That of the paper's method, whichever drives. Empty while more bodies move than can be worked out for each
-  /// picture.
+  /// Returns the geometry of the paper's method, whichever method drives. It is empty while more bodies move than can
+  /// be worked out for each picture.
   const collide::DebugGeometry& paper_geometry() const;
   const compare::TableContents& table() const;
 
-  /// The bucket whose boxes the scene shows: below the number of buckets, since the Session selects it again when this
-  /// number changes.
+  /// Returns the bucket whose boxes the scene shows. It is below the number of buckets, since the Session selects it
+  /// again when this number changes.
   const std::optional<std::uint32_t>& selected_bucket() const { return selected_bucket_; }
   void select_bucket(std::optional<std::uint32_t> bucket);
   /// The contents of the selected bucket; nullptr if none is selected, or its table is not known.

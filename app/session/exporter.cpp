@@ -1,5 +1,6 @@
 #include "app/session/exporter.h"
 
+#include <cassert>
 #include <map>
 #include <utility>
 
@@ -63,6 +64,11 @@ std::string curves_csv(const Simulation& simulation, const LiveComparison& compa
   return table.csv();
 }
 
+Exporter::~Exporter() {
+  if (recording()) stop();
+  if (recording_) recording_->wait();
+}
+
 /// Runs an action. Its result, or its error, becomes the message.
 void Exporter::attempt(const std::function<std::string()>& action) {
   try {
@@ -91,15 +97,25 @@ void Exporter::write_curves() {
 }
 
 void Exporter::toggle_recording() {
-  if (recording()) return recording_->stop();
+  if (recording()) return stop();
   if (recording_) return;  // the last recording is still being written
   attempt([&] {
     recorded_ = &recording_kinds[kind];
-    recording_ = std::make_unique<FrameRecording>(recorded_->make(absolute_folder(folder)));
+    std::unique_ptr<FrameWriter> writer = recorded_->make(absolute_folder(folder));
+    progress_ = {.name = writer->name(), .error = {}};
+    recording_ = std::make_unique<Background<RecordingTask>>(usual_runs, std::move(writer));
     recorded_frame_ = -1;
     bodies_.reset();
-    return recording_->progress().name;
+    return progress_.name;
   });
+}
+
+/// Ends the recording. Frames that wait are still written. `error`: why there are no more; empty if all went well.
+void Exporter::stop(const std::string& error) {
+  assert(recording());
+  progress_.error = error;
+  progress_.stopping = true;
+  recording_->offer(std::nullopt);
 }
 
 void Exporter::frame(const Picture& picture) {
@@ -119,9 +135,9 @@ void Exporter::frame(const Picture& picture) {
 
 void Exporter::record(const Picture& picture) {
   const softbody::BodiesInMotion& world = simulation_.world();
-  if (world.frame() == recorded_frame_ || !recording_->has_room()) return;
+  if (world.frame() == recorded_frame_ || !may_step()) return;
   // What is played begins again: all of its frames are written.
-  if (simulation_.player() && world.frame() < recorded_frame_) return recording_->stop();
+  if (simulation_.player() && world.frame() < recorded_frame_) return stop();
   recorded_frame_ = world.frame();
   RecordedFrame frame;
   frame.number = world.frame();
@@ -129,23 +145,27 @@ void Exporter::record(const Picture& picture) {
     try {
       frame.picture = picture(with_panel, picture_size());
     } catch (const std::runtime_error& refusal) {  // of the driver: the picture is too large
-      return recording_->stop(refusal.what());
+      return stop(refusal.what());
     }
   } else {
     if (!bodies_ || !bodies_->matches(world)) bodies_ = std::make_shared<const files::ObjWriter>(world);
     frame.bodies = bodies_;
     frame.positions.copy(world.positions());
   }
-  recording_->add(std::move(frame));
+  recording_->offer(std::move(frame));
 }
 
 void Exporter::follow_recording() {
   if (!recording_) return;
-  const RecordingProgress progress = recording_->update();
-  failed_ = !progress.error.empty();
-  message_ = failed_ ? progress.error : progress.name + ": " + std::to_string(progress.written) + " frames";
-  if (!failed_ && !progress.ended && progress.stopping) message_ += ", finishing";
-  if (!progress.ended) return;
+  if (std::optional<RecordingProgress> now = recording_->take()) {
+    now->stopping = progress_.stopping;
+    if (now->error.empty()) now->error = progress_.error;
+    progress_ = std::move(*now);
+  }
+  failed_ = !progress_.error.empty();
+  message_ = failed_ ? progress_.error : progress_.name + ": " + std::to_string(progress_.written) + " frames";
+  if (!failed_ && !progress_.ended && progress_.stopping) message_ += ", finishing";
+  if (!progress_.ended) return;
   recording_.reset();
   show_message();
 }

@@ -3,7 +3,6 @@
 // pictures in.
 
 #include <array>
-#include <cassert>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -43,17 +42,16 @@ class Exporter {
   /// Both must outlive this.
   Exporter(Simulation& simulation, const LiveComparison& comparison)
       : simulation_(simulation), comparison_(comparison) {}
+  /// Waits until all frames of a recording are written.
+  ~Exporter();
 
   void write_curves();
   /// Starts a recording, or stops the one in progress.
   void toggle_recording();
   /// Returns true during a recording. Then the world moves one step per picture, so that no frame is lost, and only if
   /// may_step().
-  bool recording() const { return recording_ && !recording_->progress().stopping; }
-  bool may_step() const {
-    assert(recording_);
-    return recording_->has_room();
-  }
+  bool recording() const { return recording_ && !progress_.stopping; }
+  bool may_step() const { return !recording() || recording_->waiting() < RecordingTask::max_waiting; }
   /// Returns the size of pictures; nothing: as shown.
   std::optional<glm::uvec2> picture_size() const;
   /// Returns true if frame() will ask for a picture as shown.
@@ -61,7 +59,7 @@ class Exporter {
     return !picture_size() && (picture_requested || (recording() && recorded_->pictures));
   }
   /// Returns true while the last recording is still being written: no other one can start.
-  bool finishing() const { return recording_ && recording_->progress().stopping; }
+  bool finishing() const { return recording_ && progress_.stopping; }
 
   /// Takes and records pictures. Call it once for each frame of the window, after it is drawn. The notice says what was
   /// written.
@@ -75,11 +73,13 @@ class Exporter {
   void attempt(const std::function<std::string()>& action);
   void show_message() { failed_ ? simulation_.notice.set(message_) : simulation_.notice.tell(message_); }
   void record(const Picture& picture);
+  void stop(const std::string& error = "");
   void follow_recording();
 
   Simulation& simulation_;
   const LiveComparison& comparison_;
-  std::unique_ptr<FrameRecording> recording_;
+  std::unique_ptr<Background<RecordingTask>> recording_;
+  RecordingProgress progress_;  // of it
   const RecordingKind* recorded_ = nullptr;
   int recorded_frame_ = -1;                         // of the world: each is recorded once
   std::shared_ptr<const files::ObjWriter> bodies_;  // of the last frame recorded

@@ -24,6 +24,39 @@ std::string view_text(const softbody::View& v) {
   return text;
 }
 
+/// Returns an option with its value, with a space before each.
+std::string option(const char* name, const std::string& value) {
+  return std::string(" ").append(name).append(1, ' ').append(shell_word(value));
+}
+
+/// Returns the options for the view of `used`, and for how contacts are found.
+std::string detection_options(const softbody::Scene& used) {
+  const collide::Settings& c = used.collision;
+  std::string text = option("--method", used.method) + option("--levels", std::to_string(c.levels)) +
+                     option("--buckets", std::to_string(c.buckets)) +
+                     option("--cell-size", c.cell_size ? three(*c.cell_size) : "auto");
+  if (c.primes != collide::default_primes) text += option("--primes", three(c.primes));
+  text += option("--tolerance", softbody::toml_value(c.tolerance)) + (c.self_collision ? " --self" : " --no-self");
+  return text + option("--view", view_text(used.view));
+}
+
+/// Returns the options that make the scene `used`, for which `name` stands.
+std::string scene_options(const std::string& name, const softbody::Scene& used,
+                          const softbody::IntegratorChoice& integrator) {
+  std::string text = option("--scene", name) + detection_options(used);
+  for (const softbody::ContactSurfaceInfo& info : softbody::contact_surfaces)
+    if (info.value == used.contact_surface) text += option("--contact-surface", std::string(info.key));
+  if (integrator.key != softbody::default_integrator) text += option("--integrator", integrator.key);
+  if (integrator.substeps) text += option("--substeps", std::to_string(*integrator.substeps));
+  return text;
+}
+
+std::string this_program() {
+  std::error_code failed;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  return shell_word(failed ? "sbcollide" : program.string());
+}
+
 }  // namespace
 
 SceneFile::SceneFile(const std::string& key_or_path)
@@ -66,43 +99,6 @@ std::string shell_word(const std::string& text) {
   for (const char c : text) c == '\'' ? word.append("'\\''") : word.append(1, c);
   return word + "'";
 }
-
-namespace {
-
-/// Returns an option with its value, with a space before each.
-std::string option(const char* name, const std::string& value) {
-  return std::string(" ").append(name).append(1, ' ').append(shell_word(value));
-}
-
-/// Returns the options for the view of `used`, and for how contacts are found.
-std::string detection_options(const softbody::Scene& used) {
-  const collide::Settings& c = used.collision;
-  std::string text = option("--method", used.method) + option("--levels", std::to_string(c.levels)) +
-                     option("--buckets", std::to_string(c.buckets)) +
-                     option("--cell-size", c.cell_size ? three(*c.cell_size) : "auto");
-  if (c.primes != collide::default_primes) text += option("--primes", three(c.primes));
-  text += option("--tolerance", softbody::toml_value(c.tolerance)) + (c.self_collision ? " --self" : " --no-self");
-  return text + option("--view", view_text(used.view));
-}
-
-/// Returns the options that make the scene `used`, for which `name` stands.
-std::string scene_options(const std::string& name, const softbody::Scene& used,
-                          const softbody::IntegratorChoice& integrator) {
-  std::string text = option("--scene", name) + detection_options(used);
-  for (const softbody::ContactSurfaceInfo& info : softbody::contact_surfaces)
-    if (info.value == used.contact_surface) text += option("--contact-surface", std::string(info.key));
-  if (integrator.key != softbody::default_integrator) text += option("--integrator", integrator.key);
-  if (integrator.substeps) text += option("--substeps", std::to_string(*integrator.substeps));
-  return text;
-}
-
-std::string this_program() {
-  std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-  return shell_word(failed ? "sbcollide" : program.string());
-}
-
-}  // namespace
 
 std::string demo_command(const std::string& name, const softbody::Scene& used,
                          const softbody::IntegratorChoice& integrator) {

@@ -19,6 +19,7 @@ Session::Session(files::Opened opened, const std::filesystem::path& scene_folder
 }
 
 void Session::advance(double elapsed, bool waited) {
+  if (exporter.recording()) return advance_one(elapsed);
   if (!waited) add_picture(elapsed);
   run_ahead.before_advance();
   simulation.advance(elapsed, stands_still());
@@ -39,10 +40,10 @@ bool Session::awaits_answer() const {
   return comparison.awaits_report(simulation.revision()) || surfaces.awaits_report(simulation.revision());
 }
 
-void Session::advance_one(double elapsed, bool allowed) {
+void Session::advance_one(double elapsed) {
   add_picture(elapsed);
   run_ahead.before_advance();
-  simulation.advance_one(elapsed, allowed);
+  simulation.advance_one(elapsed, exporter.may_step());
   exchange();
 }
 

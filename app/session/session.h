@@ -42,10 +42,11 @@ class Session : private SimulationObserver {
   const softbody::World* simulated() const { return simulation.simulated(); }
 
   /// Takes the steps that are due, now that `elapsed` seconds of real time have passed, and follows with all else.
-  /// `waited`: the picture waited on purpose, so `elapsed` is no measure of the machine.
+  /// During a recording it does as advance_one(). `waited`: the picture waited on purpose, so `elapsed` is no measure
+  /// of the machine.
   void advance(double elapsed, bool waited = false);
-  /// The same while frames are exported: one step if `allowed`, however long it takes.
-  void advance_one(double elapsed, bool allowed);
+  /// The same with one step, however long it takes; none if the exporter may not step.
+  void advance_one(double elapsed);
 
   /// Returns true if advance() would take no step: the world is paused, or has been at rest for so long that all curves
   /// show it, and no caption is still to come.

@@ -1,6 +1,7 @@
 #include "app/session/setting_controls.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "softbody/scene/scene_keys.h"
 
@@ -10,6 +11,7 @@ using softbody::Scene;
 
 void SettingControls::set_solid(std::size_t index, const softbody::Solid& solid) {
   const std::vector<softbody::Solid>& solids = simulation_.world().scene().solids;
+  assert(index < solids.size());
   if (solid == solids[index]) return;
   simulation_.change_scene("change of " + solid_name(solids, index),
                            [&](Scene& scene) { scene.solids[index] = solid; });

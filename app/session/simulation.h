@@ -90,7 +90,7 @@ class Simulation {
   /// Returns true if steps would change nothing but the number of the frame: all bodies have been at rest for as long
   /// as curves last, and no caption is still to come.
   bool has_long_been_at_rest() const;
-  /// Another number after each SimulationObserver::replaced().
+  /// Counts the worlds: changes whenever the world is replaced.
   std::uint64_t world_number() const { return world_number_; }
 
   // Changes by the user. They clear notice(); what fails sets it, and errors that no input explains pause. undo() takes

@@ -211,15 +211,9 @@ class Demo {
 
   /// Runs long steps in a thread of their own. Meanwhile the camera can move; clicks and keys wait for the next frame.
   void advance(double elapsed) {
-    const auto advance = [&] {
-      if (session_.exporter.recording())
-        session_.advance_one(elapsed, session_.exporter.may_step());
-      else
-        session_.advance(elapsed, waited_);
-    };
-    if (session_.simulation.step_ms() < long_step_ms) return advance();
+    if (session_.simulation.step_ms() < long_step_ms) return session_.advance(elapsed, waited_);
     present(scene_viewport());
-    std::future<void> done = std::async(std::launch::async, advance);
+    std::future<void> done = std::async(std::launch::async, [&] { session_.advance(elapsed, waited_); });
     for (double last = now(); done.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready;)
       move_camera_only(now() - std::exchange(last, now()));
     done.get();

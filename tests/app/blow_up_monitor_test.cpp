@@ -4,7 +4,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "app/session/session.h"
+#include "app/session/simulation.h"
 #include "softbody/forces/gas.h"
 #include "softbody/forces/springs.h"
 #include "softbody/model/body_model.h"
@@ -75,12 +75,11 @@ TEST(BlowUpMonitor, AcceptsABodyAddedInsideAnother) {
         scene.contact_surface = surface;
         scene.bodies[1].position = scene.bodies[0].position + glm::dvec3(apart, 0);
         scene.bodies[1].appear = 5;
-        Session session(scene, {}, 1);
-        while (session.world().frame() < 90 && !session.simulation.stability().blow_up()) session.advance(tick);
-        EXPECT_FALSE(session.simulation.stability().blow_up())
-            << stiffness << " N/m, " << apart.x << ' ' << apart.y
-            << " apart: " << session.simulation.stability().blow_up()->what;
-        EXPECT_EQ(session.world().bodies().count(), 2u);
+        session::Simulation simulation(scene, 1);
+        while (simulation.world().frame() < 90 && !simulation.stability().blow_up()) run(simulation, 1);
+        EXPECT_FALSE(simulation.stability().blow_up()) << stiffness << " N/m, " << apart.x << ' ' << apart.y
+                                                       << " apart: " << simulation.stability().blow_up()->what;
+        EXPECT_EQ(simulation.world().bodies().count(), 2u);
       }
 }
 
@@ -182,13 +181,12 @@ TEST(BlowUpMonitor, AcceptsBodiesThatSwingFast) {
     softbody::Material& rubber = scene.materials[0];
     rubber[softbody::GasPressure::inside] = 113e3, rubber[softbody::GasPressure::outside] = 101'325;
     rubber[softbody::Material::start_in_equilibrium] = true;
-    Session session(scene, {}, 1);
-    while (session.world().frame() < 15) session.advance(tick);
+    session::Simulation simulation(scene, 1);
+    run(simulation, 15);
     rubber[softbody::GasPressure::inside] = pressure;
-    session.simulation.change_scene("Material", [&](softbody::Scene& s) { s.materials[0] = rubber; });
-    while (session.world().frame() < 60 && !session.simulation.stability().blow_up()) session.advance(tick);
-    EXPECT_FALSE(session.simulation.stability().blow_up())
-        << pressure << " Pa: " << session.simulation.stability().blow_up()->what;
+    simulation.change_scene("Material", [&](softbody::Scene& s) { s.materials[0] = rubber; });
+    while (simulation.world().frame() < 60 && !simulation.stability().blow_up()) run(simulation, 1);
+    EXPECT_FALSE(simulation.stability().blow_up()) << pressure << " Pa: " << simulation.stability().blow_up()->what;
   }
 }
 

@@ -6,12 +6,11 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/session/scene_controls.h"
-#include "app/session/setting_controls.h"
+#include "app/session/session.h"
 #include "softbody/forces/springs.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/model/body_model.h"
-#include "tests/app/hands.h"
+#include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 
 namespace app {

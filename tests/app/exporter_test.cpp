@@ -39,7 +39,7 @@ class ExporterTest : public testing::Test {
 
   /// Runs a frame of the demo's loop. The picture's colour is the number of the world's frame.
   void frame() {
-    exporter.recording() ? session.advance_one(0.02, exporter.may_step()) : session.advance(0.02);
+    session.advance(0.02);
     exporter.frame([&](bool with_panel, const std::optional<glm::uvec2>& asked) {
       const glm::ivec2 pixels = asked ? glm::ivec2(*asked) : glm::ivec2(width, 6);
       if (pixels.x > largest) throw std::runtime_error("too large");
@@ -89,7 +89,8 @@ class ExporterTest : public testing::Test {
   ~ExporterTest() override { ::setenv("PATH", path_.c_str(), 1); }
 
   TemporaryFolder folder, tools;
-  Session session{touching_pair(), {}, 1};
+  std::unique_ptr<Session> owner = std::make_unique<Session>(touching_pair(), std::filesystem::path(), 1);
+  Session& session = *owner;
   session::Exporter& exporter = session.exporter;
   int width = 8, largest = 4096;
 
@@ -286,67 +287,19 @@ TEST_F(ExporterTest, WritesAVideoWithTheRealFfmpeg) {
   EXPECT_EQ(bytes.substr(4, 4), "ftyp");
 }
 
-/// Notes the numbers of its frames, and 0 at the end.
-class NumberWriter : public session::FrameWriter {
- public:
-  explicit NumberWriter(std::vector<int>& numbers) : numbers_(numbers) {}
-  void write(const session::RecordedFrame& frame) override {
-    if (frame.number < 0) throw std::runtime_error("no number");
-    numbers_.push_back(frame.number);
-  }
-  void finish() override { numbers_.push_back(0); }
-  std::string name() const override { return "numbers"; }
-
- private:
-  std::vector<int>& numbers_;
-};
-
-session::RecordedFrame numbered(int number) {
-  session::RecordedFrame frame;
-  frame.number = number;
-  return frame;
-}
-
-TEST(FrameRecording, WritesWhatWaitsWithOrWithoutAThread) {
-  for (const Runs runs : {Runs::on_thread, Runs::in_slices}) {
-    std::vector<int> numbers;
-    {
-      session::FrameRecording recording(std::make_unique<NumberWriter>(numbers), runs);
-      for (const int number : {3, 1, 2}) recording.add(numbered(number));
-      EXPECT_EQ(recording.progress().name, "numbers");
-      recording.stop("that is enough");
-      EXPECT_TRUE(recording.progress().stopping);
-      while (!recording.update().ended) continue;
-      EXPECT_EQ(recording.progress().written, 3);
-      EXPECT_EQ(recording.progress().error, "that is enough");
-    }
-    EXPECT_EQ(numbers, (std::vector{3, 1, 2, 0}));
-  }
-}
-
-TEST(FrameRecording, HasRoomForAFewFrames) {
-  std::vector<int> numbers;
-  {
-    session::FrameRecording recording(std::make_unique<NumberWriter>(numbers), Runs::in_slices);
-    for (std::size_t i = 0; i < session::FrameRecording::max_waiting; ++i) {
-      EXPECT_TRUE(recording.has_room());
-      recording.add(numbered(1));
-    }
-    EXPECT_FALSE(recording.has_room());
-    EXPECT_GT(recording.update().written, 0);
-    EXPECT_TRUE(recording.has_room());
-  }
-  EXPECT_EQ(numbers.size(), session::FrameRecording::max_waiting + 1) << "its end waits for all";
-}
-
-TEST(FrameRecording, EndsWithTheFirstFrameThatCannotBeWritten) {
-  std::vector<int> numbers;
-  session::FrameRecording recording(std::make_unique<NumberWriter>(numbers));
-  for (const int number : {1, -1, 2}) recording.add(numbered(number));
-  while (!recording.update().ended) continue;
-  EXPECT_EQ(recording.progress().error, "no number");
-  EXPECT_EQ(recording.progress().written, 1);
-  EXPECT_FALSE(recording.progress().stopping);
+TEST_F(ExporterTest, LetsTheWorldWaitForTheWriterAndCompletesARecordingWhenTheProgramEnds) {
+  fake_ffmpeg("while ! test -e " + (tools.path() / "go").string() +
+              "; do sleep 0.05; done; for last; do :; done; cat > \"$last\"");
+  exporter.size = session::Exporter::own;
+  exporter.own_size = {640, 480};  // more than waits between two processes
+  start("video");
+  for (int i = 0; i < 20; ++i) frame();
+  EXPECT_LE(session.world().frame(), 1 + int{session::RecordingTask::max_waiting});
+  tools.write("go", "");
+  frames(5);
+  const auto written = static_cast<std::size_t>(session.world().frame());
+  owner.reset();
+  EXPECT_EQ(std::filesystem::file_size(folder.path() / "video_0001.mp4"), written * 640 * 480 * 4);
 }
 
 TEST_F(ExporterTest, WritesALineOfCurvesForEachFrame) {

@@ -4,7 +4,6 @@
 
 #include "softbody/forces/springs.h"
 #include "softbody/model/body_model.h"
-#include "tests/app/hands.h"
 #include "tests/app/panel_rig.h"
 
 namespace app {

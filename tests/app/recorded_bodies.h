@@ -21,7 +21,6 @@ class RecordedBalls : public files::Recording {
   std::array<glm::vec3, 2> bounds() const override { return {glm::vec3(-0.5f), glm::vec3(1.8f, 0.5f, 0.5f)}; }
   int frame_count() const override { return frames_; }
   std::shared_ptr<const files::RecordedFrame> frame(int number) override {
-    reads.push_back(number);
     if (broken == number) throw softbody::SceneError("frame 3 is broken");
     auto frame = std::make_shared<files::RecordedFrame>();
     frame->body_count = number < late ? few : all;
@@ -40,7 +39,6 @@ class RecordedBalls : public files::Recording {
 
   std::optional<int> broken;
   int releases = 0;
-  std::vector<int> reads;  // numbers of the frames read so far
 
  private:
   int frames_;

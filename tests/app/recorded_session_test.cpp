@@ -111,13 +111,6 @@ TEST_F(RecordedSession, ChecksItsSurfaces) {
   EXPECT_EQ(session.surfaces.report().figures.overlapping_pairs, 0u);
 }
 
-TEST_F(RecordedSession, RunsAheadToAFrame) {
-  session.run_ahead.start([](const softbody::BodiesInMotion& world) { return world.frame() == 5; }, 20);
-  run(session, 20);
-  EXPECT_EQ(frame(), 5);
-  EXPECT_TRUE(simulation.clock.paused);
-}
-
 TEST_F(RecordedSession, IsResetAndComesBackByUndo) {
   session.settings.set_method("grid-hash");
   simulation.rewind_to(6);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/session/session.h"
+#include "app/session/body_controls.h"
 #include "tests/app/scenes.h"
 
 namespace app {
@@ -59,17 +59,16 @@ TEST(Rewind, ForgetsLaterSnapshotsAfterGoingBack) {
 /// All that the shipped scenes do, with added bodies and changed settings, stays within the limits.
 TEST(BlowUpMonitor, AcceptsAWholeSessionOfChanges) {
   for (const auto surface : {softbody::ContactSurface::vertices, softbody::ContactSurface::surfaces}) {
-    Session session(touching_pair(), {}, 1);
-    session.simulation.change_scene("Contact", [&](softbody::Scene& s) { s.contact_surface = surface; });
+    session::Simulation simulation(touching_pair(), 1);
+    simulation.change_scene("Contact", [&](softbody::Scene& s) { s.contact_surface = surface; });
     for (int round = 0; round < 6; ++round) {
-      run(session, 50);
-      session.bodies.drop();
-      run(session, 10);
-      session.simulation.change_scene("Settings",
-                                      [&](softbody::Scene& s) { s.collision.tolerance = round % 2 ? 0.1f : 0.4f; });
+      run(simulation, 50);
+      session::BodyControls(simulation).drop();
+      run(simulation, 10);
+      simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision.tolerance = round % 2 ? 0.1f : 0.4f; });
     }
-    EXPECT_FALSE(session.simulation.stability().blow_up()) << session.simulation.stability().blow_up()->what;
-    EXPECT_FALSE(session.simulation.clock.paused);
+    EXPECT_FALSE(simulation.stability().blow_up()) << simulation.stability().blow_up()->what;
+    EXPECT_FALSE(simulation.clock.paused);
   }
 }
 

@@ -121,7 +121,7 @@ TEST(SaveScene, WritesAddedBodiesWithTheirFrames) {
   const auto file = folder.path() / "a.toml";
   Session session(softbody::find_scene("drop", files::scene_folder()), {}, 1);
   const auto go_on = [](Session& s, int frames) {
-    for (int i = 0; i < frames; ++i) s.advance_one(1.0 / 60, true);
+    for (int i = 0; i < frames; ++i) s.advance_one(1.0 / 60);
   };
   const auto begin = session.world().scene().bodies.size();
   session.bodies.drop(2);

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "collide/methods.h"
+#include "softbody/world/bodies_in_motion.h"
 #include "tests/solids.h"
 
 namespace app {
@@ -64,7 +65,25 @@ inline softbody::Scene touching_pair() {
   return scene;
 }
 
-/// The same, but the second body appears later and is not finite.
+/// The same a little apart, in empty space without gravity.
+inline softbody::Scene without_solids() {
+  softbody::Scene scene = touching_pair();
+  scene.solids.clear();
+  scene.bodies[0].position.x = -0.8;
+  scene.bodies[1].position.x = 0.8;
+  scene.gravity = glm::dvec3(0.0);
+  return scene;
+}
+
+inline glm::dvec3 centre(const softbody::BodiesInMotion& world, softbody::BodyId id) {
+  glm::dvec3 sum(0.0);
+  const collide::Frame f = world.positions();
+  const collide::Index first = f.bodies->first[id], count = f.bodies->size(id);
+  for (collide::Index i = first; i < first + count; ++i) sum += glm::dvec3(f.x[i], f.y[i], f.z[i]) / double(count);
+  return sum;
+}
+
+/// touching_pair(), but the second body appears later and is not finite.
 inline softbody::Scene doomed_pair() {
   softbody::Scene scene = touching_pair();
   scene.bodies[1].velocity.y = std::numeric_limits<double>::quiet_NaN();

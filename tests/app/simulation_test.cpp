@@ -256,38 +256,6 @@ TEST_F(SimulationUndo, BringsBackTheSettingsOfAWorldThatWasLeftForAnotherScene) 
   EXPECT_EQ(hash(), undisturbed.simulated()->state_hash());
 }
 
-/// Notes what it is told.
-struct Witness : session::SimulationObserver {
-  double stepped() override {
-    ++steps;
-    return 5;
-  }
-  void intervened() override { ++interventions; }
-  void detection_changed() override { ++detections; }
-  void replaced(bool new_scene) override { new_scene ? ++scenes : ++states; }
-  int steps = 0, interventions = 0, detections = 0, scenes = 0, states = 0;
-};
-
-TEST(SimulationObserver, IsToldOfStepsAndChanges) {
-  Witness witness;
-  session::Simulation simulation(touching_pair(), 1, "", &witness);
-  session::SettingControls controls(simulation);
-  run(simulation, 7);
-  EXPECT_EQ(witness.steps, 7);
-  EXPECT_GE(simulation.step_ms(), 5);
-  simulation.change_scene("Gravity", [&](softbody::Scene& s) { s.gravity = {0, -3, 0}; });
-  EXPECT_EQ(witness.interventions, 1);
-  EXPECT_EQ(witness.detections, 0);
-  controls.set_method("grid-hash");
-  EXPECT_EQ(witness.detections, 1);
-  simulation.rewind_to(5);
-  EXPECT_EQ(witness.states, 1);
-  simulation.reset();
-  EXPECT_EQ(witness.scenes, 1);
-  simulation.undo();
-  EXPECT_EQ(witness.scenes, 2);
-}
-
 TEST_F(SimulationUndo, GoesThereAndBackToTheBit) {
   std::vector<std::uint64_t> hashes;  // before each change, and at the end
   for (const int what : {0, 1, 2, 3}) {
@@ -424,16 +392,6 @@ TEST(Notice, GoesWithTimeUnlessItIsRenewed) {
   notice.set("wrong");
   notice.clear();
   EXPECT_FALSE(notice.is_error());
-}
-
-TEST(FieldNotice, GoesWhenTheFieldIsChanged) {
-  session::FieldNotice notice;
-  EXPECT_EQ(notice.about(""), "");
-  notice.set("a.toml", "cannot be read");
-  EXPECT_EQ(notice.about("a.toml"), "cannot be read");
-  EXPECT_EQ(notice.about("b.toml"), "");
-  notice.clear();
-  EXPECT_EQ(notice.about("a.toml"), "");
 }
 
 }  // namespace

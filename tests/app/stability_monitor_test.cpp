@@ -108,7 +108,8 @@ TEST(StepLight, ComparesTheStepsTakenWithTheBoundAndItsReserve) {
         Row{StepMargin{10, 10, 0.1, 0.1, 0.2, Bound::unconditional}, "Green"},
         Row{StepMargin{10, 10, 0.1, 0.1, 0.2, Bound::by_damping}, "Amber"},
         Row{StepMargin{7, 10, 0.1, 0.1, 0.2, Bound::by_damping}, "Red"}})
-    EXPECT_EQ(ui::status_light(margin).name, light) << margin.taken << " of " << margin.needed << ", " << margin.reserve;
+    EXPECT_EQ(ui::status_light(margin).name, light)
+        << margin.taken << " of " << margin.needed << ", " << margin.reserve;
 }
 
 TEST(StepMargin, HasTheSimulatedShareOfAFrame) {

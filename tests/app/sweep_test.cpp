@@ -51,19 +51,13 @@ TEST(SweepConfigurations, CombineAllAxesThatAMethodUses) {
   }
   const auto all = compare::sweep_configurations(pair_world());
   EXPECT_EQ(all.size(), expected);
-  for (const compare::Configuration& c : all) EXPECT_EQ(collide::problem(c.settings), "");
+  for (const compare::Configuration& c : all) {
+    EXPECT_EQ(collide::problem(c.settings), "");
+    if (!collide::method_table()[c.method].uses_hash) continue;
+    EXPECT_EQ(c.settings.cell_size, pair_world().automatic_cell_size(c.settings.levels) * static_cast<float>(c.cell));
+  }
   EXPECT_EQ(count("multi-level-sb"), 80u);
   EXPECT_EQ(count("brute-force"), 1u);
-}
-
-TEST(SweepConfigurations, UseTheWorldsAutomaticCellSize) {
-  const softbody::World& world = pair_world();
-  EXPECT_EQ(world.automatic_cell_size(world.collision().levels), world.collision().cell_size);
-  EXPECT_LT(world.automatic_cell_size(9).x, world.automatic_cell_size(0).x);
-  for (const compare::Configuration& c : compare::sweep_configurations(world)) {
-    if (!collide::method_table()[c.method].uses_hash) continue;
-    EXPECT_EQ(c.settings.cell_size, world.automatic_cell_size(c.settings.levels) * static_cast<float>(c.cell));
-  }
 }
 
 TEST(Sweep, ReportsWhatNewDetectorsFind) {

@@ -11,9 +11,9 @@
 #include "app/ui/tour/steps.h"
 #include "app/window/preferences.h"
 #include "engine/resources.h"
-#include "tests/app/hands.h"
 #include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
+#include "tests/app/scenes.h"
 
 #include <GLFW/glfw3.h>
 

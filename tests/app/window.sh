@@ -58,13 +58,6 @@ has_window() {
   window=$(xdotool search --onlyvisible --name "Multi-Level SB Collide" 2>/dev/null | head -1)
   [ -n "$window" ]
 }
-# Holds a key so long that even a slow machine draws two frames meanwhile.
-press() {
-  xdotool keydown "$1"
-  sleep 0.3
-  xdotool keyup "$1"
-  sleep 0.1
-}
 # The window's queue keeps keys and clicks, with their places, for as many frames as they need.
 keys() { xdotool key --delay 50 "$@"; }
 click() {
@@ -76,7 +69,7 @@ click() {
 has_ended() { ! kill -0 "$demo" 2>/dev/null; }
 # Ends the program by the key Q after what is named.
 quit() {
-  press q
+  keys q
   until_true "the end of the program after $1" has_ended
   wait "$demo"
   local status=$?
@@ -94,7 +87,7 @@ sleep 2                   # now the first body is above the middle of the scene
 xdotool mousemove 800 160; sleep 0.3; xdotool mousedown 1; sleep 0.3
 for _ in $(seq 10); do xdotool mousemove_relative 15 10; sleep 0.05; done
 xdotool mouseup 1
-press Delete              # the pulled body, if the mouse has hit it
+keys Delete              # the pulled body, if the mouse has hit it
 xdotool mousemove 700 400 mousedown 1 mousemove_relative 120 40; sleep 0.3; xdotool mouseup 1
 xdotool click 4 click 5
 for size in "700 500" "1500 950" "320 240" "1280 720"; do
@@ -135,13 +128,13 @@ xdotool click 1 type --delay 20 mesh.obj
 xdotool key Return
 sleep 1
 click 150 "$save"  # the field of the scene to save
-xdotool keydown ctrl; press a; xdotool keyup ctrl
+keys ctrl+a
 xdotool type --delay 300 kept.toml
-press Return
+keys Return
 until_true "the saved scene" test -s kept.toml
 grep -q 'path = "mesh.obj"' kept.toml || fail "the mesh is not in the saved scene"
 click 1100 400  # the scene: keys are shortcuts again
-press p
+keys p
 until_true "the picture" test -s picture_0001.png
 xdotool windowsize "$window" 1100 700
 until_true "the size" has_size "WIDTH=1100 HEIGHT=700 "
@@ -151,34 +144,39 @@ grep -q '^width = 1100$' "$preferences" || fail "the window's size was not kept"
 
 # Keyboard layouts, changed while the program runs. Keys are given by keycodes: by name, xdotool would look for a key of
 # that name in the new layout.
-press_with() {
+keys_with() {
   xdotool keydown "$1"
-  press "$2"
+  keys "$2"
   xdotool keyup "$1"
+}
+# A slow machine needs time for the keys before a change, which it would read by the new layout.
+layout() {
+  sleep 0.5
+  setxkbmap "$1"
 }
 open_only Files
 start
-setxkbmap fr
-press 47            # m: the next method
-press 58            # a comma: nothing
-press 10            # the digit key 1, which types &: body boxes
-press 34; press 26  # a dead key and e, which type ê: nothing
-setxkbmap de
-press_with 108 17   # AltGr+8 is [: fewer boxes, and no surface contacts
-press_with 64 41    # Alt+F: nothing
-setxkbmap ru
-press 58            # the key of M on a US keyboard: the next method
-press 28            # that of T: the hash table is hidden
-press_with 50 40    # that of D, with Shift: twenty bodies
-press_with 37 52    # that of Z, with Ctrl: undoes them
-setxkbmap fr
+layout fr
+keys 47            # m: the next method
+keys 58            # a comma: nothing
+keys 10            # the digit key 1, which types &: body boxes
+keys 34 26         # a dead key and e, which type ê: nothing
+layout de
+keys_with 108 17   # AltGr+8 is [: fewer boxes, and no surface contacts
+keys_with 64 41    # Alt+F: nothing
+layout ru
+keys 58            # the key of M on a US keyboard: the next method
+keys 28            # that of T: the hash table is hidden
+keys_with 50 40    # that of D, with Shift: twenty bodies
+keys_with 37 52    # that of Z, with Ctrl: undoes them
+layout fr
 click 150 "$save"  # the field of the scene to save
-press End
-press_with 37 24    # Ctrl+A, the key of Q on a US keyboard: the next text replaces all
-setxkbmap us
+keys End
+keys_with 37 24    # Ctrl+A, the key of Q on a US keyboard: the next text replaces all
+layout us
 sleep 0.5  # a slow machine needs time for the change
 xdotool type --delay 100 keys.toml
-press Return
+keys Return
 until_true "the scene of other keyboards" test -s keys.toml
 click 1100 400
 quit "other keyboards"
@@ -215,7 +213,7 @@ export ASAN_OPTIONS="$ASAN_OPTIONS:verify_asan_link_order=0"
 rm -f scene.toml
 open_only Files
 LOST_CONTEXT_LOG=$contexts LD_PRELOAD=$lost_context start --mesh mesh.obj --view 0,1,0,2,0,0
-press d
+keys d
 until_true "another context after a reset of the driver" has_another_context
 xdotool windowfocus "$window" 2>/dev/null
 sleep 1
@@ -226,7 +224,7 @@ until_true "the scene after a reset of the driver" test -s scene.toml
 grep -q 'path = "mesh.obj"' scene.toml || fail "the mesh of the command line is not in the scene"
 awk '$1 == "distance" && $3 > 2.5 {far = 1} END {exit !far}' scene.toml || fail "the camera does not show the mesh"
 click 1100 400
-press p
+keys p
 until_true "a picture after a reset of the driver" test -s picture_0002.png
 quit "a reset of the driver"
 

@@ -38,7 +38,7 @@ void DemoRig::frame(bool draw) {
   gui_.end_frame();
   gui_.draw();
   session.exporter.frame([this](bool with_panel, const auto&) { return with_panel ? target_.read() : canvas_.read(); });
-  session.advance_one(input.seconds, !session.exporter.recording() || session.exporter.may_step());
+  session.advance_one(input.seconds);
   glFinish();  // as a window does: else software drivers keep the memory of pictures that they have not drawn yet
 }
 

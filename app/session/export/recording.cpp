@@ -20,18 +20,4 @@ std::optional<RecordingProgress> RecordingTask::advance(const Question& frame, c
   return progress_;
 }
 
-void FrameRecording::stop(std::string error) {
-  if (!error.empty()) progress_.error = std::move(error);
-  if (!std::exchange(progress_.stopping, true)) task_.offer(std::nullopt);
-}
-
-const RecordingProgress& FrameRecording::update() {
-  if (std::optional<RecordingProgress> now = task_.take()) {
-    now->stopping = progress_.stopping;
-    if (now->error.empty()) now->error = progress_.error;
-    progress_ = std::move(*now);
-  }
-  return progress_;
-}
-
 }  // namespace app::session

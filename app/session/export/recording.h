@@ -1,7 +1,6 @@
 #pragma once
 // Writes a sequence of frames beside the demo, so that it does not wait.
 
-#include <cassert>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,43 +43,14 @@ class RecordingTask {
  public:
   using Question = std::optional<RecordedFrame>;
   using Answer = RecordingProgress;
+  static constexpr std::size_t max_waiting = 4;  // frames in memory
+
   explicit RecordingTask(std::unique_ptr<FrameWriter> writer) : writer_(std::move(writer)) {}
   std::optional<RecordingProgress> advance(const Question& frame, const Background<RecordingTask>& background);
 
  private:
   std::unique_ptr<FrameWriter> writer_;
   RecordingProgress progress_;
-};
-
-class FrameRecording {
- public:
-  static constexpr std::size_t max_waiting = 4;  // frames in memory
-
-  explicit FrameRecording(std::unique_ptr<FrameWriter> writer, Runs runs = usual_runs)
-      : progress_{.name = writer->name(), .error = {}}, task_(runs, std::move(writer)) {}
-  /// Waits until all frames are written.
-  ~FrameRecording() {
-    stop();
-    task_.wait();
-  }
-
-  /// Returns true if a frame would be taken now. Otherwise the world must wait, so that no frame is lost.
-  bool has_room() const { return task_.waiting() < max_waiting; }
-  /// Takes a frame. Precondition: stop() was not called.
-  void add(RecordedFrame frame) {
-    assert(!progress_.stopping);
-    task_.offer(std::move(frame));
-  }
-  /// Ends the recording. Frames that wait are still written. `error`: why there are no more; empty if all went well.
-  void stop(std::string error = "");
-  /// Returns what has been written. Call it once for each picture.
-  const RecordingProgress& update();
-  /// Returns the same as the last update(), and whether stop() was called.
-  const RecordingProgress& progress() const { return progress_; }
-
- private:
-  RecordingProgress progress_;
-  Background<RecordingTask> task_;
 };
 
 }  // namespace app::session

@@ -38,7 +38,7 @@ class LiveComparison {
   /// Drops the curves of other settings; their report stays until a new one arrives.
   void detection_changed(const softbody::BodiesInMotion& world, std::uint64_t revision);
 
-  /// Of a state a few frames old, whose vertices still exist.
+  /// Returns the report of a state that is a few frames old. Its vertices still exist.
   const compare::CompareReport& report() const { return report_; }
   /// Counts the reports, so that a new one is noticed.
   std::uint64_t reports() const { return reports_; }
