@@ -93,14 +93,6 @@ TEST(CompareView, TakesInAMethodThatJoinsTheTable) {
   tests::in_a_process_of_its_own(expect_that_a_new_method_is_compared);
 }
 
-TEST(CompareView, ShowsAndMeasuresFewMethodsAtFirst) {
-  PanelRig rig;
-  rig.ui.lower = ui::LowerView::comparison;
-  ASSERT_TRUE(wait_until(rig, usual_timed));
-  expect_rows(rig, compare::usual_methods());
-  EXPECT_LE(std::ranges::count(compare::usual_methods(), true), 7);
-}
-
 TEST(CompareView, ShowsAndMeasuresTheMethodsAndGroupsThatAreChosen) {
   PanelRig rig;
   rig.ui.lower = ui::LowerView::comparison;
@@ -113,7 +105,6 @@ TEST(CompareView, ShowsAndMeasuresTheMethodsAndGroupsThatAreChosen) {
     expect_rows(rig, expected);
     EXPECT_TRUE(wait_until(rig, [&](const auto& rows) { return only_timed(rows, expected); })) << box;
   };
-  const auto all = [](const collide::Method&) { return std::optional(true); };
   rig.frames(3);
   rig.click("Shown methods");
   click("Show Grid Hash",
@@ -126,7 +117,7 @@ TEST(CompareView, ShowsAndMeasuresTheMethodsAndGroupsThatAreChosen) {
   click("Trees", [](const collide::Method& method) {
     return method.group == collide::MethodGroup::trees ? std::optional(false) : std::nullopt;
   });
-  click("All methods", all);
+  click("All methods", [](const collide::Method&) { return std::optional(true); });
   rig.press_escape();
   EXPECT_EQ(rig.recorder.find("All methods"), nullptr);
 }
@@ -177,10 +168,10 @@ TEST(CompareView, ScrollsWhereTheMethodsHaveNoRoom) {
 TEST(CompareView, ShowsWhatTheChosenMethodMisses) {
   PanelRig rig;
   rig.session.simulation.clock.paused = true;
-  collide::Settings settings = rig.session.world().collision();
-  settings.cell_size = glm::vec3(0.13f);
-  settings.buckets = 1'000'003;
-  rig.session.simulation.change_scene("Settings", [&](softbody::Scene& s) { s.collision = settings; });
+  rig.change([](softbody::Scene& scene) {
+    scene.collision.cell_size = glm::vec3(0.13f);
+    scene.collision.buckets = 1'000'003;
+  });
   rig.ui.lower = ui::LowerView::comparison;
   const std::size_t literal = compare::method_index("multi-level-sb");
   ASSERT_TRUE(wait_until(rig, [&](const auto& rows) { return rows[literal].scored && rows[literal].recall < 1; }));
