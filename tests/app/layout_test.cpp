@@ -188,15 +188,6 @@ TEST(Layout, LeavesTheMiddleOfTheSceneFreeWithAllPartsShown) {
   }
 }
 
-TEST(Help, OpensAndCloses) {
-  PanelRig rig;
-  rig.click("?");
-  rig.frames(2);
-  ASSERT_TRUE(rig.ui.help);
-  rig.click("Close");
-  EXPECT_FALSE(rig.ui.help);
-}
-
 TEST(Help, SeparatesItsColumns) {
   for (const float scale : {1.0f, 2.0f}) {
     PanelRig rig(scale);

@@ -2,11 +2,7 @@
 #include <map>
 #include <utility>
 
-#include "app/ui/shortcuts.h"
-#include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
-
-#include <GLFW/glfw3.h>
 
 namespace app {
 namespace {
@@ -25,18 +21,6 @@ void sweep(PanelRig& rig) {
   rig.ui.lower = ui::LowerView::sweep;
   rig.frames(3);
   rig.click("Sweep");
-}
-
-TEST(SweepView, IsOpenedByPanelAndKey) {
-  PanelRig rig;
-  EXPECT_EQ(rig.recorder.find("Sweep"), nullptr);
-  rig.click("Error against run time");
-  rig.frames(2);
-  EXPECT_NE(rig.recorder.find("Sweep"), nullptr);
-  EXPECT_TRUE(rig.interface.sweep_view().plot().points().empty());
-  handle_key(GLFW_KEY_E, false, rig.session, rig.ui);
-  rig.frames(2);
-  EXPECT_EQ(rig.recorder.find("Sweep"), nullptr);
 }
 
 TEST(SweepView, AddsPointsDuringTheSweepSlowerOnesFurtherRightAndBetterOnesLower) {
