@@ -96,17 +96,13 @@ INSTANTIATE_TEST_SUITE_P(Methods, TableContentsOf,
                          testing::Combine(testing::Values("multi-level-sb", "grid-hash", "bounding-box-grid-hash"),
                                           testing::Values(1u, 7u, 1001u), testing::Values(0.1f, 0.8f)));
 
-TEST(TableContents, HasNoGroupInAnEmptyBucket) {
-  const compare::TableContents table;
-  EXPECT_EQ(table.bucket(3).items, 0u);
-  EXPECT_EQ(table.bucket(3).group(std::nullopt), nullptr);
-}
-
-TEST(TableContents, ReturnsTheGroupOfACellOrTheFullest) {
+TEST(BucketContents, ReturnTheGroupOfACellOrTheFullestIfThereIsAny) {
   const compare::BucketContents bucket{.bucket = 1, .groups = {{{0, 0, 0}, {1, 2}}, {{5, 5, 5}, {7}}}};
   EXPECT_EQ(bucket.group(std::nullopt), &bucket.groups[0]);
   EXPECT_EQ(bucket.group(compare::Cell{5, 5, 5}), &bucket.groups[1]);
   EXPECT_EQ(bucket.group(compare::Cell{9, 9, 9}), &bucket.groups[0]);
+  EXPECT_EQ(compare::TableContents().bucket(3).items, 0u);
+  EXPECT_EQ(compare::TableContents().bucket(3).group(std::nullopt), nullptr);
 }
 
 TEST(PaperStructure, EqualsThatOfAFullDetection) {
