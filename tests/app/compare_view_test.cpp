@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "app/ui/shortcuts.h"
 #include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
 #include "tests/own_process.h"

@@ -8,7 +8,6 @@
 
 #include "app/session/scene_controls.h"
 #include "app/session/setting_controls.h"
-#include "softbody/forces/springs.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/model/body_model.h"
 #include "tests/app/hands.h"

@@ -3,7 +3,6 @@
 #include <glm/geometric.hpp>
 
 #include "app/files/inputs.h"
-#include "app/ui/panel/panel.h"
 #include "app/ui/parts.h"
 #include "softbody/forces/gas.h"
 #include "softbody/forces/springs.h"

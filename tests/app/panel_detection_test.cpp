@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 
-#include "app/ui/panel/panel.h"
 #include "softbody/scene/scene_keys.h"
 #include "tests/app/panel_rig.h"
 

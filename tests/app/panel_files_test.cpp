@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <map>
 
-#include "softbody/model/body_model.h"
 #include "softbody/scene/scene.h"
 #include "tests/app/panel_rig.h"
 #include "tests/temporary_folder.h"

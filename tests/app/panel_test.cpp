@@ -1,5 +1,3 @@
-#include "app/ui/panel/panel.h"
-#include "app/ui/shortcuts.h"
 #include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
 

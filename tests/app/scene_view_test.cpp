@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <glm/geometric.hpp>
 
 #include "app/render/overlays.h"

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "softbody/forces/springs.h"
 #include "tests/app/keys.h"
 #include "tests/app/scenes.h"
 

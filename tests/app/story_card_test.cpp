@@ -1,6 +1,5 @@
 // The card on what the paper's method misses.
 
-#include "app/ui/shortcuts.h"
 #include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
 

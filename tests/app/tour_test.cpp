@@ -6,7 +6,6 @@
 
 #include "app/compare/score.h"
 #include "app/render/palette.h"
-#include "app/ui/shortcuts.h"
 #include "app/ui/tour/paper_boxes.h"
 #include "app/ui/tour/steps.h"
 #include "app/window/preferences.h"
