@@ -124,26 +124,6 @@ TEST(CompareView, AlwaysShowsAndMeasuresTheDriver) {
   expect_rows(rig, driver);
 }
 
-TEST(CompareView, HasRoomForFewAndForAllMethods) {
-  for (const compare::MethodSet& methods : {compare::usual_methods(), compare::all_methods()})
-    for (const glm::ivec2 size : {glm::ivec2(1000, 600), glm::ivec2(1280, 720), glm::ivec2(1920, 1080)}) {
-      PanelRig rig;
-      rig.ui.lower = ui::LowerView::comparison;
-      rig.session.comparison.choice.methods = methods;
-      rig.resize(size.x, size.y);
-      float end = rig.widget("Shown methods").max.y;
-      for (std::size_t m = 0; m < methods.size(); ++m) {
-        if (!methods[m]) continue;
-        const ui::WidgetRecorder::Widget row = rig.widget("Drive " + std::string(collide::method_table()[m].name));
-        EXPECT_GE(row.min.y, end);
-        EXPECT_LE(ImGui::CalcTextSize(collide::method_table()[m].name.data()).x, row.max.x - row.min.x);
-        end = row.max.y;
-      }
-      EXPECT_GE(rig.widget("Compare footing").min.y, end);
-      EXPECT_LE(rig.widget("Compare footing").max.y, static_cast<float>(size.y));
-    }
-}
-
 TEST(CompareView, ScrollsWhereTheMethodsHaveNoRoom) {
   PanelRig rig;
   rig.ui.lower = ui::LowerView::comparison;

@@ -81,24 +81,6 @@ TEST(SweepView, RunsAndShowsTheShownMethods) {
   EXPECT_EQ(methods_with_points(), compare::all_methods()) << "the sweep's results were kept";
 }
 
-TEST(SweepView, HasRoomForFewAndForAllMethods) {
-  for (const compare::MethodSet& methods : {compare::usual_methods(), compare::all_methods()})
-    for (const glm::ivec2 size : {glm::ivec2(1000, 600), glm::ivec2(1280, 720), glm::ivec2(1920, 1080)}) {
-      PanelRig rig;
-      rig.ui.lower = ui::LowerView::sweep;
-      rig.session.comparison.choice.methods = methods;
-      rig.resize(size.x, size.y);
-      const ui::WidgetRecorder::Widget plot = rig.widget("Scatter");
-      EXPECT_GE(plot.max.y - plot.min.y, 180) << size.x;
-      for (const ui::WidgetRecorder::Widget& entry : rig.recorder.widgets) {
-        if (!entry.label.starts_with("Legend ")) continue;
-        EXPECT_LE(entry.max.x, static_cast<float>(size.x)) << entry.label;
-        EXPECT_LE(entry.max.y, plot.min.y) << entry.label;
-      }
-      EXPECT_LE(rig.widget("Sweep footing").max.y, static_cast<float>(size.y));
-    }
-}
-
 TEST(SweepView, SeesTheEndOfASweepBehindTheTour) {
   PanelRig rig;
   sweep(rig);
