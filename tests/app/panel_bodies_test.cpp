@@ -56,15 +56,6 @@ TEST(BodiesPanel, CountsTheBodiesToCome) {
   }
 }
 
-TEST(BodiesPanel, KeepsEverythingInPlaceAtASelection) {
-  PanelRig rig;
-  const auto before = rig.widget("Tolerance");
-  rig.session.bodies.select(0);
-  rig.frames(3);
-  EXPECT_TRUE(rig.recorder.find("Selected body"));
-  EXPECT_EQ(rig.widget("Tolerance").min.y, before.min.y);
-}
-
 TEST(WorldPanel, DragsEverySliderToItsEndsWhileTheWorldRuns) {
   PanelRig rig;
   rig.click("Detection");  // folds it to make room

@@ -117,6 +117,11 @@ TEST(Panel, KeepsEverythingInPlaceWhileNumbersChange) {
     rig.expect_in_place(before);
   }
   EXPECT_GT(rig.session.world().frame(), 90);
+  const ImVec2 tolerance = rig.area("Tolerance").min;
+  rig.session.bodies.select(0);
+  rig.frames(3);
+  EXPECT_TRUE(rig.shows("Selected body"));
+  EXPECT_EQ(rig.area("Tolerance").min.y, tolerance.y);
 }
 
 TEST(Panel, FoldsItsSectionsAndRemembersThem) {

@@ -145,10 +145,6 @@ bool Widgets::button(std::string_view label, std::string_view tooltip, float wid
   return register_item(ImGui::Button(std::string(label).c_str(), {width, 0}), label, tooltip);
 }
 
-bool Widgets::radio(std::string_view label, bool active, std::string_view tooltip) {
-  return register_item(ImGui::RadioButton(std::string(label).c_str(), active), label, tooltip);
-}
-
 bool Widgets::checkbox(std::string_view label, bool value, std::string_view tooltip) {
   return register_item(ImGui::Checkbox(std::string(label).c_str(), &value), label, tooltip);
 }
