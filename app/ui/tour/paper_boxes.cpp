@@ -14,8 +14,9 @@ using collide::Index;
 
 collide::Range boxes_of(const collide::DebugGeometry& structure, Index body) {
   const auto& boxes = structure.boxes;
-  const auto own = std::ranges::equal_range(boxes, body, {}, &collide::DebugGeometry::Box::body);
-  return {static_cast<Index>(own.begin() - boxes.begin()), static_cast<Index>(own.end() - boxes.begin())};
+  const auto first = std::ranges::lower_bound(boxes, body, {}, &collide::DebugGeometry::Box::body);
+  const auto end = std::ranges::upper_bound(boxes, body, {}, &collide::DebugGeometry::Box::body);
+  return {static_cast<Index>(first - boxes.begin()), static_cast<Index>(end - boxes.begin())};
 }
 
 Index box_of(const collide::DebugGeometry& structure, Index body, const glm::vec3& at) {
