@@ -48,18 +48,18 @@ void draw_speed(Widgets& w, const Session& session) {
 /// Draws the slider from the first snapshot to the newest.
 void draw_past(Widgets& w, const Session& session) {
   const auto& past = session.simulation.stability().past();
-  const int frame = session.world().frame();
-  const Disabled off(past.snapshots().empty());
-  int place = past.snapshots().empty() ? 0 : static_cast<int>(past.at(frame));
-  const int last = past.snapshots().empty() ? 0 : static_cast<int>(past.snapshots().size()) - 1;
+  const auto& kept = past.snapshots();
+  const int frame = session.world().frame(), last = std::max(0, static_cast<int>(kept.size()) - 1);
+  const Disabled off(kept.empty());
+  int place = kept.empty() ? 0 : static_cast<int>(past.at(frame));
   const std::string shown = fmt::format("frame {}, {:.2f} s", frame, session.world().last_step().time);
-  if (w.slider("Time line", place, 0, last, shown.c_str(),
-               fmt::format("Drag it to go back in time. The world pauses there and continues from there, exactly as "
-                           "it did unless you change something. {} snapshots, {:.1f} of at most {} MiB: dense in the "
-                           "recent past, sparse further back.",
-                           past.snapshots().size(), static_cast<double>(past.bytes()) / (1 << 20),
-                           session::Rewind::max_bytes >> 20)))
-    w.ask([to = past.snapshots()[static_cast<std::size_t>(place)].frame](Session& s) { s.simulation.rewind_to(to); });
+  if (w.slider(
+          "Time line", place, 0, last, shown.c_str(),
+          fmt::format("Drag it to go back in time. The world pauses there and continues from there, exactly as "
+                      "it did unless you change something. {} snapshots, {:.1f} of at most {} MiB: dense in the "
+                      "recent past, sparse further back.",
+                      kept.size(), static_cast<double>(past.bytes()) / (1 << 20), session::Rewind::max_bytes >> 20)))
+    w.ask([to = kept[static_cast<std::size_t>(place)].frame](Session& s) { s.simulation.rewind_to(to); });
 }
 
 void draw_state_text(Widgets& w, const Session& session) {

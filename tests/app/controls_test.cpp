@@ -6,7 +6,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/session/scene_controls.h"
 #include "app/session/session.h"
+#include "app/session/setting_controls.h"
 #include "softbody/forces/springs.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/model/body_model.h"
@@ -126,21 +128,19 @@ TEST(SettingControls, KeepGravityMaterialAndSolidsOverAResetUntilTheScenesAreRes
   expect(1, -9.81, true);
 }
 
-TEST(SettingControls, RefuseSettingsWithAProblem) {
-  session::Simulation simulation(touching_pair(), 1);
-  simulation.change_scene("Settings", [](softbody::Scene& s) { s.collision.tolerance = -1; });
-  EXPECT_FALSE(simulation.notice.text().empty());
-  EXPECT_EQ(simulation.world().collision().tolerance, 0.1f);
-  simulation.change_scene("Settings", [](softbody::Scene& s) { s.collision.tolerance = 0.2f; });
-  EXPECT_TRUE(simulation.notice.text().empty());
-}
-
-TEST(SettingControls, FindNewContactsWhilePaused) {
+TEST(SettingControls, RefuseSettingsWithAProblemAndFindNewContactsWhilePaused) {
   session::Simulation simulation(touching_pair(), 1);
   simulation.clock.paused = true;
+  const auto set_tolerance = [&](float tolerance) {
+    simulation.change_scene("Settings", [=](softbody::Scene& s) { s.collision.tolerance = tolerance; });
+  };
   const auto before = simulation.world().detection().contacts.size();
   const auto revision = simulation.revision();
-  simulation.change_scene("Settings", [](softbody::Scene& s) { s.collision.tolerance = 0.2f; });
+  set_tolerance(-1);
+  EXPECT_FALSE(simulation.notice.text().empty());
+  EXPECT_EQ(simulation.world().collision().tolerance, 0.1f);
+  set_tolerance(0.2f);
+  EXPECT_TRUE(simulation.notice.text().empty());
   EXPECT_GT(simulation.world().detection().contacts.size(), before);
   EXPECT_NE(simulation.revision(), revision);
 }

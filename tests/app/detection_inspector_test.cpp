@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
 #include "app/session/setting_controls.h"

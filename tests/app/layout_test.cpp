@@ -100,6 +100,38 @@ TEST(Layout, LeavesTheSceneVisibleAboveTheComparisonAndTheSweep) {
   }
 }
 
+TEST(Layout, HasRoomForTheComparisonAndTheSweepOfFewAndOfAllMethods) {
+  for (const compare::MethodSet& methods : {compare::usual_methods(), compare::all_methods()})
+    for (const glm::ivec2 size : {glm::ivec2(1000, 600), glm::ivec2(1280, 720), glm::ivec2(1920, 1080)}) {
+      SCOPED_TRACE(size.x);
+      PanelRig rig;
+      rig.session.comparison.choice.methods = methods;
+      rig.ui.lower = ui::LowerView::comparison;
+      rig.resize(size.x, size.y);
+      float end = rig.area("Shown methods").max.y;
+      for (std::size_t m = 0; m < methods.size(); ++m) {
+        if (!methods[m]) continue;
+        const std::string& name = collide::method_table()[m].name;
+        const ui::ScreenRect row = rig.area("Drive " + name);
+        EXPECT_GE(row.min.y, end);
+        EXPECT_LE(ImGui::CalcTextSize(name.c_str()).x, row.max.x - row.min.x);
+        end = row.max.y;
+      }
+      EXPECT_GE(rig.area("Compare footing").min.y, end);
+      EXPECT_LE(rig.area("Compare footing").max.y, static_cast<float>(size.y));
+      rig.ui.lower = ui::LowerView::sweep;
+      rig.frames(3);
+      const ui::ScreenRect plot = rig.area("Scatter");
+      EXPECT_GE(plot.max.y - plot.min.y, 180);
+      for (const ui::WidgetRecorder::Widget& entry : rig.recorder.widgets) {
+        if (!entry.label.starts_with("Legend ")) continue;
+        EXPECT_LE(entry.max.x, static_cast<float>(size.x)) << entry.label;
+        EXPECT_LE(entry.max.y, plot.min.y) << entry.label;
+      }
+      EXPECT_LE(rig.area("Sweep footing").max.y, static_cast<float>(size.y));
+    }
+}
+
 TEST(Layout, ShowsNothingButTheSceneInTheCleanView) {
   PanelRig rig;
   rig.ui.lower = ui::LowerView::comparison;
@@ -186,15 +218,6 @@ TEST(Layout, LeavesTheMiddleOfTheSceneFreeWithAllPartsShown) {
       EXPECT_TRUE(beside || at_the_top) << label << " covers the scene";
     }
   }
-}
-
-TEST(Help, OpensAndCloses) {
-  PanelRig rig;
-  rig.click("?");
-  rig.frames(2);
-  ASSERT_TRUE(rig.ui.help);
-  rig.click("Close");
-  EXPECT_FALSE(rig.ui.help);
 }
 
 TEST(Help, SeparatesItsColumns) {

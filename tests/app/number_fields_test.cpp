@@ -92,7 +92,7 @@ TEST(NumberField, SaysThatAValueIsBeyondTheLimits) {
   EXPECT_NEAR(glm::length(rig.session.world().scene().gravity), 9.81, 1e-6);
 }
 
-TEST(NumberField, OfWholeNumbersRefusesFractionsAndGroups) {
+TEST(NumberField, RefusesFractionsAndGroupsWhereTheNumberIsWhole) {
   FieldRig rig("Detection");
   const auto buckets = [&] { return rig.session.world().collision().buckets; };
   const auto levels = [&] { return rig.session.world().collision().levels; };

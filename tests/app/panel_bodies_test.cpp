@@ -3,7 +3,6 @@
 #include <glm/geometric.hpp>
 
 #include "app/files/inputs.h"
-#include "app/ui/panel/panel.h"
 #include "app/ui/parts.h"
 #include "softbody/forces/gas.h"
 #include "softbody/forces/springs.h"
@@ -55,15 +54,6 @@ TEST(BodiesPanel, CountsTheBodiesToCome) {
     const auto here = rig.session.world().bodies().count();
     EXPECT_EQ(ui::bodies_to_come(rig.session.world()), 5 - here) << rig.session.world().frame();
   }
-}
-
-TEST(BodiesPanel, KeepsEverythingInPlaceAtASelection) {
-  PanelRig rig;
-  const auto before = rig.widget("Tolerance");
-  rig.session.bodies.select(0);
-  rig.frames(3);
-  EXPECT_TRUE(rig.recorder.find("Selected body"));
-  EXPECT_EQ(rig.widget("Tolerance").min.y, before.min.y);
 }
 
 TEST(WorldPanel, DragsEverySliderToItsEndsWhileTheWorldRuns) {

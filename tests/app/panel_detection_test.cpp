@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 
-#include "app/ui/panel/panel.h"
 #include "softbody/scene/scene_keys.h"
 #include "tests/app/panel_rig.h"
 
@@ -53,30 +52,23 @@ TEST(DetectionPanel, ChoosesEveryContactSurface) {
   }
 }
 
-TEST(DetectionPanel, EnablesOnlyWhatTheMethodUses) {
+TEST(DetectionPanel, EnablesWhatTheMethodOrAViewOrTheComparisonUses) {
   PanelRig rig;
   rig.ui.hash_table = false;
   for (const collide::Method& method : collide::method_table()) {
     rig.session.settings.set_method(method.key);
     rig.frames(2);
     EXPECT_EQ(rig.widget("Subdivision").enabled, method.uses_levels) << method.key;
-    EXPECT_EQ(rig.widget("Buckets").enabled, method.uses_hash) << method.key;
-    EXPECT_EQ(rig.widget("Auto").enabled, method.uses_hash) << method.key;
-    for (const char* label : {"x prime", "y prime", "z prime", "Default primes"})
+    for (const char* label : {"Buckets", "Auto", "x prime", "y prime", "z prime", "Default primes"})
       EXPECT_EQ(rig.widget(label).enabled, method.uses_hash) << method.key;
     EXPECT_TRUE(rig.widget("Tolerance").enabled);
   }
-}
-
-TEST(DetectionPanel, EnablesWhatAViewOrTheComparisonUses) {
-  PanelRig rig;
-  rig.ui.hash_table = false;
-  ASSERT_FALSE(rig.session.world().method().uses_hash);
+  rig.session.settings.set_method(collide::default_method);
   const auto enabled = [&] {
     rig.frames(2);
     return rig.widget("Buckets").enabled;
   };
-  EXPECT_FALSE(enabled());
+  ASSERT_FALSE(enabled());
   for (bool* shown :
        {&rig.ui.hash_table, &rig.ui.overlays.boxes, &rig.ui.overlays.cells, &rig.ui.overlays.missed, &rig.ui.story}) {
     *shown = true;

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <map>
 
-#include "softbody/model/body_model.h"
 #include "softbody/scene/scene.h"
 #include "tests/app/panel_rig.h"
 #include "tests/temporary_folder.h"
@@ -41,20 +40,9 @@ TEST(FilesPanel, LoadsTheNamedFile) {
 }
 
 TEST(FilesPanel, SetsTheWeldDistanceOfTheNextMesh) {
-  const TemporaryFolder folder;
-  const auto mesh = folder.write("slit.obj",
-                                 "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 1 0\nv 0.01 0 0\nv 1.01 0 0\n"
-                                 "f 1 2 3\nf 1 3 4\nf 3 2 4\nf 5 4 6\n");
   PanelRig rig;
   open_only(rig, "Files");
-  const auto import_is_closed = [&] {
-    const std::size_t before = rig.session.world().bodies().count();
-    rig.session.import.drop({mesh.string()});
-    EXPECT_TRUE(rig.frames_until([&] { return rig.session.world().bodies().count() > before; }));
-    return rig.session.world().model(rig.session.world().bodies().count() - 1).mesh.closed;
-  };
   EXPECT_EQ(rig.session.import.weld, softbody::MeshFile{}.weld);
-  EXPECT_FALSE(import_is_closed());
   rig.drag("Weld distance", -2000);
   EXPECT_EQ(rig.session.import.weld, session::Import::min_weld);
   rig.drag("Weld distance", 2000);
@@ -62,7 +50,6 @@ TEST(FilesPanel, SetsTheWeldDistanceOfTheNextMesh) {
   rig.double_click("Weld distance");
   rig.type("20");
   EXPECT_EQ(rig.session.import.weld, 0.02 / double{rig.session.import.size}) << "exactly the typed millimetres";
-  EXPECT_TRUE(import_is_closed());
 }
 
 TEST(ImportReport, ListsEveryFileBelowTheStatus) {
@@ -128,7 +115,7 @@ TEST(FilesPanel, CopiesCommandsForTheSettingsInUse) {
   EXPECT_FALSE(rig.widget("Copy").enabled) << "the file has no such body";
 }
 
-TEST(TakeAwayPanel, RequestsAPictureAndRecords) {
+TEST(ExportPanel, RequestsAPictureAndRecords) {
   const TemporaryFolder folder;
   PanelRig rig;
   open_only(rig, "Export");

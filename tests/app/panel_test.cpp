@@ -1,5 +1,3 @@
-#include "app/ui/panel/panel.h"
-#include "app/ui/shortcuts.h"
 #include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
 
@@ -18,8 +16,6 @@ TEST(Panel, SwitchesEveryOverlay) {
     rig.click(row.label);
     EXPECT_EQ(rig.ui.overlays.*row.shown, before) << row.key;
   }
-  rig.click("Hash table");
-  EXPECT_FALSE(rig.ui.hash_table);
 }
 
 TEST(SurfaceView, ShowsItsFiguresAndKeepsEverythingInPlace) {
@@ -42,6 +38,38 @@ TEST(NumbersPanel, ShowsWhatTheExactMethodSkips) {
   rig.session.settings.set_method("grid-hash");
   rig.frames(2);
   EXPECT_FALSE(rig.recorder.find("  " + std::string(collide::skip_kinds[0].text)));
+}
+
+TEST(Panel, ShowsAndHidesEachPartByItsSwitchKeyAndCloseButton) {
+  struct Part {
+    const char *switched_by, *closed_by;
+    int key;
+    const char* shows;
+  };
+  for (const Part& part :
+       {Part{"Compare methods", "Close compare", 'V', "Drive Grid Hash"},
+        Part{"Error against run time", "Close sweep", 'E', "Sweep"},
+        Part{"Story", "Close story", 'W', "Story sentence"}, Part{"Status lights", "Close lights", 'L', "Coverage"},
+        Part{"Hash table", "Close Hash table", 'T', "Buckets of the table"},
+        Part{"?", "Close", GLFW_KEY_F1, "Help Pause or resume"}}) {
+    SCOPED_TRACE(part.shows);
+    PanelRig rig;
+    const auto press_key = [&] { handle_key(part.key, false, rig.session, rig.ui); };
+    const auto expect = [&](bool shown) {
+      rig.frames(2);
+      EXPECT_EQ(rig.shows(part.shows), shown);
+    };
+    if (rig.shows(part.shows)) press_key();
+    expect(false);
+    rig.click(part.switched_by);
+    expect(true);
+    rig.click(part.closed_by);
+    expect(false);
+    press_key();
+    expect(true);
+    press_key();
+    expect(false);
+  }
 }
 
 TEST(Panel, PausesStepsResetsAndSlowsTheWorld) {
@@ -89,6 +117,11 @@ TEST(Panel, KeepsEverythingInPlaceWhileNumbersChange) {
     rig.expect_in_place(before);
   }
   EXPECT_GT(rig.session.world().frame(), 90);
+  const ImVec2 tolerance = rig.area("Tolerance").min;
+  rig.session.bodies.select(0);
+  rig.frames(3);
+  EXPECT_TRUE(rig.shows("Selected body"));
+  EXPECT_EQ(rig.area("Tolerance").min.y, tolerance.y);
 }
 
 TEST(Panel, FoldsItsSectionsAndRemembersThem) {

@@ -39,7 +39,7 @@ Difference difference(const engine::Image& a, const engine::Image& b) {
 
 // Another driver draws edges and shadows slightly differently. Pictures of two different moments differ in more than a
 // tenth of their pixels.
-TEST(Pictures, OfTheDropSceneShowThePapersFourMoments) {
+TEST(Capture, ShowsThePapersFourMomentsOfTheDropScene) {
   const std::filesystem::path golden = SBCOLLIDE_GOLDEN_DIR;
   softbody::World world(softbody::find_scene("drop", engine::find_folder("assets") / "scenes"), {});
   render::Capture capture({320, 180});

@@ -1,7 +1,5 @@
 // The interface on a recording: what is there, and that what needs a solver is left out and says so.
 
-#include "app/ui/panel/panel.h"
-#include "app/ui/shortcuts.h"
 #include "app/window/scene_picture.h"
 #include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <glm/geometric.hpp>
 
 #include "app/render/miss_marks.h"
 #include "app/session/session.h"

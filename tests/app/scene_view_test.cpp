@@ -1,10 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <glm/geometric.hpp>
 
-#include "app/render/capture.h"
 #include "app/render/overlays.h"
 #include "app/render/palette.h"
 #include "app/render/scene_view.h"
@@ -81,7 +79,7 @@ TEST_F(SceneViewTest, InterpolatesFromEarlierPositions) {
   EXPECT_NE(picture({}, {{}, earlier.x, earlier.y, earlier.z, 0.5f}), now);
 }
 
-/// Else the two would show through each other in patches.
+/// A body and its ghost would otherwise show through each other in patches.
 TEST_F(SceneViewTest, DrawsAGhostThatOverlapsItsBodyBehindItAndOneThatLeftItInPlace) {
   const engine::Camera camera = view_.camera(session_.world(), size);
   const glm::vec3 body(-0.51f, 3, 0.03f), to_eye = glm::normalize(camera.eye() - body);
@@ -190,14 +188,6 @@ TEST_F(AddOverlaysTest, MarkOnlyTheDeepestVertexOfAPairByALine) {
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].a, positions_[8]);
   EXPECT_EQ(lines[0].b, positions_[8] + glm::vec3(0.2f, 0, 0));
-}
-
-TEST(Capture, DrawsAPictureOfTheRequestedSize) {
-  render::Capture capture({321, 123});
-  const engine::Image image = capture.draw(softbody::World(touching_pair(), {}));
-  EXPECT_EQ(image.width, 321);
-  EXPECT_EQ(image.height, 123);
-  EXPECT_NE(std::ranges::count(image.rgba, image.rgba[0]), static_cast<std::ptrdiff_t>(image.rgba.size()));
 }
 
 TEST(Palette, HasDistinctColoursForDozensOfBodies) {

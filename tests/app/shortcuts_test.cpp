@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "softbody/forces/springs.h"
 #include "tests/app/keys.h"
 #include "tests/app/scenes.h"
 
@@ -28,20 +27,10 @@ TEST(Shortcuts, ActAsTheHelpSays) {
   EXPECT_EQ(session.world().frame(), 1);
   tap('S');
   EXPECT_TRUE(session.simulation.clock.slow_motion);
-  tap('D');
-  EXPECT_EQ(session.world().bodies().count(), 3u);
-  tap('R');
-  EXPECT_EQ(session.world().bodies().count(), 2u);
   tap(']');
   EXPECT_EQ(session.world().collision().levels, 4);
   for (int i = 0; i < 20; ++i) tap('[');
   EXPECT_EQ(session.world().collision().levels, 0);
-  tap('F');
-  EXPECT_EQ(session.world().scene().contact_surface, softbody::ContactSurface::surfaces);
-  tap('F');
-  EXPECT_EQ(session.world().scene().contact_surface, softbody::ContactSurface::vertices);
-  tap('M');
-  EXPECT_NE(session.world().method().key, collide::default_method);
   for (const render::OverlayRow& row : render::overlay_table) {
     const bool before = ui.overlays.*row.shown;
     EXPECT_TRUE(tap(row.shortcut));
@@ -67,6 +56,7 @@ TEST(Shortcuts, SayWhatTheyDid) {
     return session.simulation.notice.text();
   };
   EXPECT_EQ(said('F'), "Contact: Surface");
+  EXPECT_EQ(session.world().scene().contact_surface, softbody::ContactSurface::surfaces);
   EXPECT_EQ(said('F'), "Contact: Vertex-vertex");
   session.comparison.choice.methods = only({"octree", "grid-hash"});
   for (const char* key : {"octree", "grid-hash", "octree"}) {
@@ -118,8 +108,8 @@ TEST(Shortcuts, ActWithControlShiftAndDelete) {
     std::size_t bodies;  // afterwards
   };
   for (const auto& [key, mods, bodies] :
-       {Row{'D', GLFW_MOD_SHIFT, 22}, Row{GLFW_KEY_DELETE, 0, 21}, Row{'R', 0, 2}, Row{'Z', GLFW_MOD_CONTROL, 21},
-        Row{'Z', GLFW_MOD_CONTROL | GLFW_MOD_SHIFT, 2}, Row{'Z', GLFW_MOD_CONTROL, 21},
+       {Row{'D', 0, 3}, Row{'R', 0, 2}, Row{'D', GLFW_MOD_SHIFT, 22}, Row{GLFW_KEY_DELETE, 0, 21}, Row{'R', 0, 2},
+        Row{'Z', GLFW_MOD_CONTROL, 21}, Row{'Z', GLFW_MOD_CONTROL | GLFW_MOD_SHIFT, 2}, Row{'Z', GLFW_MOD_CONTROL, 21},
         Row{'Y', GLFW_MOD_CONTROL, 2}}) {
     if (key == GLFW_KEY_DELETE) session.bodies.select(3);
     EXPECT_TRUE(handle_key(key, false, session, ui, mods)) << key;

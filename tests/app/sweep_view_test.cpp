@@ -1,11 +1,8 @@
 #include <algorithm>
 #include <map>
+#include <utility>
 
-#include "app/ui/shortcuts.h"
-#include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
-
-#include <GLFW/glfw3.h>
 
 namespace app {
 namespace {
@@ -26,42 +23,30 @@ void sweep(PanelRig& rig) {
   rig.click("Sweep");
 }
 
-TEST(SweepView, IsOpenedByPanelAndKey) {
-  PanelRig rig;
-  EXPECT_EQ(rig.recorder.find("Sweep"), nullptr);
-  rig.click("Error against run time");
-  rig.frames(2);
-  EXPECT_NE(rig.recorder.find("Sweep"), nullptr);
-  EXPECT_TRUE(rig.interface.sweep_view().plot().points().empty());
-  handle_key(GLFW_KEY_E, false, rig.session, rig.ui);
-  rig.frames(2);
-  EXPECT_EQ(rig.recorder.find("Sweep"), nullptr);
-}
-
-TEST(SweepView, AddsPointsInsideThePlotDuringTheSweep) {
+TEST(SweepView, AddsPointsDuringTheSweepSlowerOnesFurtherRightAndBetterOnesLower) {
   PanelRig rig;
   sweep(rig);
+  const std::vector<ui::SweepPlot::Point>& points = rig.interface.sweep_view().plot().points();
   std::size_t before = 0;
   double progress = 0;
   ASSERT_TRUE(wait_until(rig, [&](const session::SweepState& state) {
-    EXPECT_GE(state.progress, progress);
-    EXPECT_GE(rig.interface.sweep_view().plot().points().size(), before);
-    progress = state.progress;
-    before = rig.interface.sweep_view().plot().points().size();
+    EXPECT_GE(state.progress, std::exchange(progress, state.progress));
+    EXPECT_GE(points.size(), std::exchange(before, points.size()));
     return !state.running;
   }));
-  const ui::SweepView& view = rig.interface.sweep_view();
   EXPECT_EQ(rig.session.sweep().progress, 1.0);
-  EXPECT_EQ(view.plot().points().size(),
-            compare::sweep_configurations(rig.session.world(), compare::usual_methods()).size());
-  const ui::WidgetRecorder::Widget plot = rig.widget("Scatter");
+  EXPECT_EQ(points.size(), compare::sweep_configurations(rig.session.world(), compare::usual_methods()).size());
+  const auto [min, max] = rig.area("Scatter");
   bool missing = false;
-  for (const ui::SweepPlot::Point& point : view.plot().points()) {
-    EXPECT_TRUE(point.at.x > plot.min.x && point.at.x < plot.max.x && point.at.y > plot.min.y &&
-                point.at.y < plot.max.y);
-    const compare::SweepRow& row = rig.session.sweep().report.rows[point.row];
-    EXPECT_EQ(point.value.error, 1 - row.recall);
+  for (const ui::SweepPlot::Point& a : points) {
+    EXPECT_TRUE(a.at.x > min.x && a.at.x < max.x && a.at.y > min.y && a.at.y < max.y);
+    const compare::SweepRow& row = rig.session.sweep().report.rows[a.row];
+    EXPECT_EQ(a.value.error, 1 - row.recall);
     missing = missing || row.recall < 1;
+    for (const ui::SweepPlot::Point& b : points) {
+      EXPECT_TRUE(a.value.ms >= b.value.ms || a.at.x <= b.at.x);
+      EXPECT_TRUE(a.value.error >= b.value.error || a.at.y > b.at.y);
+    }
   }
   EXPECT_TRUE(missing) << "the literal method with small cells";
 }
@@ -96,43 +81,12 @@ TEST(SweepView, RunsAndShowsTheShownMethods) {
   EXPECT_EQ(methods_with_points(), compare::all_methods()) << "the sweep's results were kept";
 }
 
-TEST(SweepView, HasRoomForFewAndForAllMethods) {
-  for (const compare::MethodSet& methods : {compare::usual_methods(), compare::all_methods()})
-    for (const glm::ivec2 size : {glm::ivec2(1000, 600), glm::ivec2(1280, 720), glm::ivec2(1920, 1080)}) {
-      PanelRig rig;
-      rig.ui.lower = ui::LowerView::sweep;
-      rig.session.comparison.choice.methods = methods;
-      rig.resize(size.x, size.y);
-      const ui::WidgetRecorder::Widget plot = rig.widget("Scatter");
-      EXPECT_GE(plot.max.y - plot.min.y, 180) << size.x;
-      for (const ui::WidgetRecorder::Widget& entry : rig.recorder.widgets) {
-        if (!entry.label.starts_with("Legend ")) continue;
-        EXPECT_LE(entry.max.x, static_cast<float>(size.x)) << entry.label;
-        EXPECT_LE(entry.max.y, plot.min.y) << entry.label;
-      }
-      EXPECT_LE(rig.widget("Sweep footing").max.y, static_cast<float>(size.y));
-    }
-}
-
 TEST(SweepView, SeesTheEndOfASweepBehindTheTour) {
   PanelRig rig;
   sweep(rig);
   rig.ui.tour.toggle(rig.session, rig.ui.overlays);
-  ASSERT_TRUE(wait_until(rig, [](const session::SweepState& state) { return !state.running; }));
-  EXPECT_TRUE(rig.ui.tour.open());
-}
-
-TEST(SweepView, PutsSlowerPointsFurtherRightAndBetterOnesLower) {
-  PanelRig rig;
-  sweep(rig);
   ASSERT_TRUE(wait_until(rig, has_ended));
-  const auto& points = rig.interface.sweep_view().plot().points();
-  for (const auto& a : points) {
-    for (const auto& b : points) {
-      EXPECT_TRUE(a.value.ms >= b.value.ms || a.at.x <= b.at.x);
-      EXPECT_TRUE(a.value.error >= b.value.error || a.at.y > b.at.y);
-    }
-  }
+  EXPECT_TRUE(rig.ui.tour.open());
 }
 
 TEST(SweepView, CancelsTheSweepByTheButtonThatBeganIt) {

@@ -7,6 +7,8 @@
 
 #include "collide/methods.h"
 #include "collide/methods/detectors.h"
+#include "softbody/world/world.h"
+#include "tests/app/scenes.h"
 #include "tests/bucket_loads.h"
 
 namespace app {
@@ -14,33 +16,19 @@ namespace {
 
 using collide::Index;
 
-/// Bodies of twelve points each, at random places.
-struct Points {
-  explicit Points(int number) {
-    std::mt19937 random(7);
-    std::uniform_real_distribution<float> anywhere(-2, 2), near(-0.3f, 0.3f);
-    const auto shape = std::make_shared<collide::Shape>(Index{12}, std::span<const std::array<Index, 2>>{});
-    for (int b = 0; b < number; ++b) {
-      const glm::vec3 centre{anywhere(random), anywhere(random), anywhere(random)};
-      for (int v = 0; v < 12; ++v) {
-        x.push_back(centre.x + near(random));
-        y.push_back(centre.y + near(random));
-        z.push_back(centre.z + near(random));
-      }
-      bodies.add(shape);
-    }
-  }
-  collide::Frame frame() const { return {x, y, z, &bodies}; }
+class TableContentsOf : public testing::TestWithParam<std::tuple<const char*, std::uint32_t, float>> {};
 
-  std::vector<float> x, y, z;
-  collide::Bodies bodies;
-};
+/// Two bodies in contact.
+const softbody::World& world() {
+  static const softbody::World pair(touching_pair(), {});
+  return pair;
+}
 
-collide::DebugGeometry structure(std::string_view method, const Points& points, const collide::Settings& settings) {
+collide::DebugGeometry structure(std::string_view method, const collide::Settings& settings) {
   collide::Workers alone(1);
   collide::Result result;
   const auto detector = collide::find_method(method)->make();
-  detector->detect(points.frame(), settings, alone, result);
+  detector->detect(world().positions(), settings, alone, result);
   return detector->debug();
 }
 
@@ -59,16 +47,13 @@ compare::Sharing counted_one_by_one(const compare::BucketContents& bucket) {
   return sharing;
 }
 
-class TableContentsOf : public testing::TestWithParam<std::tuple<const char*, std::uint32_t, float>> {};
-
 TEST_P(TableContentsOf, HasTheEntriesOfEachBucket) {
   const auto [method, buckets, cell] = GetParam();
-  const Points points(30);
   collide::Settings settings;
   settings.buckets = buckets;
   settings.cell_size = glm::vec3(cell);
-  const collide::DebugGeometry debug = structure(method, points, settings);
-  const compare::TableContents table(debug, points.frame(), settings);
+  const collide::DebugGeometry debug = structure(method, settings);
+  const compare::TableContents table(debug, world().positions(), settings);
   const collide::methods::CellHash hash(settings);
   const std::vector<std::uint32_t> loads = tests::bucket_loads(debug);
   compare::Sharing sum;
@@ -95,25 +80,20 @@ INSTANTIATE_TEST_SUITE_P(Methods, TableContentsOf,
                          testing::Combine(testing::Values("multi-level-sb", "grid-hash", "bounding-box-grid-hash"),
                                           testing::Values(1u, 7u, 1001u), testing::Values(0.1f, 0.8f)));
 
-TEST(TableContents, HasNoGroupInAnEmptyBucket) {
-  const compare::TableContents table;
-  EXPECT_EQ(table.bucket(3).items, 0u);
-  EXPECT_EQ(table.bucket(3).group(std::nullopt), nullptr);
-}
-
-TEST(TableContents, ReturnsTheGroupOfACellOrTheFullest) {
+TEST(BucketContents, ReturnTheGroupOfACellOrTheFullestIfThereIsAny) {
   const compare::BucketContents bucket{.bucket = 1, .groups = {{{0, 0, 0}, {1, 2}}, {{5, 5, 5}, {7}}}};
   EXPECT_EQ(bucket.group(std::nullopt), &bucket.groups[0]);
   EXPECT_EQ(bucket.group(compare::Cell{5, 5, 5}), &bucket.groups[1]);
   EXPECT_EQ(bucket.group(compare::Cell{9, 9, 9}), &bucket.groups[0]);
+  EXPECT_EQ(compare::TableContents().bucket(3).items, 0u);
+  EXPECT_EQ(compare::TableContents().bucket(3).group(std::nullopt), nullptr);
 }
 
 TEST(PaperStructure, EqualsThatOfAFullDetection) {
-  const Points points(30);
   const collide::Settings settings{.cell_size = glm::vec3(1.0f)};
   collide::Workers alone(1);
-  const auto whole = structure(collide::paper_method, points, settings);
-  const auto alone_built = collide::methods::make_paper_structure()(points.frame(), settings, alone);
+  const auto whole = structure(collide::paper_method, settings);
+  const auto alone_built = collide::methods::make_paper_structure()(world().positions(), settings, alone);
   EXPECT_EQ(alone_built.box_bucket, whole.box_bucket);
   EXPECT_EQ(alone_built.loads, whole.loads);
   EXPECT_EQ(alone_built.cells, whole.cells);

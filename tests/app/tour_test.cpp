@@ -6,7 +6,6 @@
 
 #include "app/compare/score.h"
 #include "app/render/palette.h"
-#include "app/ui/shortcuts.h"
 #include "app/ui/tour/paper_boxes.h"
 #include "app/ui/tour/steps.h"
 #include "app/window/preferences.h"
@@ -86,8 +85,14 @@ bool all_shown(const PanelRig& rig, const std::vector<ui::TourFigure>& figures) 
                              [&](const ui::TourFigure& figure) { return rig.recorder.find(figure.label) != nullptr; });
 }
 
-TEST(Tour, GoesThroughEveryStepByMouse) {
+TEST(Tour, GoesThroughEveryStepByMouseAndKeys) {
   PanelRig rig;
+  const auto press = [&](int key) {
+    handle_key(key, false, rig.session, rig.ui);
+    rig.frames(2);
+  };
+  press(GLFW_KEY_RIGHT);
+  EXPECT_FALSE(rig.ui.tour.open());
   rig.click("Tour");
   ASSERT_TRUE(rig.ui.tour.open());
   for (std::size_t step = 0; step <= last_step; ++step) {
@@ -98,28 +103,19 @@ TEST(Tour, GoesThroughEveryStepByMouse) {
     EXPECT_TRUE(all_shown(rig, ui::figures_of_frame(context->f.work)));
     EXPECT_EQ(rig.widget("Back").enabled, step > 0);
     EXPECT_EQ(rig.widget("Next").enabled, step < last_step);
-    if (step < last_step) rig.click("Next");
+    step % 2 || step == last_step ? press(GLFW_KEY_RIGHT) : rig.click("Next");
   }
+  EXPECT_EQ(rig.ui.tour.step(), last_step) << "there is no further one";
   rig.click("Back");
-  EXPECT_EQ(rig.ui.tour.step(), last_step - 1);
+  press(GLFW_KEY_LEFT);
+  EXPECT_EQ(rig.ui.tour.step(), last_step - 2);
   rig.click("Close tour");
   EXPECT_FALSE(rig.ui.tour.open());
-}
-
-TEST(Tour, GoesThroughEveryStepByKeys) {
-  PanelRig rig;
-  const auto key = [&](int which) { handle_key(which, false, rig.session, rig.ui); };
-  key(GLFW_KEY_RIGHT);
-  EXPECT_FALSE(rig.ui.tour.open());
-  key(GLFW_KEY_G);
-  for (std::size_t step = 0; step < last_step + 2; ++step) key(GLFW_KEY_RIGHT);
-  EXPECT_EQ(rig.ui.tour.step(), last_step);
-  key(GLFW_KEY_LEFT);
-  EXPECT_EQ(rig.ui.tour.step(), last_step - 1);
-  key(GLFW_KEY_ESCAPE);
-  EXPECT_FALSE(rig.ui.tour.open());
-  key(GLFW_KEY_G);
+  press(GLFW_KEY_G);
+  EXPECT_TRUE(rig.ui.tour.open());
   EXPECT_EQ(rig.ui.tour.step(), 0u);
+  press(GLFW_KEY_ESCAPE);
+  EXPECT_FALSE(rig.ui.tour.open());
 }
 
 TEST(Tour, RestoresPauseOverlaysAndBucket) {

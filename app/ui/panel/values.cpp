@@ -22,9 +22,6 @@ bool uses_surface_contact(const Session& session) {
   return session.world().scene().contact_surface == softbody::ContactSurface::surfaces;
 }
 
-/// Returns the format of lengths in a scene with this tolerance (m). A slider rounds its value to what it shows.
-const char* length_format(float usual) { return usual < 0.05f ? "%.3g m" : "%.3f m"; }
-
 /// Draws the label of a setting of the hash function. If bucket count and primes do not suit each other, the label has
 /// a mark, and the reason as its tooltip.
 void draw_hash_label(Widgets& w, const std::string& label, float column, const collide::Settings& settings, bool used) {
@@ -63,7 +60,7 @@ struct ValueWidgets {
   softbody::Slider of_lengths(softbody::Slider s, float below, float above) const {
     s.least = std::min(s.least, usual / below);
     s.most = std::max(s.most, usual * above);
-    s.format = length_format(usual);
+    s.format = usual < 0.05f ? "%.3g m" : "%.3f m";  // a slider rounds its value to what it shows
     return s;
   }
 

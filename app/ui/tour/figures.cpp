@@ -18,10 +18,6 @@ std::string metres(float length) { return fmt::format("{:.3f} m", length); }
 std::string place(const glm::vec3& p) { return fmt::format("({:.3f}, {:.3f}, {:.3f})", p.x, p.y, p.z); }
 std::string sides(const glm::vec3& s) { return fmt::format("{:.3f} x {:.3f} x {:.3f} m", s.x, s.y, s.z); }
 
-std::string with_sign(std::int64_t n) {
-  return fmt::format("{}{}", n < 0 ? "-" : "", grouped(static_cast<std::uint64_t>(std::abs(n))));
-}
-
 TourFigure body_figure(const char* label, const softbody::BodiesInMotion& world, softbody::BodyId body) {
   return {label, std::to_string(body), "Bodies count from 0. A selected body is taken if it touches another.",
           render::body_colour(world.body(body).number)};
@@ -43,7 +39,8 @@ std::vector<TourFigure> hash_terms(const TourContext& v) {
                                    axes[a], axes[a])});
   }
   figures.push_back({fmt::format("The sum % {}", grouped(settings.buckets)),
-                     fmt::format("{}  ->  {}", with_sign(sum), grouped(corner.bucket)),
+                     fmt::format("{}{}  ->  {}", sum < 0 ? "-" : "", grouped(static_cast<std::uint64_t>(std::abs(sum))),
+                                 grouped(corner.bucket)),
                      "Modulo the number of buckets, the paper's bucket size; wrapped so that it is never negative."});
   return figures;
 }

@@ -1,6 +1,5 @@
 #include "app/ui/views/views.h"
 
-#include <algorithm>
 #include <cassert>
 
 #include <fmt/core.h>

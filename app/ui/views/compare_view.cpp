@@ -110,7 +110,9 @@ struct Row {
 void draw_misses_switch(Widgets& w, const Session& session, const UiState& ui, const Grid& grid, const Row& row) {
   ImGui::SetCursorScreenPos({grid.right[misses] - grid.height, grid.top});
   const bool shown = ui.overlays.missed && session.comparison.choice.misses_of == row.index;
-  if (w.radio(row.label("Misses of"), shown, "Shows the contacts that this method misses in the scene."))
+  const std::string label = row.label("Misses of");
+  if (w.register_item(ImGui::RadioButton(label.c_str(), shown), label,
+                      "Shows the contacts that this method misses in the scene."))
     w.ask([method = row.index](Session& s, UiState& state) {
       s.comparison.choice.misses_of = method;
       state.overlays.missed = true;

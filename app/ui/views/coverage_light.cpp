@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <glm/common.hpp>
 
-#include "app/render/palette.h"
 #include "softbody/world/measures.h"
 
 namespace app::ui {

@@ -26,11 +26,6 @@ std::vector<collide::BucketLoad> fullest_buckets(const collide::DebugGeometry& t
   return fullest;
 }
 
-/// Returns the colour of a load, at least 1, where `max_load` is the end of the scale.
-glm::vec3 load_colour(std::uint32_t load, std::uint32_t max_load) {
-  return render::sequential_colour(std::log2(static_cast<float>(load)) / std::log2(static_cast<float>(max_load)));
-}
-
 void draw_squares(Widgets& w, const Session& session, const BucketGrid& grid, const ImVec2& size,
                   std::uint32_t max_load) {
   const std::vector<collide::BucketLoad> squares = fullest_buckets(session.inspector.shown_geometry(), grid);
@@ -43,10 +38,12 @@ void draw_squares(Widgets& w, const Session& session, const BucketGrid& grid, co
     return ImVec2(origin.x + static_cast<float>(s % grid.columns) * grid.side,
                   origin.y + static_cast<float>(s / grid.columns) * grid.side);
   };
+  const float scale = std::log2(static_cast<float>(max_load));
   for (std::uint32_t s = 0; s < grid.squares(); ++s) {
-    if (squares[s].load == 0 && gap == 0) continue;
+    const auto load = static_cast<float>(squares[s].load);
+    if (load == 0 && gap == 0) continue;
     const ImVec2 at = corner(s);
-    const glm::vec3 fill = squares[s].load == 0 ? glm::vec3(0.86f) : load_colour(squares[s].load, max_load);
+    const glm::vec3 fill = load == 0 ? glm::vec3(0.86f) : render::sequential_colour(std::log2(load) / scale);
     draw->AddRectFilled(at, {at.x + grid.side - gap, at.y + grid.side - gap}, to_imgui(fill));
   }
   const auto outline = [&](std::uint32_t s, const glm::vec3& line, float thickness) {

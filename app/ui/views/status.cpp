@@ -35,6 +35,47 @@ std::string missed_text(const Session& session) {
                      grouped(report.true_contacts), rounded_down(row->recall));
 }
 
+void draw_legend_line(Widgets& w, const render::LegendLine& line) {
+  if (line.colour) w.swatch(*line.colour);
+  line.pale ? ImGui::TextDisabled("%s", line.text.c_str()) : ImGui::TextUnformatted(line.text.c_str());
+  if (line.colour) w.register_item("Legend");
+  if (!line.scale) return;
+  ImGui::SameLine();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = w.px(120), top = at.y + w.px(4), height = w.px(8);
+  draw_colour_scale({at.x, top}, width, top + height, 30, line.scale);
+  ImGui::Dummy({width, height});
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", line.end.c_str());
+}
+
+void draw_ghost_legend(Widgets& w, const Session& session) {
+  ImGui::Text("Opaque: %s", integrator_text(*session.simulated()).c_str());
+  w.register_item("Legend");
+  draw_legend_line(w, {"Ghost: " + integrator_text(*session.ghost().world()), render::ghost_colour});
+  ImGui::Text("RMS distance: %s", ghost_distance_text(session).c_str());
+}
+
+void draw_bucket_legend(Widgets& w, const Session& session) {
+  ImGui::Text("Bucket %s", grouped(*session.inspector.selected_bucket()).c_str());
+  draw_legend_line(w, {"entry of the chosen cell", render::same_cell_colour});
+  draw_legend_line(w, {"entry of another cell (aliasing)", render::aliased_colour});
+}
+
+/// Draws text on the scene, centred, with a light background that keeps it legible on any colour. Its lower end is at
+/// `y`. Returns its upper end.
+float draw_scene_text(const Widgets& w, const char* text, float y, const ScreenRect& area, float alpha) {
+  const ImVec2 pad{w.px(10), w.px(4)};
+  const float room = area.max.x - area.min.x - 4 * pad.x;
+  const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, room);
+  const ImVec2 at{std::floor(0.5f * (area.min.x + area.max.x - size.x)), std::floor(y - size.y)};
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  draw->AddRectFilled({at.x - pad.x, at.y - pad.y}, {at.x + size.x + pad.x, at.y + size.y + pad.y},
+                      to_imgui(glm::vec3(1.0f), 0.65f * alpha), w.px(6));
+  draw->AddText(nullptr, 0, at, to_imgui(glm::vec3(0.15f), alpha), text, nullptr, room);
+  return at.y - pad.y;
+}
+
 }  // namespace
 
 StatusLight status_light(const collide::Method& method) {
@@ -109,37 +150,6 @@ std::string ghost_distance_text(const Session& session) {
   return fmt::format("{:.3g} R", session.ghost().distances().latest());
 }
 
-namespace {
-
-void draw_legend_line(Widgets& w, const render::LegendLine& line) {
-  if (line.colour) w.swatch(*line.colour);
-  line.pale ? ImGui::TextDisabled("%s", line.text.c_str()) : ImGui::TextUnformatted(line.text.c_str());
-  if (line.colour) w.register_item("Legend");
-  if (!line.scale) return;
-  ImGui::SameLine();
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = w.px(120), top = at.y + w.px(4), height = w.px(8);
-  draw_colour_scale({at.x, top}, width, top + height, 30, line.scale);
-  ImGui::Dummy({width, height});
-  ImGui::SameLine();
-  ImGui::TextDisabled("%s", line.end.c_str());
-}
-
-void draw_ghost_legend(Widgets& w, const Session& session) {
-  ImGui::Text("Opaque: %s", integrator_text(*session.simulated()).c_str());
-  w.register_item("Legend");
-  draw_legend_line(w, {"Ghost: " + integrator_text(*session.ghost().world()), render::ghost_colour});
-  ImGui::Text("RMS distance: %s", ghost_distance_text(session).c_str());
-}
-
-void draw_bucket_legend(Widgets& w, const Session& session) {
-  ImGui::Text("Bucket %s", grouped(*session.inspector.selected_bucket()).c_str());
-  draw_legend_line(w, {"entry of the chosen cell", render::same_cell_colour});
-  draw_legend_line(w, {"entry of another cell (aliasing)", render::aliased_colour});
-}
-
-}  // namespace
-
 bool has_legend(const Session& session, const render::Overlays& shown) {
   return session.ghost().world() || session.inspector.bucket() ||
          std::ranges::any_of(render::overlay_table,
@@ -175,24 +185,6 @@ void draw_floating_legend(Widgets& w, const Session& session, const render::Over
   ImGui::PopTextWrapPos();
   ImGui::End();
 }
-
-namespace {
-
-/// Draws text on the scene, centred, with a light background that keeps it legible on any colour. Its lower end is at
-/// `y`. Returns its upper end.
-float draw_scene_text(const Widgets& w, const char* text, float y, const ScreenRect& area, float alpha) {
-  const ImVec2 pad{w.px(10), w.px(4)};
-  const float room = area.max.x - area.min.x - 4 * pad.x;
-  const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, room);
-  const ImVec2 at{std::floor(0.5f * (area.min.x + area.max.x - size.x)), std::floor(y - size.y)};
-  ImDrawList* draw = ImGui::GetBackgroundDrawList();
-  draw->AddRectFilled({at.x - pad.x, at.y - pad.y}, {at.x + size.x + pad.x, at.y + size.y + pad.y},
-                      to_imgui(glm::vec3(1.0f), 0.65f * alpha), w.px(6));
-  draw->AddText(nullptr, 0, at, to_imgui(glm::vec3(0.15f), alpha), text, nullptr, room);
-  return at.y - pad.y;
-}
-
-}  // namespace
 
 double seconds_to_hint_change(double seconds) {
   if (seconds > hint_seconds) return std::numeric_limits<double>::infinity();

@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include "app/render/palette.h"
-
 namespace app::ui {
 namespace {
 

@@ -21,6 +21,43 @@ bool is_pressed(ImGuiKey key) {
 #endif
 }
 
+/// Returns a place beside the last item's window, or else below or above the item, that covers no results.
+ImVec2 tooltip_position(const ImVec2& size, float gap, float max_shift, const std::vector<ScreenRect>& results) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize, item = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
+  const ImVec2 window = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
+  const auto inside = [](float at, float length, float whole) {
+    return std::clamp(at, 0.0f, std::max(0.0f, whole - length));
+  };
+  const float x = std::max(0.0f, std::min(item.x, std::min(window.x + extent.x, display.x) - size.x));
+  const float y = inside(item.y, size.y, display.y);
+  const float right = window.x + extent.x + gap;
+  std::vector<ImVec2> places{{right, y}};
+  for (const ScreenRect& result : results)
+    for (const float beyond : {result.max.y + gap, result.min.y - gap - size.y})
+      if (std::abs(beyond - y) <= max_shift) places.push_back({right, beyond});
+  places.insert(places.end(), {{x, window.y + extent.y + gap},
+                               {x, window.y - gap - size.y},
+                               {window.x - gap - size.x, y},
+                               {x, end.y + gap},
+                               {x, item.y - gap - size.y}});
+  const auto is_free = [&](const ImVec2& at) {
+    const bool shown = at.x >= 0 && at.y >= 0 && at.x + size.x <= display.x && at.y + size.y <= display.y;
+    const ScreenRect tooltip{at, {at.x + size.x, at.y + size.y}};
+    return shown && std::ranges::none_of(results, [&](const ScreenRect& r) { return overlap(tooltip, r); });
+  };
+  const auto found = std::ranges::find_if(places, is_free);
+  return found != places.end() ? *found : ImVec2{x, inside(end.y + gap, size.y, display.y)};
+}
+
+/// Draws text in the rest of the line. `align`: 0 is flush left, 1 flush right.
+void draw_text_in_line(const std::string& text, float align) {
+  const float space = ImGui::GetContentRegionAvail().x;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float left = std::max(0.0f, space - ImGui::CalcTextSize(text.c_str()).x) * align;
+  ImGui::Dummy({space, ImGui::GetTextLineHeight()});
+  ImGui::GetWindowDrawList()->AddText({std::floor(at.x + left), at.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+}
+
 }  // namespace
 
 const WidgetRecorder::Widget* WidgetRecorder::find(std::string_view label) const {
@@ -79,38 +116,6 @@ void Widgets::keep_tooltips_off() {
   input_.results.push_back({min, {min.x + size.x, min.y + size.y}});
 }
 
-namespace {
-
-/// Returns a place beside the last item's window, or else below or above the item, that covers no results.
-ImVec2 tooltip_position(const ImVec2& size, float gap, float max_shift, const std::vector<ScreenRect>& results) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize, item = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
-  const ImVec2 window = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
-  const auto inside = [](float at, float length, float whole) {
-    return std::clamp(at, 0.0f, std::max(0.0f, whole - length));
-  };
-  const float x = std::max(0.0f, std::min(item.x, std::min(window.x + extent.x, display.x) - size.x));
-  const float y = inside(item.y, size.y, display.y);
-  const float right = window.x + extent.x + gap;
-  std::vector<ImVec2> places{{right, y}};
-  for (const ScreenRect& result : results)
-    for (const float beyond : {result.max.y + gap, result.min.y - gap - size.y})
-      if (std::abs(beyond - y) <= max_shift) places.push_back({right, beyond});
-  places.insert(places.end(), {{x, window.y + extent.y + gap},
-                               {x, window.y - gap - size.y},
-                               {window.x - gap - size.x, y},
-                               {x, end.y + gap},
-                               {x, item.y - gap - size.y}});
-  const auto is_free = [&](const ImVec2& at) {
-    const bool shown = at.x >= 0 && at.y >= 0 && at.x + size.x <= display.x && at.y + size.y <= display.y;
-    const ScreenRect tooltip{at, {at.x + size.x, at.y + size.y}};
-    return shown && std::ranges::none_of(results, [&](const ScreenRect& r) { return overlap(tooltip, r); });
-  };
-  const auto found = std::ranges::find_if(places, is_free);
-  return found != places.end() ? *found : ImVec2{x, inside(end.y + gap, size.y, display.y)};
-}
-
-}  // namespace
-
 void Widgets::show_tooltip(std::string_view text) const {
   if (input_.clicked) return;
   const char* end = text.data() + text.size();
@@ -138,10 +143,6 @@ void Widgets::show_tooltip(std::string_view text) const {
 bool Widgets::button(std::string_view label, std::string_view tooltip, float width, bool enabled) {
   const Disabled off(!enabled);
   return register_item(ImGui::Button(std::string(label).c_str(), {width, 0}), label, tooltip);
-}
-
-bool Widgets::radio(std::string_view label, bool active, std::string_view tooltip) {
-  return register_item(ImGui::RadioButton(std::string(label).c_str(), active), label, tooltip);
 }
 
 bool Widgets::checkbox(std::string_view label, bool value, std::string_view tooltip) {
@@ -198,19 +199,6 @@ void Widgets::row_label(std::string_view label, float column) {
   ImGui::SameLine(column);
   ImGui::SetNextItemWidth(-FLT_MIN);
 }
-
-namespace {
-
-/// Draws text in the rest of the line. `align`: 0 is flush left, 1 flush right.
-void draw_text_in_line(const std::string& text, float align) {
-  const float space = ImGui::GetContentRegionAvail().x;
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float left = std::max(0.0f, space - ImGui::CalcTextSize(text.c_str()).x) * align;
-  ImGui::Dummy({space, ImGui::GetTextLineHeight()});
-  ImGui::GetWindowDrawList()->AddText({std::floor(at.x + left), at.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
-}
-
-}  // namespace
 
 void Widgets::text_line(const std::string& text) {
   if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x)

@@ -117,7 +117,6 @@ class Widgets {
   float px(float design) const { return design * scale_; }
 
   bool button(std::string_view label, std::string_view tooltip, float width = 0, bool enabled = true);
-  bool radio(std::string_view label, bool active, std::string_view tooltip);
   /// Returns true if the value should be the other one.
   bool checkbox(std::string_view label, bool value, std::string_view tooltip);
   /// Draws a title with a close button, whose label is "Close " and the title's identifier. True if it is clicked.
