@@ -14,7 +14,7 @@
 #include "tests/cli/process.h"
 
 namespace api::test {
-namespace {
+namespace THIS_FILE {
 
 using sbcollide::Body;
 using sbcollide::Error;
@@ -259,5 +259,5 @@ TEST(ApiWorld, MovesOnSeveralThreadsEachWithOneOfThem) {
   EXPECT_EQ(hashes[2], hashes[0]);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace api::test

@@ -5,7 +5,7 @@
 #include <vector>
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 /// Counts up to the number of the question, one a part, and shows each count. Ends where it is cancelled.
 struct Count {
@@ -129,5 +129,5 @@ TEST(Background, DoesAllPartsInALongSlice) {
   EXPECT_EQ(answer->question, 3);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

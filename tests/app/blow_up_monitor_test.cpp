@@ -12,7 +12,7 @@
 #include "tests/support/change.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 softbody::World pair_after(int frames) {
   softbody::World world(touching_pair(), {});
@@ -218,5 +218,5 @@ TEST(BlowUpMonitor, ReportsTheBlowUpOfEveryExplicitIntegrator) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -4,7 +4,7 @@
 #include "collide/core/detector.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 class BucketGridTest : public testing::TestWithParam<std::uint32_t> {};
 
@@ -38,5 +38,5 @@ TEST(BucketGrid, SharesSquaresOnlyWhenBucketsAreTooMany) {
   EXPECT_GT(ui::BucketGrid::fit(collide::max_buckets, 250, 170, 4).per_square, 1u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -10,7 +10,7 @@
 #include "tests/support/change.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 constexpr std::uint32_t seed = 7;
 
@@ -234,5 +234,5 @@ TEST(Comparison, CanBeDestroyedWhileItWorks) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -13,7 +13,7 @@
 #include "tests/temporary_folder.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(BodyControls, ThrowABodyToWhereTheyAimAgainstGravity) {
   softbody::Scene scene = without_solids();
@@ -257,5 +257,5 @@ TEST(SolidList, NamesSolidsApartAndListsThoseWithoutAnEndLast) {
   EXPECT_EQ(names, (std::vector<std::string>{"Sphere", "Box 1", "Box 2", "Capsule", "Plane", "Ground"}));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -8,7 +8,7 @@
 #include "tests/support/change.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 std::uint64_t tests_of(const softbody::BodiesInMotion& world, std::string_view method) {
   collide::Workers alone(1);
@@ -135,5 +135,5 @@ TEST(CostModel, PredictsAllTestsWhereTheCompleteMethodCannotListAllCells) {
   EXPECT_LT(predicted(0.1f / 1.9f), all / 100) << "24 cells a box are not";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

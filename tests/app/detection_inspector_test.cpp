@@ -9,7 +9,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(DetectionInspector, ShowsTheGeometryOfTheDrivingMethodOrElseThePapers) {
   session::Simulation simulation(touching_pair(), 1);
@@ -88,5 +88,5 @@ TEST(DetectionInspector, ShowsSurfaceContactsAtTheClosestPointsOfTwoBodies) {
   EXPECT_TRUE(inspector.surface_contacts().empty());
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

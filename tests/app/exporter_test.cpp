@@ -18,7 +18,7 @@
 #include "tests/temporary_folder.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using namespace std::chrono_literals;
 using tests::TemporaryFolder;
@@ -392,5 +392,5 @@ TEST_F(ExporterTest, WritesALineOfCurvesForEachFrame) {
   EXPECT_NE(last.find(contacts), std::string::npos) << last;
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

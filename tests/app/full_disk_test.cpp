@@ -13,7 +13,7 @@
 #include "tests/temporary_folder.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 class FullDisk : public testing::Test {
  protected:
@@ -65,5 +65,5 @@ TEST_F(FullDisk, IsReportedForPicturesAndCurves) {
   expect_unchanged("curves_0001.csv", "saved before");
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

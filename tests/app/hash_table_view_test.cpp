@@ -9,7 +9,7 @@
 #include "tests/bucket_loads.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 std::uint32_t fullest_bucket(const Session& session) {
   return std::ranges::max_element(session.inspector.shown_geometry().loads, {}, &collide::BucketLoad::load)->bucket;
@@ -132,5 +132,5 @@ TEST(HashTableView, SelectsTheFullestBucketOfTheClickedSquare) {
   EXPECT_EQ(selected->load, fullest.load);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -18,7 +18,7 @@
 #include "tests/temporary_folder.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using namespace std::chrono_literals;
 using tests::TemporaryFolder;
@@ -401,5 +401,5 @@ TEST_F(ImportTest, ReportsWhyAFileIsRefused) {
   EXPECT_EQ(session.world().bodies().count(), 3u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -10,7 +10,7 @@
 #include "tests/support/change.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using namespace std::chrono_literals;
 
@@ -102,5 +102,5 @@ TEST(LiveComparison, HasNothingMoreToLearnAboutAStateOnceEachMethodWasTimedOften
   EXPECT_TRUE(rests());
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

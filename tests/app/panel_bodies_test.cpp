@@ -12,7 +12,7 @@
 #include "tests/app/panel_rig.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(BodiesPanel, DropsThrowsDeletesAndUndoes) {
   PanelRig rig;
@@ -152,5 +152,5 @@ TEST(BodiesPanel, DropsABody) {
   EXPECT_EQ(rig.session.world().bodies().count(), before + 1);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -4,7 +4,7 @@
 #include "tests/app/panel_rig.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(StabilityPanel, ChoosesEveryIntegratorAndItsSubsteps) {
   PanelRig rig;
@@ -65,5 +65,5 @@ TEST(StabilityPanel, ShowsAnAlarmAndRewinds) {
   EXPECT_TRUE(softbody::measure(*rig.session.simulated()).finite);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

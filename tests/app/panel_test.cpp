@@ -6,7 +6,7 @@
 #include <GLFW/glfw3.h>
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(Panel, SwitchesEveryOverlay) {
   PanelRig rig;
@@ -139,5 +139,5 @@ TEST(Panel, RemembersItsFoldedSections) {
   EXPECT_FALSE(rig.ui.sections.at("Numbers"));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -19,7 +19,7 @@
 #include "tests/temporary_folder.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 class PlaybackTest : public testing::Test {
  protected:
@@ -206,5 +206,5 @@ TEST_F(PlaybackTest, RefusesFilesWithoutVertices) {
   EXPECT_THROW(files::Playback({folder.write("none.obj", "o nothing\n")}), softbody::SceneError);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

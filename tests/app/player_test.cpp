@@ -9,7 +9,7 @@
 #include "tests/app/recorded_bodies.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 class PlayerTest : public testing::Test {
  protected:
@@ -98,5 +98,5 @@ TEST_F(PlayerTest, FindsTheContactsAgainThatItForgot) {
   EXPECT_EQ(player.detection().contacts, contacts);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -12,7 +12,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using namespace std::chrono_literals;
 class RecordedSession : public testing::Test {
@@ -235,5 +235,5 @@ TEST_F(RecordedSession, RefusesBodiesAndChangesNothing) {
   EXPECT_EQ(frame(), 7);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -6,7 +6,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 void run(Session& session, int frames) {
   for (int i = 0; i < frames; ++i) session.advance(tick);
@@ -107,5 +107,5 @@ TEST(TimeSeries, ForgetsValuesFromAFrameOn) {
   EXPECT_EQ(series.size(), 0u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -6,7 +6,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 void advance(Session& session, int frames) {
   for (int i = 0; i < frames; ++i) session.advance(tick);
@@ -53,5 +53,5 @@ TEST(RunAhead, EndsWhereItFindsNothing) {
   EXPECT_TRUE(session.simulation.clock.paused);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -11,7 +11,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using Places = std::vector<std::optional<ui::ScreenRect>>;
 
@@ -88,5 +88,5 @@ TEST(MissMarks, GroupMissedContactsByPairAndNearness) {
   EXPECT_TRUE(render::miss_marks(world, {}, positions).empty());
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

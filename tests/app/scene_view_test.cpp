@@ -15,7 +15,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 constexpr glm::ivec2 size{240, 160};
 
@@ -240,5 +240,5 @@ TEST(Palette, GetsLighterWithTheLoad) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -8,7 +8,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(Session, GoesOnAfterAnUndoneResetAsIfNothingHadBeen) {
   Session session(touching_pair(), {}, 1), undisturbed(touching_pair(), {}, 1);
@@ -172,5 +172,5 @@ TEST(Session, ChangesItsGhostsRevisionWhileThatMoves) {
   EXPECT_NE(session.ghost().revision(), begun);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -9,7 +9,7 @@
 #include <GLFW/glfw3.h>
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 compare::MethodSet only(std::initializer_list<const char*> keys) {
   compare::MethodSet methods(collide::method_table().size(), false);
@@ -138,5 +138,5 @@ TEST(Shortcuts, ActWithControlShiftAndDelete) {
   EXPECT_FALSE(session.bodies.selected());
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

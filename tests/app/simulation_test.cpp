@@ -7,7 +7,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 void run(session::Simulation& simulation, int frames) {
   for (int i = 0; i < frames; ++i) simulation.advance(tick);
@@ -566,5 +566,5 @@ TEST(FieldNotice, GoesWhenTheFieldIsChanged) {
   EXPECT_EQ(notice.about("a.toml"), "");
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -9,7 +9,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 /// A world that is monitored for ten frames, and a change that makes it blow up in the next one.
 struct Monitored {
@@ -171,5 +171,5 @@ TEST(StepMargin, IsZeroWhileAllBodiesSleep) {
   EXPECT_EQ(monitor.margin().needed, 0);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -15,7 +15,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using namespace std::chrono_literals;
 
@@ -149,5 +149,5 @@ TEST(SurfaceMonitor, ChecksEachStateOnRequest) {
   EXPECT_EQ(session.surfaces.sums().steps, 0);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

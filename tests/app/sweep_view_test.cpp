@@ -8,7 +8,7 @@
 #include <GLFW/glfw3.h>
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 /// Runs frames until the sweep's state meets the condition.
 template <class Condition>
@@ -202,5 +202,5 @@ TEST(SweepView, KeepsEverythingInPlaceDuringTheSweep) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -10,7 +10,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using namespace std::chrono_literals;
 
@@ -97,5 +97,5 @@ TEST(SweepWorker, CanBeDestroyedWhileItRuns) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -11,7 +11,7 @@
 #include "tests/bucket_loads.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using collide::Index;
 
@@ -120,5 +120,5 @@ TEST(PaperStructure, EqualsThatOfAFullDetection) {
   EXPECT_EQ(alone_built.cells, whole.cells);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

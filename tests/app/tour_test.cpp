@@ -20,7 +20,7 @@
 #include <GLFW/glfw3.h>
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 const std::size_t last_step = ui::tour_steps().size() - 1;
 
@@ -585,5 +585,5 @@ TEST(BodySubset, HasTheWorldsPositionsAndIndices) {
   EXPECT_EQ(second.to_world({3, 4}).b, all.bodies->first[1] + 4);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

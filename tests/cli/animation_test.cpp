@@ -18,7 +18,7 @@
 #include "tests/load_png.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 /// What a WebP file shows.
 struct Film {
@@ -180,6 +180,6 @@ TEST(Animation, LeavesNothingBehindWhenTheRunIsInterrupted) {
   EXPECT_EQ(file_names(folder.path()), std::set<std::string>{});
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test
 #endif

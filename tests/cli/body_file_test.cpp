@@ -11,7 +11,7 @@
 #include "tests/read_bodies.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 using app::files::BodyFile;
 using app::files::BodyMeshes;
@@ -202,5 +202,5 @@ TEST(ReadObj, WithstandsAnyBytes) {
   EXPECT_GT(refused, 400);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

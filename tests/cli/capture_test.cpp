@@ -6,7 +6,7 @@
 
 #if SBCOLLIDE_GRAPHICS
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 /// The header chunk of a PNG file.
 struct Png {
@@ -66,6 +66,6 @@ TEST(Capture, WritesToTheWorkingDirectoryAndReplacesOldPictures) {
   expect_picture(folder.path() / "frame_0002.png", 33, 44);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test
 #endif

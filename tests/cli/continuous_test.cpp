@@ -14,7 +14,7 @@
 #include "tests/cli/process.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 using collide::oracle::Meeting;
 using collide::oracle::MovingFeatures;
@@ -279,5 +279,5 @@ TEST_F(DetectContinuous, RefusesWhatDoesNotFit) {
   expect_refused({"detect", good, good, "--continuous", "--contacts", good}, {"is the input"});
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

@@ -12,7 +12,7 @@
 #include "tests/cli/ply_rig.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 using nlohmann::json;
 
@@ -232,5 +232,5 @@ TEST_F(DetectAll, LeavesOutMethodsThatWouldTakeTooLong) {
   EXPECT_NE(table.out.find("\nbrute-force                  not run"), std::string::npos) << table.out;
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

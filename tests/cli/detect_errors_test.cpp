@@ -9,7 +9,7 @@
 #include "tests/cli/ply_rig.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 struct BadFile {
   const char* name;
@@ -335,5 +335,5 @@ TEST_F(DetectErrors, LeaveTheOldContactsAfterALateError) {
   EXPECT_EQ(read_file(old), "old");
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

@@ -9,7 +9,7 @@
 #include "tests/cli/detect_rig.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 using nlohmann::json;
 
@@ -268,5 +268,5 @@ TEST_F(Detect, WritesOnlyTheContactsFileAndReplacesAnEarlierOne) {
   EXPECT_EQ(file_names(folder.path()), (std::set<std::string>{"contacts.csv", "state.obj"}));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

@@ -5,7 +5,7 @@
 #include "tests/cli/process.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 struct Bad {
   const char* name;
@@ -191,5 +191,5 @@ TEST(Errors, NameAFolderThatCannotBeWrittenToEvenIfNothingWouldBe) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

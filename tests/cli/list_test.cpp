@@ -9,7 +9,7 @@
 #include "tests/cli/process.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 /// Returns the names by key. Fails the test on a line of another form.
 std::map<std::string, std::string> rows(const std::string& what) {
@@ -99,5 +99,5 @@ TEST(Help, GoesToStandardOutput) {
   EXPECT_NE(run({"--version"}).out.find('.'), std::string::npos);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

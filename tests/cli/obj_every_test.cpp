@@ -6,7 +6,7 @@
 #include "tests/cli/process.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 class ObjEvery : public testing::TestWithParam<const char*> {};
 
@@ -110,5 +110,5 @@ TEST(ObjEvery, NeverReplacesTheSceneOrItsMeshes) {
                  {"frame_0002.obj", "is the input " + scene.string()});
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

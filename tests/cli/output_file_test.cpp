@@ -11,7 +11,7 @@
 #include "tests/cli/process.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 namespace fs = std::filesystem;
 
@@ -103,5 +103,5 @@ TEST(OutputFile, NamesThePathInErrorsAndLeavesNoFile) {
   EXPECT_EQ(file_names(folder.path()), before);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

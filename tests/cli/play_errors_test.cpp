@@ -5,7 +5,7 @@
 #include "tests/cli/process.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 class Play : public testing::Test {
  protected:
@@ -44,5 +44,5 @@ TEST_F(Play, RefusesBadSettings) {
   expect_refused({"--play", triangle, "--method", "magic"}, {"--method magic"});
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

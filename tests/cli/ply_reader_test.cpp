@@ -14,7 +14,7 @@
 #include "tests/read_bodies.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 using app::files::BodyFile;
 using app::files::BodyMeshes;
@@ -200,5 +200,5 @@ TEST(ReadPly, WithstandsAnyBytes) {
   EXPECT_GT(refused, 400);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

@@ -5,7 +5,7 @@
 #include "tests/cli/report_rig.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 /// Returns the rows of a quick report on one scene without gravity; by "surface", "multi-level-sb",
 /// "multi-level-sb-exact".
@@ -134,5 +134,5 @@ TEST(ContactReport, ShowsThePlotsOnThePage) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

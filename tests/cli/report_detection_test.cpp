@@ -9,7 +9,7 @@
 #include "tests/cli/report_rig.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 /// Returns a scene of four balls that fall into each other. Its key has characters that must be quoted.
 const std::filesystem::path& balls() {
@@ -273,5 +273,5 @@ TEST(DetectionReport, RefusesBadInputInOneLineAndWritesNothing) {
   EXPECT_EQ(file_names(out), std::set<std::string>{}) << "known only after a simulation";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

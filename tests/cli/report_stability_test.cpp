@@ -6,7 +6,7 @@
 #include "tests/cli/report_rig.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 const std::vector<std::string> dts{"0.0333333333", "0.0166666667", "0.00416666667"};
 
@@ -110,5 +110,5 @@ TEST(StabilityReport, RefusesBadInputBeforeAnythingRuns) {
   EXPECT_EQ(run({"report", "stability", "--scene", "nowhere", "--out", folder.path()}).status, 2);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

@@ -8,7 +8,7 @@
 #include "app/report/stability/results.h"
 
 namespace app::test {
-namespace {
+namespace THIS_FILE {
 
 Table balls() {
   Table table;
@@ -106,5 +106,5 @@ TEST(Page, KeepsItsWarningsApartToo) {
   EXPECT_EQ(page.warnings(), std::vector<std::string>{"Times may be off."});
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app::test

@@ -7,7 +7,7 @@
 #include <limits>
 
 namespace app::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr reference::StabilityLimits limits{.seconds = 1, .radius = 0.5};
 
@@ -117,5 +117,5 @@ TEST(StabilityCriteria, FailARefusedRun) {
   EXPECT_EQ(fault(reference::StabilityFigures{.refused = "too stiff"}), "refused: too stiff;");
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app::test

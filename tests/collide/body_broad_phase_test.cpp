@@ -14,7 +14,7 @@
 namespace collide::test {
 
 using namespace collide::exact;
-namespace {
+namespace THIS_FILE {
 
 BodyBounds bound_around(const glm::vec3& lo, const glm::vec3& hi, float radius) {
   BodyBounds bound{{lo, hi}, lo * 0.5f + hi * 0.5f, radius, 0, true};
@@ -141,5 +141,5 @@ TEST(BodyBroadPhase, AreLimitedAndThenFoundAgain) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

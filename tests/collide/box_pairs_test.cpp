@@ -11,7 +11,7 @@
 namespace collide::test {
 
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 using Boxes = std::vector<Aabb>;
 
@@ -182,5 +182,5 @@ TEST(PairSort, SortsAsComparisonsDo) {
 
 INSTANTIATE_TEST_SUITE_P(Targets, BoxPairsTest, testing::ValuesIn(targets()), target_name);
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

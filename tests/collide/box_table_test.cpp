@@ -8,7 +8,7 @@
 namespace collide::test {
 
 using namespace collide::methods;
-namespace {
+namespace THIS_FILE {
 
 TEST(BoxTable, BoxesMeetThatShareABucketOrAreEverywhere) {
   std::mt19937 random(53);
@@ -58,5 +58,5 @@ TEST(BoxTable, NamesEachBucketOfABoxOnceAndTheFirstOneFirst) {
             (std::vector<std::uint32_t>{3, 1, 2}));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

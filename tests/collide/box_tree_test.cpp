@@ -9,7 +9,7 @@
 namespace collide::test {
 
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 std::vector<Box> random_boxes(std::mt19937& random, std::size_t count) {
   std::vector<Box> boxes(count);
@@ -122,5 +122,5 @@ TEST(MovingBoxTree, FindsExactlyTheOverlappingBoxes) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

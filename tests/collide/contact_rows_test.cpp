@@ -9,7 +9,7 @@
 #include "states.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 /// Contacts of the vertices of two runs, with other contacts in front of, between and behind them.
 TEST(ContactRows, SortWhatThreadsFoundInNoOrder) {
@@ -56,5 +56,5 @@ TEST(ContactRows, SortWhatThreadsFoundInNoOrder) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -5,7 +5,7 @@
 #include "states.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 /// The corners of a cube of 2 m: eight vertices, one in each octant.
 State cube(float at) {
@@ -161,5 +161,5 @@ TEST(Counters, OfTheSortedGridAreThoseOfThePileThoughABodyIsFarAway) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

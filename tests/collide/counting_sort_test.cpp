@@ -7,7 +7,7 @@
 #include <random>
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 TEST(CountingSort, IsAStableSortOnAnyNumberOfThreads) {
   std::mt19937 random(51);
@@ -32,5 +32,5 @@ TEST(CountingSort, IsAStableSortOnAnyNumberOfThreads) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

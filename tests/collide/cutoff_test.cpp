@@ -7,7 +7,7 @@
 #include "states.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 /// The true distance in long double: no rounding of the differences, none that matters in the rest.
 long double distance(const glm::vec3& a, const glm::vec3& b) {
@@ -99,5 +99,5 @@ TEST(Sweep, MeetsEveryNearPairOnce) {
   EXPECT_EQ(met, expected);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

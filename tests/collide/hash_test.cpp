@@ -11,7 +11,7 @@
 namespace collide::test {
 
 using namespace collide::methods;
-namespace {
+namespace THIS_FILE {
 
 CellHash hash_of(std::uint32_t buckets, const glm::vec3& cell = glm::vec3(1)) {
   Settings settings;
@@ -144,5 +144,5 @@ TEST(BucketTable, ForgetsTheTableBefore) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

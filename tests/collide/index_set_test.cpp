@@ -6,7 +6,7 @@
 #include <set>
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 /// Runs of random sets, some dense and some sparse, against std::set. One IndexSet serves all, so it must empty itself.
 TEST(IndexSet, HandsOutItsLongestRunsInOrderAndIsEmptyThen) {
@@ -39,5 +39,5 @@ TEST(IndexSet, HandsOutItsLongestRunsInOrderAndIsEmptyThen) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -9,7 +9,7 @@
 #include "states.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 /// 16,400 vertices in one place are more than 2^27 contacts.
 TEST(Limits, TooManyContactsAreAnErrorAndTheNextFrameIsFound) {
@@ -102,5 +102,5 @@ TEST(Limits, PairsOfNearBodies) {
   EXPECT_THROW(pairs.find(boxes, 0.1f, 189), std::length_error);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

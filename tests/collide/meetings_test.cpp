@@ -18,7 +18,7 @@ namespace collide::test {
 
 using namespace collide::oracle;
 
-namespace {
+namespace THIS_FILE {
 
 using Kind = Query::Kind;
 
@@ -328,5 +328,5 @@ TEST_F(ConstructedMeetings, AreNoneBesideAMovingPlane) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -10,7 +10,7 @@
 #include "tests/own_process.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 TEST(Methods, AreThoseOfTheCommandLine) {
   EXPECT_EQ(method_keys(),
@@ -183,5 +183,5 @@ TEST(Methods, AreBoundedForSettingsWithoutSense) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

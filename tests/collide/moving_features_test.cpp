@@ -11,7 +11,7 @@
 namespace collide::test {
 
 using namespace collide::oracle;
-namespace {
+namespace THIS_FILE {
 
 MovingPoint still(const glm::dvec3& p) { return {p, p}; }
 MovingPoint moving(const glm::dvec3& p, const glm::dvec3& by) { return {p, p + by}; }
@@ -223,5 +223,5 @@ TEST(VertexThroughFace, FindsPassagesOfPointsOnALattice) {
   EXPECT_GT(sampled, 300);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -13,7 +13,7 @@
 #include "every_target.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 using NearPairs = OnEveryTarget;
 
@@ -85,5 +85,5 @@ TEST_P(NearPairs, AreThoseOfPlainLoops) {
 
 INSTANTIATE_TEST_SUITE_P(Targets, NearPairs, testing::ValuesIn(targets()), target_name);
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -11,7 +11,7 @@
 namespace collide::test {
 
 using namespace collide::exact;
-namespace {
+namespace THIS_FILE {
 
 constexpr std::size_t no_limit = std::size_t{1} << 20;
 
@@ -162,5 +162,5 @@ TEST_P(PairKernels, FindTheSameContactsOnEveryTarget) {
 
 INSTANTIATE_TEST_SUITE_P(Targets, PairKernels, testing::ValuesIn(targets()), target_name);
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

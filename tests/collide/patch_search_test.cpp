@@ -11,7 +11,7 @@
 namespace collide::test {
 
 using namespace collide::exact;
-namespace {
+namespace THIS_FILE {
 
 class PatchKernels : public OnEveryTarget {};
 
@@ -220,5 +220,5 @@ TEST_F(WideTolerance, LeavesOutNoVertexWithoutAPlaceAtRest) {
   EXPECT_GT(find(std::make_shared<const Shape>(count_, ball_.edges, rest), 0.9f).contacts.size(), 1'000u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

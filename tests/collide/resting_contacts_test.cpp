@@ -12,7 +12,7 @@
 namespace collide::test {
 
 using namespace collide::exact;
-namespace {
+namespace THIS_FILE {
 
 constexpr float tolerance = 0.1f;
 
@@ -317,5 +317,5 @@ INSTANTIATE_TEST_SUITE_P(Threads, RestingContactsKept, testing::Values(1, 2, 3, 
   return threads.param == 0 ? std::string("switching") : std::to_string(threads.param);
 });
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

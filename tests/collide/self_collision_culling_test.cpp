@@ -17,7 +17,7 @@
 namespace collide::test {
 
 using namespace collide::exact;
-namespace {
+namespace THIS_FILE {
 
 struct Body {
   std::vector<float> x, y, z;
@@ -228,5 +228,5 @@ TEST(SelfCollisionCulling, TakesItsReferenceFromAFrame) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

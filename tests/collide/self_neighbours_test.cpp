@@ -13,7 +13,7 @@
 namespace collide::test {
 
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 constexpr float margin = 0.02f;  // m
 
@@ -147,5 +147,5 @@ TEST(SelfNeighbours, SearchAnewForAnotherSurfaceAndAfterTooManyPairs) {
   expect_complete(body, 0.02f);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -6,7 +6,7 @@
 #include "states.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 TEST(Settings, HaveNoProblemByDefaultAndAtTheirLimits) {
   Settings settings;
@@ -97,5 +97,5 @@ TEST(DefaultCellSize, IsAllowedAndCoversOnEveryState) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

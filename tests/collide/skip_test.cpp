@@ -5,7 +5,7 @@
 #include "states.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr const char* exact = "multi-level-sb-exact";
 
@@ -99,5 +99,5 @@ TEST(Skipped, OfBodiesAtRestBecomesThePairThatIsKept) {
   EXPECT_EQ(result.counters.pair_tests, 0u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -10,7 +10,7 @@ namespace collide::test {
 
 using namespace collide::oracle;
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 using Kind = Crossing::Kind;
 
@@ -131,5 +131,5 @@ TEST(FindCrossings, CountsAPassageOverTwoFramesOnce) {
   EXPECT_EQ(crossed(1, 1.5f), 0u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -11,7 +11,7 @@
 namespace collide::test {
 
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 /// The candidates of two bodies as a table of their earliest times; infinity for a pair that is not a candidate.
 class Candidates {
@@ -242,5 +242,5 @@ TEST(SurfaceSearch, FindsAllCandidatesIfPredictionsEndAtDifferentTimes) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

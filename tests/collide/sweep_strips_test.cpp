@@ -9,7 +9,7 @@
 namespace collide::test {
 
 using namespace collide::exact;
-namespace {
+namespace THIS_FILE {
 
 using StripKernel = OnEveryTarget;
 
@@ -76,5 +76,5 @@ TEST_P(StripKernel, LosesNoSpheresThatJustTouchToRounding) {
 
 INSTANTIATE_TEST_SUITE_P(Targets, StripKernel, testing::ValuesIn(targets()), target_name);
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -14,7 +14,7 @@
 namespace collide::test {
 
 using namespace collide::trees;
-namespace {
+namespace THIS_FILE {
 
 /// Halves across x, in the order of the items; a node whose items share their x is a leaf.
 Parts halve_by_x(std::span<const Item> items, const Aabb& box, Item* to) {
@@ -208,5 +208,5 @@ TEST(Octree, IsAsDeepAsFloatsCanMakeIt) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -5,7 +5,7 @@
 #include "every_target.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 using VertexKernels = OnEveryTarget;
 
@@ -129,5 +129,5 @@ TEST_P(VertexKernels, ListsWhatIsAboveALimit) {
 
 INSTANTIATE_TEST_SUITE_P(Targets, VertexKernels, testing::ValuesIn(targets()), target_name);
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

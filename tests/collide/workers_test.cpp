@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 TEST(Workers, RunEveryThreadOnceWithTheCallerAsThread0) {
   for (const int threads : {1, 2, 3, 8}) {
@@ -173,5 +173,5 @@ TEST(PartOf, CutsInOrderAndEvenly) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -8,7 +8,7 @@
 #include "softbody/state/state.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 class BatchSharesTest : public testing::Test {
  protected:
@@ -108,5 +108,5 @@ TEST_F(BatchSharesTest, ThrowsWhatOneThrows) {
   EXPECT_THROW(shares.run(task), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

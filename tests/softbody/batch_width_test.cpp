@@ -16,7 +16,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// So many lanes of a field, by themselves.
 struct NarrowField {
@@ -370,5 +370,5 @@ TEST(LargeBody, TakesNoRoomForOthers) {
   EXPECT_LE(world.snapshot().bytes(), particles * 6 * sizeof(float) + 4096);  // positions and velocities
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

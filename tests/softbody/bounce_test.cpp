@@ -12,7 +12,7 @@
 #include "tests/softbody/obj_lines.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr double radius = 0.5, g = 9.81;
 constexpr std::array both{ContactSurface::vertices, ContactSurface::surfaces};
@@ -207,5 +207,5 @@ TEST(Rest, ComesToEveryBodyOfAFile) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

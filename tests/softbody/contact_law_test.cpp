@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr double h = 1.0 / 1024;  // s; a power of two, so that a length over it is exact
 
@@ -88,5 +88,5 @@ TEST(ContactLaw, IsTheSameInFloatAndDouble) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

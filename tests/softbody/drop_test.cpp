@@ -11,7 +11,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr int frames = 800;
 constexpr double radius = 0.5;     // of a body
@@ -113,5 +113,5 @@ INSTANTIATE_TEST_SUITE_P(Methods, DropWith, testing::ValuesIn(exact_methods()), 
   return name;
 });
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

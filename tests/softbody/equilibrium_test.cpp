@@ -10,7 +10,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 double largest(const std::vector<glm::dvec3>& vectors) {
   double size = 0;
@@ -117,5 +117,5 @@ TEST(Equilibrium, ThatDoesNotExistIsAnErrorThatNamesTheMaterial) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

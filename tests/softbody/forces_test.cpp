@@ -12,7 +12,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 using Places = std::vector<glm::dvec3>;
 
@@ -174,5 +174,5 @@ TEST(Forces, HaveKeysAndAReasonToBeLeftOut) {
   });
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

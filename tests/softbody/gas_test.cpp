@@ -11,7 +11,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 struct Solid {
   std::vector<glm::dvec3> corners;
@@ -209,5 +209,5 @@ TEST(PressureAtEnd, IsTheRootWhateverTheGas) {
         }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

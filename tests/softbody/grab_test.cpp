@@ -13,7 +13,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody {
-namespace {
+namespace THIS_FILE {
 
 /// On the first face of body 0, not at its middle.
 Grab on_first_face(const World& world) {
@@ -163,5 +163,5 @@ TEST(Grab, WakesASleeperKeepsItAwakeAndFreesAHeldBody) {
   EXPECT_TRUE(world.body(0).asleep);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody

@@ -11,7 +11,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// It pulls at the last of five bodies of three particles.
 class HandOnThreeParticles : public testing::Test {
@@ -91,5 +91,5 @@ TEST_F(HandOnThreeParticles, FollowsItsBodyWhenOthersGo) {
   EXPECT_FALSE(hand.grab());
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

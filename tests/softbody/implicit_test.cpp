@@ -13,7 +13,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Its mean height when at rest is worked out by nobody: explicit steps of the same model say it.
 Scene ball_above_ground(double stiffness, double height) {
@@ -326,5 +326,5 @@ TEST(Auto, ReckonsWithRoundingAlongEveryAxis) {
   EXPECT_EQ(choice(1, 10), "implicit");
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -9,7 +9,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// A ball that has been pulled longer along one axis and flies, turning.
 Scene swinging_ball(double damping_ratio) {
@@ -228,5 +228,5 @@ TEST(Integrator, XpbdKeepsTheVolumeOfABallInBalance) {
   EXPECT_NEAR(measure(world).volume_ratio_min, 1, 0.1);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -16,7 +16,7 @@
 #include "tests/softbody/obj_lines.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// A ring of quads: closed, concave, with a hole.
 std::string torus(int around, int across) {
@@ -204,5 +204,5 @@ TEST(MeshFromFile, AFanIsNoStifferThanARegularNet) {
   EXPECT_EQ(p->largest_degree, count);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

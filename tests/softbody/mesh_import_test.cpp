@@ -16,7 +16,7 @@
 #include "tests/softbody/obj_lines.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 struct Read {
   Mesh mesh;
@@ -606,5 +606,5 @@ TEST(MeshImport, RefusesALargerFileUnread) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -11,7 +11,7 @@
 #include <set>
 
 namespace softbody {
-namespace {
+namespace THIS_FILE {
 
 class Icosphere : public testing::TestWithParam<int> {};
 
@@ -177,5 +177,5 @@ TEST(Volume, OfTetrahedronAndCubeWhereverTheyAre) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody

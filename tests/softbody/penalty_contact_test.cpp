@@ -15,7 +15,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// One pair of stiffness 100 N/m: b rests at the origin, a lies `apart` from it.
 struct Pair {
@@ -399,5 +399,5 @@ TEST_P(PairsInLanes, AreFoundWithTheSameBits) {
   expect_the_same(*own, *crowd(1));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -18,7 +18,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 using Polygon = std::vector<glm::dvec3>;
 
@@ -237,5 +237,5 @@ TEST(Polygons, OneThatCannotBeCutIsNamed) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

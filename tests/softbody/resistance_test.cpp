@@ -13,7 +13,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Kinetic energy that is not the rigid motion's, in J.
 double vibration(const World& world) {
@@ -278,5 +278,5 @@ TEST_F(ResistanceOfABody, ReturnsWhatItDampedOfARebound) {
   EXPECT_NEAR(motion().velocity.y, before.y, 1e-5);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

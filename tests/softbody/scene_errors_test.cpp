@@ -5,7 +5,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 std::string error_of(const std::filesystem::path& file) {
   try {
@@ -174,5 +174,5 @@ TEST(SceneErrors, AnUnknownKeyListsTheKnownScenes) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

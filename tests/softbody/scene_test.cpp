@@ -11,7 +11,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 Scene read(const std::string& toml) {
   const TemporaryFolder folder;
@@ -389,5 +389,5 @@ TEST(MaterialPresets, JellyIsSoft) {
   EXPECT_LT(flatness(), 0.85);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -11,7 +11,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Values for fields. Nearly all limits of scene files hold between 0.01 and 0.09.
 class Filler {
@@ -242,5 +242,5 @@ TEST(SavedScene, HasNumbersInTheirShortestForm) {
   EXPECT_NE(scene_toml(scene, "/").find("tolerance = 0.1\n"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -9,7 +9,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// m/s, of the body that is fastest as a whole.
 double fastest_body(const World& world) {
@@ -140,5 +140,5 @@ TEST(Settings, OfExactMethodsDoNotChangeTheTrajectory) {
   EXPECT_EQ(hash_with(s), hash);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -11,7 +11,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Three bodies with speeds of their own; who touches whom is made up, so only the rule itself is tried.
 class SleepRules : public testing::Test {
@@ -208,5 +208,5 @@ TEST(SleepWhereABodyIsRemoved, EndsOnEverySideAndForNothingFarAlongOneAxis) {
   for (BodyId b = 0; b < near.size(); ++b) EXPECT_EQ(world.body(b).asleep, !near[b]) << b;
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

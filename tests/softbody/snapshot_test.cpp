@@ -12,7 +12,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// What a few frames led to.
 struct Course {
@@ -213,5 +213,5 @@ INSTANTIATE_TEST_SUITE_P(All, Snapshots, testing::ValuesIn(cases()), [](const au
   return name;
 });
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -9,7 +9,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr double g = 9.81, thrown = 100;    // m/s^2, m/s
 const double deepest_allowed = 0.02 * 0.5;  // m, of bodies of 0.5 m
@@ -292,5 +292,5 @@ TEST(SolidMotion, ABallComesToRestInABox) {
   EXPECT_NEAR(centre.y, 0.5, 0.06);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

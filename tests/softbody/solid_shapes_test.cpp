@@ -12,7 +12,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr double pi = 3.14159265358979323846;
 
@@ -120,5 +120,5 @@ TEST(SolidShapes, KeepTheirThicknessAllRound) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

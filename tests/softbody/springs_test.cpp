@@ -11,7 +11,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Hooke and damper along the spring, as the paper has them: the force on i.
 glm::dvec3 pull(const LaneField& x, const LaneField& v, const SpringOf<float>& s, int lane) {
@@ -111,5 +111,5 @@ TEST(Kernels, ExtentIsTheBoxAndTheFastestOfEachLane) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

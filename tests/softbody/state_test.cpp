@@ -8,7 +8,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Two balls more of one model than a batch has lanes, and one of another; each has a velocity of its own.
 class StateOfTwoModels : public testing::Test {
@@ -123,5 +123,5 @@ TEST(State, GivesABodyALaneOfItsOwnUntilItIsNotAlone) {
   EXPECT_EQ(state.particle(0, 1234).velocity, before.velocity);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -9,7 +9,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 StepBound bound_of(const World& world) {
   State state = WorldTestAccess::solver(world).save().bodies;
@@ -267,5 +267,5 @@ TEST(StepController, KeepsACrushedBodyInOnePiece) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -13,7 +13,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Two balls that meet off their centres.
 Scene glancing(double friction) {
@@ -458,5 +458,5 @@ TEST(SurfaceContact, HeavyBodiesThatCrushEachOtherGainNoEnergy) {
   EXPECT_LT(smallest, 0.97) << "they were crushed";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

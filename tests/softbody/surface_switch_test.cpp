@@ -9,7 +9,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Four balls that meet in mid-air.
 Scene crowd() {
@@ -97,5 +97,5 @@ TEST(SurfaceContact, LeavesVertexContactAsItIs) {
   EXPECT_EQ(hash(true), hash(false));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -14,7 +14,7 @@
 #include "tests/support/change.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// In balance at a pressure a little above that around it, and nearly undamped.
 Material swinging_ball(double stiffness, double damping_ratio) {
@@ -251,5 +251,5 @@ TEST_F(HysteresisOfSubsteps, CountsWhenTheIntegratorIsChosen) {
   EXPECT_EQ(chosen(), "semi-implicit-euler");
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -12,7 +12,7 @@
 #include "tests/softbody/surface_rig.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr double g = 9.81;
 
@@ -131,5 +131,5 @@ TEST(ThinSolidAlone, StopsABallThatIsThrownAtIt) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

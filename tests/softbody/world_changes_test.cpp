@@ -11,7 +11,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody {
-namespace {
+namespace THIS_FILE {
 
 /// `number` bodies of the drop scene's material, in layers of four above the ground.
 Scene pile(int number) {
@@ -449,5 +449,5 @@ TEST(Changes, MoreParticlesThanAMachineHoldsAreRefusedAndTheWorldGoesOn) {
   EXPECT_EQ(world.bodies().count(), before + 1);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody

@@ -10,7 +10,7 @@
 #include "tests/support/change.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 TEST(Arrival, ABodyAppearsIsHeldAndIsReleasedAtItsFrames) {
   Scene scene = lone_body(spring_ball());
@@ -183,5 +183,5 @@ TEST(Integrators, AreFoundByKeyAndTheDefaultIsOne) {
   EXPECT_FALSE(find_integrator("verlet-ish"));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test
