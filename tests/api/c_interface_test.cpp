@@ -10,7 +10,7 @@
 #include "tests/api/ring.h"
 
 namespace api::test {
-namespace {
+namespace THIS_FILE {
 
 using Finder = std::unique_ptr<sbcollide_finder, decltype(&sbcollide_finder_free)>;
 using World = std::unique_ptr<sbcollide_world, decltype(&sbcollide_world_free)>;
@@ -150,5 +150,5 @@ TEST(CWorld, KeepsWhyACallFailed) {
 
 TEST(CInterface, HasTheVersionOfTheHeader) { EXPECT_STREQ(sbcollide_version(), SBCOLLIDE_VERSION); }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace api::test

@@ -7,7 +7,7 @@
 #include "tests/api/recorded_bodies.h"
 
 namespace api::test {
-namespace {
+namespace THIS_FILE {
 
 using sbcollide::Contact;
 using sbcollide::ContactFinder;
@@ -98,5 +98,5 @@ TEST(ContactFinder, SaysWhatIsWrong) {
   EXPECT_EQ(finder.find(three, three, three).contacts.size(), 3u);  // it stays usable
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace api::test

@@ -15,7 +15,7 @@
 #include "tests/temporary_folder.h"
 
 namespace api::test {
-namespace {
+namespace THIS_FILE {
 
 using sbcollide::Body;
 using sbcollide::Error;
@@ -236,5 +236,5 @@ TEST(ApiWorld, MovesOnSeveralThreadsEachWithOneOfThem) {
   EXPECT_EQ(hashes[2], hashes[0]);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace api::test

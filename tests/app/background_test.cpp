@@ -5,7 +5,7 @@
 #include <vector>
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 /// Counts up to the number of the question, one a part, and shows each count. Ends where it is cancelled.
 struct Count {
@@ -117,5 +117,5 @@ TEST(Background, DoesOnePartInAnEmptySliceAndAllInALongOne) {
   EXPECT_EQ(count.take(Background<Count>::Clock::duration::max() / 4)->question, 3) << "all parts in a long slice";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -12,7 +12,7 @@
 #include "tests/support/change.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 /// Looks at invented figures of a world that stands still.
 class BlowUpMonitorTest : public testing::Test {
@@ -206,5 +206,5 @@ TEST(BlowUpMonitor, ReportsTheBlowUpOfEveryExplicitIntegrator) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -4,7 +4,7 @@
 #include "collide/core/detector.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(BucketGrid, HoldsEveryBucketOnceInsideItsAreaAndFindsTheSquareUnderTheMouse) {
   for (const std::uint32_t buckets :
@@ -30,5 +30,5 @@ TEST(BucketGrid, HoldsEveryBucketOnceInsideItsAreaAndFindsTheSquareUnderTheMouse
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

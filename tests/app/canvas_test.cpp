@@ -6,7 +6,7 @@
 #include "engine/headless.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 /// The cost of pictures: `fixed` s to draw at any size, `pixels` s more with all pixels, and `other` s for other work.
 struct Cost {
@@ -113,5 +113,5 @@ TEST_F(CanvasTest, DrawsEachPictureFineWithAGraphicsCard) {
   EXPECT_FALSE(drawn(false, true)) << "it is fine already";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

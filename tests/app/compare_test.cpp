@@ -10,7 +10,7 @@
 #include "tests/support/change.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 constexpr std::uint32_t seed = 7;
 
@@ -188,5 +188,5 @@ TEST(Comparison, TimesOneMethodAPart) {
   EXPECT_EQ(parts, report->order.size() + 1) << "the last part scores";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

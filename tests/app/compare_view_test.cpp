@@ -8,7 +8,7 @@
 #include <GLFW/glfw3.h>
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 /// Runs frames until the rows of a report meet the condition.
 template <class Condition>
@@ -165,5 +165,5 @@ TEST(CompareView, KeepsEverythingInPlaceWhileItMeasures) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -6,17 +6,14 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/session/scene_controls.h"
 #include "app/session/session.h"
-#include "app/session/setting_controls.h"
-#include "softbody/forces/springs.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/model/body_model.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(BodyControls, ThrowABodyToWhereTheyAimAgainstGravity) {
   softbody::Scene scene = without_solids();
@@ -235,5 +232,5 @@ TEST(SolidList, NamesSolidsApartAndListsThoseWithoutAnEndLast) {
   EXPECT_EQ(names, (std::vector<std::string>{"Sphere", "Box 1", "Box 2", "Capsule", "Plane", "Ground"}));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -8,7 +8,7 @@
 #include "tests/support/change.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 std::uint64_t tests_of(const softbody::BodiesInMotion& world, std::string_view method) {
   return detected(*collide::find_method(method), world.positions(), world.collision()).counters.pair_tests;
@@ -127,5 +127,5 @@ TEST(CostModel, PredictsAllTestsWhereTheCompleteMethodCannotListAllCells) {
   EXPECT_LT(predicted(0.1f / 1.9f), all / 100) << "24 cells a box are not";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -4,7 +4,7 @@
 #include "tests/app/panel_rig.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(CoverageLight, NamesTheAxesAlongWhichABoxExceedsACell) {
   collide::DebugGeometry paper;
@@ -76,5 +76,5 @@ TEST(CoverageLight, AgreesWithTheLiteralMethod) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -8,7 +8,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(DetectionInspector, ShowsTheGeometryOfTheDrivingMethodOrElseThePapers) {
   session::Simulation simulation(touching_pair(), 1);
@@ -62,5 +62,5 @@ TEST(DetectionInspector, HasTheSurfaceContactsOfThePresentWorld) {
   EXPECT_TRUE(inspector.surface_contacts().empty());
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -17,7 +17,7 @@
 #include "tests/temporary_folder.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using namespace std::chrono_literals;
 using tests::TemporaryFolder;
@@ -318,5 +318,5 @@ TEST_F(ExporterTest, WritesALineOfCurvesForEachFrame) {
   EXPECT_NE(last.find(contacts), std::string::npos) << last;
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -99,5 +99,5 @@ TEST(FrameSchedule, LooksMoreOftenForAnAnswerWithoutDrawing) {
   EXPECT_NEAR(loop.wake_ups, 300, 2);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

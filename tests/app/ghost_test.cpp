@@ -7,7 +7,7 @@
 #include "tests/app/panel_rig.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 const softbody::IntegratorChoice rk4{"rk4", 8};
 
@@ -107,5 +107,5 @@ TEST(Ghost, IsChosenOnThePanel) {
   EXPECT_FALSE(rig.session.ghost().world());
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

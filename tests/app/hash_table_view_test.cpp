@@ -9,7 +9,7 @@
 #include "tests/bucket_loads.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 collide::BucketLoad fullest_bucket(const Session& session) {
   return *std::ranges::max_element(session.inspector.shown_geometry().loads, {}, &collide::BucketLoad::load);
@@ -122,5 +122,5 @@ TEST(DrawHashTable, SelectsTheFullestBucketOfTheClickedSquare) {
   EXPECT_EQ(selected->load, fullest.load);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -16,7 +16,7 @@
 #include "tests/temporary_folder.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using tests::TemporaryFolder;
 
@@ -339,5 +339,5 @@ TEST_F(ImportTest, ReportsWhyAFileIsRefused) {
   EXPECT_EQ(session.world().bodies().count(), 3u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

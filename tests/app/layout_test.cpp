@@ -12,7 +12,7 @@
 #include <GLFW/glfw3.h>
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(Tooltip, StandsBesideThePanelAndAboveTheComparison) {
   PanelRig rig;
@@ -236,5 +236,5 @@ TEST(Help, SeparatesItsColumns) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -7,7 +7,7 @@
 #include "tests/support/change.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 /// A comparison beside a world that stands still.
 struct Rig {
@@ -86,5 +86,5 @@ TEST(LiveComparison, HasNothingMoreToLearnAboutAStateOnceEachMethodWasTimedOften
   EXPECT_TRUE(rests());
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

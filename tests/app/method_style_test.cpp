@@ -8,7 +8,7 @@
 #include "tests/own_process.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using Colour = std::array<float, 3>;
 
@@ -50,5 +50,5 @@ void expect_styles_of_further_methods() {
 
 TEST(MethodStyle, HasARuleForFurtherMethods) { tests::in_a_process_of_its_own(expect_styles_of_further_methods); }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

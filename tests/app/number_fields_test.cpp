@@ -8,7 +8,7 @@
 #include "tests/app/panel_rig.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(ParseTyped, TakesACommaAsADecimalPoint) {
   EXPECT_EQ(parse_typed("9,81", false), 9.81);
@@ -129,5 +129,5 @@ TEST(NumberField, SaysWhatIsWrongAlsoWhereThePanelCoversTheScene) {
   EXPECT_TRUE(rig.recorder.find("Notice"));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -6,7 +6,7 @@
 #include <random>
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 /// Vertices in a box of 2 m x 1 m x 1 m, in bodies of the same size.
 struct Cloud {
@@ -84,5 +84,5 @@ TEST(PairSample, LeavesOutWhatIsNotFinite) {
   EXPECT_EQ(sample.share(glm::dvec3(1), glm::dvec3(1)), 0);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -11,7 +11,7 @@
 #include "tests/app/panel_rig.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(BodiesPanel, DropsThrowsDeletesAndUndoes) {
   PanelRig rig;
@@ -125,5 +125,5 @@ TEST(WorldPanel, SwitchesAndChoosesSolids) {
   EXPECT_FALSE(rig.session.world().scene().solids[0].enabled);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -7,7 +7,7 @@
 #include "tests/app/panel_rig.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(DetectionPanel, ChoosesEveryMethodWhileTheWorldRuns) {
   PanelRig rig;
@@ -147,5 +147,5 @@ TEST(DetectionPanel, TakesPrimesAndWarnsOfThoseThatSpoilTheHash) {
   EXPECT_FALSE(rig.recorder.find("Primes warning"));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

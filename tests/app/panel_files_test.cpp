@@ -9,7 +9,7 @@
 #include "tests/temporary_folder.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using tests::TemporaryFolder;
 
@@ -149,5 +149,5 @@ TEST(ExportPanel, RequestsAPictureAndRecords) {
   EXPECT_FALSE(rig.session.exporter.recording());
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

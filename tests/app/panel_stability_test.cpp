@@ -4,7 +4,7 @@
 #include "tests/app/panel_rig.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(StabilityPanel, ChoosesEveryIntegratorAndItsSubsteps) {
   PanelRig rig;
@@ -51,5 +51,5 @@ TEST(StabilityPanel, ShowsItsCurvesAndSwitchesThePauseAtABlowUp) {
   EXPECT_TRUE(rig.shows("Total") && rig.shows("Step light"));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

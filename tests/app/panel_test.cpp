@@ -4,7 +4,7 @@
 #include <GLFW/glfw3.h>
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(Panel, SwitchesEveryOverlay) {
   PanelRig rig;
@@ -160,5 +160,5 @@ TEST(Panel, IsTwiceAsLargeOnAHighDensityScreen) {
   EXPECT_NEAR(two.y, 2 * one.y, 8);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -14,7 +14,7 @@
 #include "tests/load_png.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 struct Difference {
   double mean = 0;        // of all channels, 0 .. 255
@@ -60,5 +60,5 @@ TEST(Capture, ShowsThePapersFourMomentsOfTheDropScene) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

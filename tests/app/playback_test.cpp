@@ -18,7 +18,7 @@
 #include "tests/temporary_folder.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 class PlaybackTest : public testing::Test {
  protected:
@@ -192,5 +192,5 @@ TEST_F(PlaybackTest, MakesASceneWhoseToleranceSuitsTheData) {
   EXPECT_NEAR(files::open_recording({points}).scene.collision.tolerance, 0.05, 1e-6) << "a hundredth of the diagonal";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -10,7 +10,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 class PlayerTest : public testing::Test {
  protected:
@@ -91,5 +91,5 @@ TEST_F(PlayerTest, FindsTheContactsAgainThatItForgot) {
   EXPECT_EQ(player.detection().contacts, contacts);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -7,7 +7,7 @@
 #include "tests/temporary_folder.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using tests::TemporaryFolder;
 
@@ -114,5 +114,5 @@ TEST(Preferences, AreInThePlatformsFolder) {
   before ? ::setenv("XDG_CONFIG_HOME", kept.c_str(), 1) : ::unsetenv("XDG_CONFIG_HOME");
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

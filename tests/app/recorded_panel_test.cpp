@@ -8,7 +8,7 @@
 #include <GLFW/glfw3.h>
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 class RecordedPanel : public testing::Test {
  protected:
@@ -106,5 +106,5 @@ TEST_F(RecordedPanel, DrawsEveryView) {
   EXPECT_FALSE(rig.session.simulation.notice.is_error()) << rig.session.simulation.notice.text();
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

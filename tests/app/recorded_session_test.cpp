@@ -9,7 +9,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 class RecordedSession : public testing::Test {
  protected:
@@ -167,5 +167,5 @@ TEST_F(RecordedSession, RefusesBodiesAndChangesNothing) {
   EXPECT_EQ(frame(), 7);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -8,7 +8,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(CarryOut, ActsInOrderAndLeavesTasksToTheWindow) {
   Session session(touching_pair(), {}, 1);
@@ -46,5 +46,5 @@ TEST(CarryOut, LetsTheCameraFrameTheTourOnceForEachStep) {
               std::vector{ui::WindowTask::show_highlight});
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -6,7 +6,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(Rewind, StaysWithinItsMemoryWithGapsThatGrowWithAge) {
   softbody::World world(touching_pair(), {});
@@ -92,5 +92,5 @@ TEST(TimeSeries, KeepsTheLastValuesAndForgetsThoseFromAFrameOn) {
   EXPECT_EQ(series.size(), 0u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

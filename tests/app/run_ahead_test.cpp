@@ -6,7 +6,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 TEST(RunAhead, StopsAtTheFrameThatItLooksFor) {
   const auto to_frame = [](int frame) {
@@ -49,5 +49,5 @@ TEST(RunAhead, EndsWhereItFindsNothing) {
   EXPECT_TRUE(session.simulation.clock.paused);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -12,7 +12,7 @@
 #include "tests/temporary_folder.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using tests::TemporaryFolder;
 
@@ -205,5 +205,5 @@ TEST(SaveScene, ReplacesASceneFileButNoMesh) {
   EXPECT_EQ(softbody::load_scene(file).view.distance, 3);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -10,7 +10,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using Places = std::vector<std::optional<ui::ScreenRect>>;
 
@@ -87,5 +87,5 @@ TEST(MissMarks, GroupMissedContactsByPairAndNearness) {
   EXPECT_TRUE(render::miss_marks(world, {}, positions).empty());
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -15,7 +15,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 constexpr glm::ivec2 size{800, 600};
 
@@ -408,5 +408,5 @@ TEST_F(SceneMouseTest, AimsAtTheMouseOrAtTheMiddle) {
   EXPECT_EQ(mouse.ray(camera, size).direction, camera.pick_ray({400, 300}, size).direction);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

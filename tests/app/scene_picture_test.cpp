@@ -9,7 +9,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 class ScenePictureTest : public testing::Test {
  protected:
@@ -49,5 +49,5 @@ TEST_F(ScenePictureTest, ChangesWithAllThatItShows) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -13,7 +13,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 constexpr glm::ivec2 size{240, 160};
 
@@ -211,5 +211,5 @@ TEST(Palette, GetsLighterWithTheLoad) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -5,7 +5,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 /// A body that lies on the ground from the start.
 softbody::Scene lone_body() {
@@ -138,5 +138,5 @@ TEST(Session, ChangesItsGhostsRevisionWhileThatMoves) {
   EXPECT_NE(session.ghost().revision(), begun);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

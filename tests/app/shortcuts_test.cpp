@@ -8,7 +8,7 @@
 #include <GLFW/glfw3.h>
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 compare::MethodSet only(std::initializer_list<const char*> keys) {
   compare::MethodSet methods(collide::method_table().size(), false);
@@ -117,5 +117,5 @@ TEST(Shortcuts, ActWithControlShiftAndDelete) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 constexpr double frame = 1.0 / 60, tick = 1.0001 * frame;
 
@@ -110,5 +110,5 @@ TEST(SimulationClock, TakesOneStepForEachPictureOfARecording) {
   EXPECT_EQ(steps.count, 2);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

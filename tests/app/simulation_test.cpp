@@ -7,7 +7,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 class SimulationTest : public testing::Test {
  protected:
@@ -394,5 +394,5 @@ TEST(Notice, GoesWithTimeUnlessItIsRenewed) {
   EXPECT_FALSE(notice.is_error());
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

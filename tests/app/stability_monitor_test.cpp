@@ -9,7 +9,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 /// A world that is monitored.
 struct Monitored {
@@ -165,5 +165,5 @@ TEST(StepMargin, IsZeroWhileAllBodiesSleep) {
   EXPECT_EQ(w.margin().needed, 0);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -6,7 +6,7 @@
 #include <GLFW/glfw3.h>
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 /// Makes cells so small that the corners of boxes skip some.
 void make_it_miss(PanelRig& rig) {
@@ -105,5 +105,5 @@ TEST(TimeLine, GoesBackInTime) {
   EXPECT_FALSE(rig.session.simulation.clock.paused);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

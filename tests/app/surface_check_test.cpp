@@ -13,7 +13,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 /// Returns a step of two spheres of radius 0.5 m at rest. distance: between their centres (m).
 compare::StepSnapshot pair_apart(double distance) {
@@ -138,5 +138,5 @@ TEST(SurfaceMonitor, ChecksEachStateOnRequest) {
   EXPECT_EQ(session.surfaces.sums().steps, 0);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -8,7 +8,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 collide::Workers& alone() {
   static collide::Workers workers(1);
@@ -151,5 +151,5 @@ TEST(Timings, HasTheMiddleValueAsMedian) {
   EXPECT_EQ((Timings{{4, 1, 2, 9}}.min()), 1);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

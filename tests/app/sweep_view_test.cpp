@@ -5,7 +5,7 @@
 #include "tests/app/panel_rig.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 /// Runs frames until the sweep's state meets the condition.
 template <class Condition>
@@ -156,5 +156,5 @@ TEST(SweepView, KeepsEverythingInPlaceDuringTheSweep) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -8,7 +8,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 /// Waits for a state of the sweep that is `wanted`, and returns it.
 session::SweepState wait_for(session::SweepWorker& worker, const auto& wanted) {
@@ -83,5 +83,5 @@ TEST(SweepWorker, CanBeDestroyedWhileItRuns) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

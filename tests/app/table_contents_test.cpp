@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
 #include <set>
 
 #include "collide/methods.h"
@@ -12,7 +11,7 @@
 #include "tests/bucket_loads.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using collide::Index;
 
@@ -99,5 +98,5 @@ TEST(PaperStructure, EqualsThatOfAFullDetection) {
   EXPECT_EQ(alone_built.cells, whole.cells);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -17,7 +17,7 @@
 #include <GLFW/glfw3.h>
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 const std::size_t last_step = ui::tour_steps().size() - 1;
 
@@ -528,5 +528,5 @@ TEST(MissedContacts, AreThoseThatTheDetectorMisses) {
   EXPECT_GT(missed, 0u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -6,7 +6,7 @@
 #include "tests/app/scenes.h"
 
 namespace app {
-namespace {
+namespace THIS_FILE {
 
 using session::Way;
 
@@ -60,5 +60,5 @@ TEST(UndoHistory, KeepsWithinTheBoundWhenItTurns) {
   EXPECT_TRUE(history.empty(Way::back)) << "the world just left is kept, the oldest is not";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app

@@ -14,7 +14,7 @@
 #include "tests/load_png.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 /// What a WebP file shows.
 struct Film {
@@ -136,6 +136,6 @@ TEST(Animation, ReplacesOnlyAnOlderWebPFile) {
   EXPECT_EQ(read_file(other), "something else");
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test
 #endif

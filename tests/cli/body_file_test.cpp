@@ -11,7 +11,7 @@
 #include "tests/temporary_folder.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 using app::files::BodyFile;
 using app::files::BodyMeshes;
@@ -123,5 +123,5 @@ TEST(ReadObj, GivesObjectsTheVerticesThatTheirFacesName) {
   EXPECT_EQ(read(six + "o a\nf 1 2 3\no b\nf 6 5 4\n").meshes.edges(1), (Edges{{0, 2}, {2, 1}, {1, 0}}));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

@@ -8,7 +8,7 @@
 #include "tests/load_png.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 void expect_picture(const std::filesystem::path& file, int width, int height) {
   const engine::Image picture = tests::load_png(file);
@@ -38,6 +38,6 @@ TEST(Capture, WritesToTheWorkingDirectoryAndReplacesOldPictures) {
   expect_picture(folder.path() / "frame_0002.png", 33, 44);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test
 #endif

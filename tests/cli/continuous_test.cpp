@@ -9,7 +9,7 @@
 #include "tests/cli/process.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 using nlohmann::json;
 
@@ -116,5 +116,5 @@ TEST_F(DetectContinuous, RefusesWhatDoesNotFit) {
   expect_refused({"detect", good, good, "--continuous", "--contacts", good}, {"is the input"});
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

@@ -10,7 +10,7 @@
 #include "tests/cli/ply_rig.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 using nlohmann::json;
 
@@ -156,5 +156,5 @@ TEST_F(DetectAll, LeavesOutMethodsThatWouldTakeTooLong) {
   EXPECT_NE(table.out.find("\nbrute-force                  not run"), std::string::npos) << table.out;
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

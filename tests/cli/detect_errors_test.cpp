@@ -10,7 +10,7 @@
 #include "tests/cli/ply_rig.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 /// Returns a text, repeated so many times.
 std::string repeated(const std::string& piece, std::size_t times) {
@@ -243,5 +243,5 @@ TEST_F(DetectRefuses, AMeshAsStandardOutput) {
   EXPECT_EQ(read_file(good), text);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

@@ -9,7 +9,7 @@
 #include "tests/cli/detect_rig.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 using nlohmann::json;
 
@@ -157,5 +157,5 @@ TEST_F(Detect, PrintsAShortTableWithoutJson) {
     EXPECT_NE(o.out.find(d["frames"][0][key].dump()), std::string::npos) << key;
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

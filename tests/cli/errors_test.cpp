@@ -7,7 +7,7 @@
 #include "tests/cli/process.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 const Words drop{"simulate", "--scene", "drop", "--frames", "2", "--json"};
 const std::string mesh = std::string(SBCOLLIDE_SCENES) + "/../meshes/star.obj";
@@ -159,5 +159,5 @@ TEST(Errors, NameAFolderThatCannotBeWrittenToEvenIfNothingWouldBe) {
     expect_refused(with(detect, {"--contacts", contacts}), {contacts + ": cannot be written"});
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

@@ -11,7 +11,7 @@
 #include "tests/temporary_folder.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 using app::files::BodiesBy;
 using app::files::FrameSequence;
@@ -88,5 +88,5 @@ TEST_F(FrameSequenceTest, CutsPolygonsIntoTriangles) {
   EXPECT_EQ(triangles_of(frame.of->meshes, 1, frame.at), (std::vector<softbody::Triangle>{{0, 1, 2}}));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

@@ -10,7 +10,7 @@
 #include "tests/cli/process.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 /// Returns what a command prints, which must succeed.
 std::string printed(const Words& arguments) {
@@ -78,5 +78,5 @@ TEST(Help, GoesToStandardOutput) {
   EXPECT_NE(printed({"--version"}).find('.'), std::string::npos);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

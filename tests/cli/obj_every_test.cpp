@@ -6,7 +6,7 @@
 #include "tests/cli/process.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 /// Returns the contacts and the self-contacts of a frame of `simulate`, as `detect` counts them.
 std::pair<std::uint64_t, std::uint64_t> counted(const nlohmann::json& frame) {
@@ -108,5 +108,5 @@ TEST(ObjEvery, NeverReplacesTheSceneOrItsMeshes) {
                  {"frame_0002.obj", "is the input " + scene.string()});
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

@@ -10,7 +10,7 @@
 #include "tests/cli/process.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 namespace fs = std::filesystem;
 
@@ -89,5 +89,5 @@ TEST(OutputFile, NamesThePathInErrorsAndLeavesNoFile) {
   EXPECT_EQ(file_names(folder.path()), before);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

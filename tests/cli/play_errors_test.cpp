@@ -5,7 +5,7 @@
 #include "tests/cli/process.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 TEST(Play, RefusesBadFilesAndWhatDoesNotGoWithThem) {
   if (!SBCOLLIDE_GRAPHICS) GTEST_SKIP() << "this build has no window";
@@ -32,5 +32,5 @@ TEST(Play, RefusesBadFilesAndWhatDoesNotGoWithThem) {
     expect_refused(arguments, says);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

@@ -13,7 +13,7 @@
 #include "tests/temporary_folder.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 using app::files::BodyFile;
 using app::files::BodyMeshes;
@@ -141,5 +141,5 @@ TEST(ReadPly, MakesConnectedPartsBodies) {
   EXPECT_EQ(read(head(8, 0) + points).meshes.first, (Indices{0, 8}));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

@@ -12,7 +12,7 @@
 #include "tests/cli/process.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 /// A terminal without a window.
 class Terminal {
@@ -84,5 +84,5 @@ TEST(Progress, IsShownOnATerminalAndClearedByReport) {
   EXPECT_EQ(shown.outcome.out.find('%'), std::string::npos) << shown.outcome.out;
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

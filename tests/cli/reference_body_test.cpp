@@ -12,7 +12,7 @@
 #include "tests/solids.h"
 
 namespace app::test {
-namespace {
+namespace THIS_FILE {
 
 using glm::dvec3;
 
@@ -172,5 +172,5 @@ TEST(BodyShape, SeparatesRigidMotionFromDeformation) {
   EXPECT_GT(reference::deformation_speed(s), 0.1);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app::test

@@ -6,7 +6,7 @@
 #include "tests/cli/report_rig.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 /// Returns the rows of a quick report on one scene without gravity; by "surface", "multi-level-sb",
 /// "multi-level-sb-exact".
@@ -131,5 +131,5 @@ TEST(ContactReport, ListsASceneOverBudgetAndDoesNotRunIt) {
   EXPECT_EQ(file_names(folder.path()), (std::set<std::string>{"contact.csv", "contact.md"})) << "nothing to plot";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

@@ -10,7 +10,7 @@
 #include "tests/cli/report_rig.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 /// Returns the folder of a quick report on four balls that fall into each other, which is made once. The key of the
 /// scene has characters that must be quoted.
@@ -217,5 +217,5 @@ TEST(Report, RefusesBadInputInOneLineAndWritesNothing) {
   EXPECT_EQ(file_names(out), std::set<std::string>{}) << "known only after a simulation";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

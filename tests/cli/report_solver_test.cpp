@@ -6,7 +6,7 @@
 #include "tests/cli/report_rig.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 /// Returns the rows of each integrator, in order.
 std::map<std::string, std::vector<Row>> curves_of(const std::filesystem::path& csv) {
@@ -105,5 +105,5 @@ TEST(SolverScenes, AutoKeepsItsPromise) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

@@ -6,7 +6,7 @@
 #include "tests/cli/report_rig.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 const std::vector<std::string> dts{"0.0333333333", "0.0166666667", "0.00416666667"};
 
@@ -79,5 +79,5 @@ TEST(StabilityReport, TakesASceneAndScalesItsStiffness) {
   EXPECT_EQ(file_names(out), (std::set<std::string>{"stability.csv", "stability.md"})) << "no map of another scene";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

@@ -8,7 +8,7 @@
 #include "app/report/stability/results.h"
 
 namespace app::test {
-namespace {
+namespace THIS_FILE {
 
 Table balls() {
   Table table;
@@ -103,5 +103,5 @@ TEST(Page, WarnsOfTimesOfABusyMachine) {
   EXPECT_EQ(page.warning(), warning);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app::test

@@ -9,7 +9,7 @@
 #include "tests/cli/process.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 class Signals : public testing::TestWithParam<int> {};
 
@@ -31,5 +31,5 @@ TEST_P(Signals, EndTheProgramAndLeaveNoTemporaryFile) {
 
 INSTANTIATE_TEST_SUITE_P(All, Signals, testing::Values(SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGALRM, SIGXCPU));
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

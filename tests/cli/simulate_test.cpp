@@ -19,7 +19,7 @@
 #include "tests/cli/process.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 using nlohmann::json;
 
@@ -342,5 +342,5 @@ TEST(Simulate, RunsInAnyFolderAndWithoutADisplay) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "nothing was written";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

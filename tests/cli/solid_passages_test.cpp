@@ -10,7 +10,7 @@
 #include "tests/solids.h"
 
 namespace app::test {
-namespace {
+namespace THIS_FILE {
 
 using glm::dvec3;
 
@@ -63,5 +63,5 @@ TEST(SolidPassages, SayIfAMiddleIsNotFinite) {
   EXPECT_FALSE(passages.observe(world));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app::test

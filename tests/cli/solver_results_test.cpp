@@ -5,7 +5,7 @@
 #include "app/report/solver/results.h"
 
 namespace app::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr double bound = 2e-5;  // R
 
@@ -103,5 +103,5 @@ TEST(SolverPage, SaysWhyCurvesEnd) {
   EXPECT_EQ(left_out({1}), "");
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app::test

@@ -12,7 +12,7 @@
 #include "tests/solids.h"
 
 namespace app::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr double dt = 1.0 / 30;  // s
 
@@ -135,5 +135,5 @@ TEST(StabilityCell, SimulatesAHitAt1000MetresASecondInFull) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app::test

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace app::test {
-namespace {
+namespace THIS_FILE {
 
 using Sample = reference::StabilitySample;
 
@@ -79,5 +79,5 @@ TEST(StabilityCriteria, FailARefusedRun) {
   EXPECT_EQ(fault(reference::StabilityFigures{.refused = "too stiff"}), "refused: too stiff;");
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace app::test

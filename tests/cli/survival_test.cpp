@@ -8,7 +8,7 @@
 #include "tests/full_disk.h"
 
 namespace cli::test {
-namespace {
+namespace THIS_FILE {
 
 namespace fs = std::filesystem;
 
@@ -93,5 +93,5 @@ TEST(SuddenEnd, LeavesOnlyCompleteFiles) {
   EXPECT_GE(fresh, 25);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace cli::test

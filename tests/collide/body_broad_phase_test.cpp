@@ -16,7 +16,7 @@
 namespace collide::test {
 
 using namespace collide::exact;
-namespace {
+namespace THIS_FILE {
 
 BodyBounds bound_around(const glm::vec3& lo, const glm::vec3& hi, float radius) {
   BodyBounds bound{{lo, hi}, lo * 0.5f + hi * 0.5f, radius, 0, true};
@@ -155,5 +155,5 @@ TEST(BodyBroadPhase, ThrowsBeyondItsLimitAndCanBeUsedAgain) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -10,7 +10,7 @@
 namespace collide::test {
 
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 using Boxes = std::vector<Aabb>;
 
@@ -119,5 +119,5 @@ TEST_P(BoxPairsTest, PickSelectsOverlappingBoxesInOrder) {
 
 INSTANTIATE_TEST_SUITE_P(Targets, BoxPairsTest, testing::ValuesIn(targets()), target_name);
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -15,7 +15,7 @@ namespace collide::test {
 
 using namespace collide::oracle;
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 TEST(ClosedShell, InsideAgreesWithTheExactOracle) {
   std::mt19937 random(54);
@@ -75,5 +75,5 @@ TEST(ClosedShell, NothingIsInsideIfAVertexIsNotFinite) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

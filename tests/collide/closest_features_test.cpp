@@ -13,7 +13,7 @@
 namespace collide::test {
 
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 using glm::dvec3;
 
@@ -132,5 +132,5 @@ TEST(ClosestFeatures, AreClosestForDegenerateAndParallelEdges) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -7,7 +7,7 @@
 #include "states.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 /// The corners of a cube of 2 m: eight vertices, one in each octant.
 State cube(float at) {
@@ -122,5 +122,5 @@ TEST(Counters, ShowThatABodyFarAwayTakesNoCellsOfTheSortedGridFromAPile) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -6,7 +6,7 @@
 #include "states.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 TEST(ContactCutoff, BoundsEveryPairThatThePredicateAccepts) {
   std::mt19937 random(11);
@@ -62,5 +62,5 @@ TEST(Aabb, IsNearUpToTheReachItself) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -12,7 +12,7 @@
 namespace collide::test {
 
 using namespace collide::methods;
-namespace {
+namespace THIS_FILE {
 
 DebugGeometry picture(std::string_view method, const State& state, const Settings& settings) {
   Workers workers(1);
@@ -111,5 +111,5 @@ TEST(Debug, KeepsTheFirstCellsWhereThereAreTooMany) {
   EXPECT_EQ(kept.back().index[0], static_cast<std::int64_t>(DebugGeometry::debug_cell_limit) - 1);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -14,7 +14,7 @@
 namespace collide::test {
 
 using namespace collide::oracle;
-namespace {
+namespace THIS_FILE {
 
 using Exact = std::array<mpq_class, 3>;
 
@@ -152,5 +152,5 @@ TEST(ExactPredicates, RayCrossingsSumToTheWindingNumberOfATetrahedron) {
   EXPECT_GT(level, 100);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

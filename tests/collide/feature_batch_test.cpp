@@ -14,7 +14,7 @@
 namespace collide::test {
 
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 class FeatureBatchOnTargets : public OnEveryTarget {
  protected:
@@ -61,5 +61,5 @@ TEST_P(FeatureBatchOnTargets, EqualsClosestFeaturesToTheBit) {
 
 INSTANTIATE_TEST_SUITE_P(Targets, FeatureBatchOnTargets, testing::ValuesIn(targets()), target_name);
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -8,7 +8,7 @@
 namespace collide::test {
 
 using namespace collide::methods;
-namespace {
+namespace THIS_FILE {
 
 CellHash hash_of(std::uint32_t buckets, const glm::vec3& cell = glm::vec3(1)) {
   return CellHash({.buckets = buckets, .cell_size = cell});
@@ -65,5 +65,5 @@ TEST(CellHash, ClampsWhatNoIntegerHolds) {
   EXPECT_GT((CellRange{{-limit, -limit, -limit}, {limit, limit, limit}}.count()), 0x1p182);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

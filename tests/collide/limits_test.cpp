@@ -8,7 +8,7 @@
 #include "states.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 /// 16,400 vertices in one place are more than 2^27 contacts.
 TEST(Limits, TooManyContactsAreAnErrorAndTheNextFrameIsFound) {
@@ -55,5 +55,5 @@ TEST(BodyPairs, ThrowsBeyondItsLimit) {
   EXPECT_THROW(pairs.find(boxes, 0.1f, 189), std::length_error);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -10,7 +10,7 @@
 namespace collide::test {
 
 using namespace collide::methods;
-namespace {
+namespace THIS_FILE {
 
 /// The boxes of a frame and which of them share a bucket, by the detector's own picture of them.
 class Boxes {
@@ -109,5 +109,5 @@ TEST(Literal, MissesAContactAcrossACellFace) {
   EXPECT_EQ(detect("multi-level-sb-complete", state, metre_cells()).contacts, oracle(state, metre_cells()));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -8,7 +8,7 @@
 #include "every_target.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr std::array levels{0, 1, 3, 6, 9, 15};
 constexpr std::array<std::uint32_t, 5> buckets{1, 2, 101, 1001, 65537};
@@ -144,5 +144,5 @@ TEST_P(Matrix, FindsTheSameContactsOnEveryTarget) {
 INSTANTIATE_TEST_SUITE_P(States, Matrix, testing::ValuesIn(named_states()),
                          [](const auto& state) { return state.param.name; });
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -18,7 +18,7 @@ namespace collide::test {
 
 using namespace collide::oracle;
 
-namespace {
+namespace THIS_FILE {
 
 using Kind = Query::Kind;
 
@@ -228,5 +228,5 @@ TEST(MeetingOf, TellsMeetingsFromNearMisses) {
   EXPECT_EQ(found, 4000);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

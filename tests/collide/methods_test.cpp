@@ -10,7 +10,7 @@
 #include "tests/own_process.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 TEST(MethodKeys, AreThoseOfTheCommandLine) {
   EXPECT_EQ(method_keys(),
@@ -114,5 +114,5 @@ TEST(Methods, TakeBoundedTimeForSettingsWithoutSense) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -14,7 +14,7 @@ namespace collide::test {
 
 using namespace collide::oracle;
 
-namespace {
+namespace THIS_FILE {
 
 using Kind = MovingPair::Kind;
 using Random = std::mt19937_64;
@@ -136,5 +136,5 @@ TEST(FindMeetings, GivesThemInOrderPartByPart) {
   EXPECT_GT(parts, 1u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -12,7 +12,7 @@
 namespace collide::test {
 
 using namespace collide::exact;
-namespace {
+namespace THIS_FILE {
 
 constexpr std::size_t no_limit = std::size_t{1} << 22;
 
@@ -158,5 +158,5 @@ TEST(OverlapTree, ThrowsBeyondItsLimit) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

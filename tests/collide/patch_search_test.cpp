@@ -10,7 +10,7 @@
 namespace collide::test {
 
 using namespace collide::exact;
-namespace {
+namespace THIS_FILE {
 
 /// Large and small bodies in each other, in turn. Most large ones have a rest shape with pairs that are closer than the
 /// tolerance, and are folded on themselves; some have edges that are longer than it.
@@ -113,5 +113,5 @@ TEST_F(WideTolerance, LeavesOutNoVertexWithoutAPlaceAtRest) {
   EXPECT_GT(find(std::make_shared<const Shape>(count_, ball_.edges, rest), 0.9f).contacts.size(), 1'000u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -11,7 +11,7 @@
 namespace collide::test {
 
 using namespace collide::exact;
-namespace {
+namespace THIS_FILE {
 
 constexpr float tolerance = 0.1f;
 
@@ -209,5 +209,5 @@ INSTANTIATE_TEST_SUITE_P(Threads, KeptContacts, testing::Values(1, 2, 3, 0), [](
   return threads.param == 0 ? std::string("switching") : std::to_string(threads.param);
 });
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -17,7 +17,7 @@
 namespace collide::test {
 
 using namespace collide::exact;
-namespace {
+namespace THIS_FILE {
 
 /// One deformation of a sphere of radius 1.
 std::vector<glm::vec3> deformed(std::vector<glm::vec3> points, int kind, std::mt19937& random) {
@@ -212,5 +212,5 @@ TEST(SelfCollisionCulling, TakesItsReferenceFromAFrame) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -14,7 +14,7 @@
 namespace collide::test {
 
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 constexpr float margin = 0.02f;  // m
 
@@ -165,5 +165,5 @@ TEST(SelfNeighbours, AreSearchedAnewForAnotherSurfaceAndAfterTooManyPairs) {
   expect_complete(body, 0.02f);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -5,7 +5,7 @@
 #include "states.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 TEST(Settings, HaveNoProblemByDefaultAndAtTheirLimits) {
   Settings settings;
@@ -90,5 +90,5 @@ TEST(AutomaticCellSize, IsAllowedAndCoversOnEveryState) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -5,7 +5,7 @@
 #include "states.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 using Edges = std::vector<std::array<Index, 2>>;
 
@@ -35,5 +35,5 @@ TEST(Shape, RefusesWhatDoesNotFit) {
   EXPECT_EQ(Shape(0, Edges{}).vertex_count(), 0u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -5,7 +5,7 @@
 #include "states.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 /// Spheres of 1 m radius and 162 vertices with the given centres.
 State spheres(const std::vector<glm::vec3>& centres) {
@@ -91,5 +91,5 @@ TEST(Skipped, NamesThePairThatIsKeptOnceBodiesRest) {
   EXPECT_EQ(result.counters.pair_tests, 0u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

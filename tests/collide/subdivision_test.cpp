@@ -10,7 +10,7 @@
 namespace collide::test {
 
 using namespace collide::methods;
-namespace {
+namespace THIS_FILE {
 
 std::vector<SubdividedBox> boxes_of(const State& state, int levels, Points* points = nullptr) {
   Workers workers(2, 0);
@@ -78,5 +78,5 @@ TEST(Subdivision, IsTheRecursionOfMidpoints) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

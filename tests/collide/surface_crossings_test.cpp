@@ -9,7 +9,7 @@ namespace collide::test {
 
 using namespace collide::oracle;
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 using Kind = Crossing::Kind;
 
@@ -76,5 +76,5 @@ TEST(FindCrossings, CountsAPassageOverTwoFramesOnce) {
   EXPECT_EQ(crossed(1, 1.5f), 0u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -15,7 +15,7 @@ namespace collide::test {
 
 using namespace collide::oracle;
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 /// Returns a heap of balls, each a little inside its neighbours. motion: m, how far each is displaced at random.
 Scene heap(float motion) {
@@ -141,5 +141,5 @@ TEST(SurfaceOracle, ThrowsIfSurfacesAndBodiesDoNotMatch) {
   EXPECT_THROW(find_crossings(one.frame(), coarse.frame(), one.surfaces, workers), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

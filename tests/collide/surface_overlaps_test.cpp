@@ -12,7 +12,7 @@ namespace collide::test {
 
 using namespace collide::oracle;
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 bool vertex_is_inside(const Overlaps& overlaps, Index vertex) {
   return std::any_of(overlaps.penetrations.begin(), overlaps.penetrations.end(),
@@ -222,5 +222,5 @@ TEST(FindOverlaps, FacesWithoutAreaChangeNothing) {
   EXPECT_EQ(figures_of(Scene{point, box(glm::vec3(0), glm::vec3(4))}).penetrating_vertices, 4u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -12,7 +12,7 @@
 namespace collide::test {
 
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 using Kind = MovingFeatures::Kind;
 
@@ -236,5 +236,5 @@ TEST(SurfaceSearch, FindsAllCandidatesIfPredictionsEndAtDifferentTimes) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -11,7 +11,7 @@
 namespace collide::test {
 
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 /// Returns all candidates as numbers that can be compared.
 std::vector<std::array<float, 8>> listed(const SurfaceSearch& search) {
@@ -209,5 +209,5 @@ TEST(SurfaceSearch, MaxRelativeSpeedBoundsAllVerticesOfAPair) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -9,7 +9,7 @@
 namespace collide::test {
 
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 Surface surface_of(const SurfaceMesh& mesh) { return {static_cast<Index>(mesh.vertices.size()), mesh.triangles}; }
 
@@ -38,5 +38,5 @@ TEST(Surface, ThrowsForInvalidTriangles) {
   EXPECT_THROW(Surface(3, {{0, 1, 1}}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

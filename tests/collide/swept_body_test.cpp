@@ -12,7 +12,7 @@ namespace collide::test {
 
 using namespace collide::oracle;
 using namespace collide::surface;
-namespace {
+namespace THIS_FILE {
 
 /// Dented balls with more and more deformation. Those that stay star-shaped must not pierce themselves at any time.
 TEST(SweptBody, BodiesThatStayStarShapedDoNotPierceThemselves) {
@@ -74,5 +74,5 @@ TEST(SweptBody, TakesAnyTurnForRigidMotion) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -11,7 +11,7 @@
 namespace collide::test {
 
 using namespace collide::trees;
-namespace {
+namespace THIS_FILE {
 
 TEST(BodyTrees, AreCutAnewOnceThePatchesOfABodyHaveSpread) {
   const Ball ball = icosphere(3, 0.5f);
@@ -55,5 +55,5 @@ TEST(Octree, IsAsDeepAsFloatsCanMakeIt) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

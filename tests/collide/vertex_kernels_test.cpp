@@ -5,7 +5,7 @@
 #include "every_target.h"
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 using VertexKernels = OnEveryTarget;
 
@@ -52,5 +52,5 @@ TEST_P(VertexKernels, BoundKnowsWhatIsNotFinite) {
 
 INSTANTIATE_TEST_SUITE_P(Targets, VertexKernels, testing::ValuesIn(targets()), target_name);
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace collide::test {
-namespace {
+namespace THIS_FILE {
 
 TEST(Workers, NeedAThread) { EXPECT_THROW(Workers(0), std::invalid_argument); }
 
@@ -137,5 +137,5 @@ TEST(PartOf, CutsInOrderAndEvenly) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace collide::test

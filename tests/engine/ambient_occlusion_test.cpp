@@ -8,7 +8,7 @@
 #include <set>
 
 namespace engine::render {
-namespace {
+namespace THIS_FILE {
 
 TEST(MeanSphere, HoldsTheVerticesOfAnOctahedron) {
   const std::vector<glm::vec3> points{{3, 0, 0}, {-1, 0, 0}, {1, 2, 0}, {1, -2, 0}, {1, 0, 2}, {1, 0, -2}};
@@ -56,5 +56,5 @@ TEST(AmbientOcclusion, SweepMissesNoOccluderOfAnySize) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace engine::render

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 namespace engine {
-namespace {
+namespace THIS_FILE {
 
 constexpr glm::ivec2 size{1280, 720};
 
@@ -209,5 +209,5 @@ TEST(Camera, AzimuthStaysSmallAfterManyTurns) {
   EXPECT_LT(std::abs(camera.orbit().azimuth), 20.0f);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace engine

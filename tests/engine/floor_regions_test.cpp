@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace {
+namespace THIS_FILE {
 
 using engine::render::FloorRegions;
 
@@ -58,4 +58,4 @@ TEST(FloorRegions, OmitSpheresThatAreTooHighOrBelowTheFloor) {
   EXPECT_TRUE(regions.shadowed().empty());
 }
 
-}  // namespace
+}  // namespace THIS_FILE

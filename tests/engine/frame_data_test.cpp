@@ -7,7 +7,7 @@
 #include "tests/engine/shapes.h"
 
 namespace engine {
-namespace {
+namespace THIS_FILE {
 
 TEST(SmoothNormals, PointOutwardsOnASphere) {
   const Mesh mesh = icosahedron();
@@ -23,5 +23,5 @@ TEST(SmoothNormals, PointUpAtAVertexWithoutTriangles) {
   EXPECT_EQ(normals[0], glm::vec3(0, 1, 0));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace engine

@@ -7,7 +7,7 @@
 #include "engine/headless.h"
 
 namespace engine {
-namespace {
+namespace THIS_FILE {
 
 TEST(Framebuffer, ReadsRowsFromTheTop) {
   const HeadlessContext context;
@@ -42,5 +42,5 @@ TEST(Framebuffer, RefusesUnsupportedSizes) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace engine

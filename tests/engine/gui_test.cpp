@@ -7,7 +7,7 @@
 #include "engine/headless.h"
 
 namespace engine {
-namespace {
+namespace THIS_FILE {
 
 /// Runs one frame with a button at a known place. Returns true if the button was clicked.
 bool frame_with_button(Gui& gui, const GuiInput& input) {
@@ -74,5 +74,5 @@ TEST(Gui, ScaleAppliesToFontAndSizes) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace engine

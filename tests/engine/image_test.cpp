@@ -6,7 +6,7 @@
 #include "tests/temporary_folder.h"
 
 namespace engine {
-namespace {
+namespace THIS_FILE {
 
 Image test_picture(int width, int height) {
   Image image{width, height, {}};
@@ -33,5 +33,5 @@ TEST(EncodePng, RefusesEmptyPictures) {
   EXPECT_THROW(encode_png(Image{2, 2, {}}), ImageError);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace engine

@@ -6,7 +6,7 @@
 #include <string>
 
 namespace engine {
-namespace {
+namespace THIS_FILE {
 
 /// Writes one sign per event: a letter key as a capital, its character as a small letter, ^ for Ctrl, < for Backspace,
 /// > for Tab, a line break for Enter, # for other function keys, - for the release of any key, ( and ) for press and
@@ -133,5 +133,5 @@ TEST(InputQueue, NoEventsFollowInTheFrameAfterTab) {
   for (const char* frame : {">", "", "-Bb", "-", ""}) EXPECT_EQ(user.next_frame(), frame);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace engine

@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace engine {
-namespace {
+namespace THIS_FILE {
 
 /// Writes key presses: "A" means A, "&/1" means & with the fallback 1. Before it: C- for Ctrl, A- for Alt, S- for
 /// Shift, W- for Super. After it: + if the key repeats. Letters beyond ASCII and keys that type nothing are #.
@@ -185,5 +185,5 @@ TEST(KeyTranslator, KeysOfOneFrameKeepTheirOwnCharacters) {
             "&/1 M (/5");
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace engine

@@ -9,7 +9,7 @@
 #include "tests/temporary_folder.h"
 
 namespace engine {
-namespace {
+namespace THIS_FILE {
 
 class ProgramTest : public testing::Test {
  protected:
@@ -75,5 +75,5 @@ TEST_F(ProgramTest, LinksCorrectShaders) {
   EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace engine

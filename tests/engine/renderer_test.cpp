@@ -13,7 +13,7 @@
 #include "tests/engine/shapes.h"
 
 namespace engine {
-namespace {
+namespace THIS_FILE {
 
 constexpr glm::ivec2 size{320, 240};
 
@@ -405,5 +405,5 @@ TEST_F(RendererTest, DrawsEdgesThatBoxesShareOnce) {
   EXPECT_NE(with({box, right}), with({box}));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace engine

@@ -6,7 +6,7 @@
 #include <string>
 
 namespace engine {
-namespace {
+namespace THIS_FILE {
 namespace fs = std::filesystem;
 
 TEST(FindFolder, WorksFromAnyWorkingDirectory) {
@@ -39,5 +39,5 @@ TEST(FindFolder, ErrorNamesTheFoldersSearched) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace engine

@@ -5,7 +5,7 @@
 #include "tests/engine/shapes.h"
 
 namespace engine::render {
-namespace {
+namespace THIS_FILE {
 
 TEST(Tessellate, FactorOneKeepsTheMesh) {
   const Mesh mesh = icosahedron();
@@ -40,5 +40,5 @@ TEST(IsClosed, TellsClosedMeshesFromOpenOnes) {
   EXPECT_FALSE(is_closed({}));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace engine::render

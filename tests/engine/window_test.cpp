@@ -17,7 +17,7 @@
 #include <imgui.h>
 
 namespace engine {
-namespace {
+namespace THIS_FILE {
 
 TEST(Window, ErrorWithoutADisplaySaysWhatToDo) {
   const char* display = std::getenv("DISPLAY");
@@ -199,5 +199,5 @@ TEST_F(WindowInputTest, TwoClicksInOnePollAreADoubleClick) {
   EXPECT_TRUE(double_clicked);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace engine

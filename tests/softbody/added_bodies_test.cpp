@@ -6,7 +6,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody {
-namespace {
+namespace THIS_FILE {
 
 /// The hash after so many frames of a world whose scene brings what was added to this one.
 std::uint64_t hash_of_scene(const World& world) {
@@ -67,5 +67,5 @@ TEST(AddedBodies, LeaveWithTheirBodiesAndComeBackWithTheirSnapshot) {
   EXPECT_EQ(ids(), (std::vector{first, first + 1, first + 2}));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody

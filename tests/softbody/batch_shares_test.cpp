@@ -7,7 +7,7 @@
 #include "softbody/state/state.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 class BatchSharesTest : public testing::Test {
  protected:
@@ -80,5 +80,5 @@ TEST_F(BatchSharesTest, MeetsAtTheBarrier) {
   EXPECT_EQ(seen, (std::array{3, 3, 3}));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -16,7 +16,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// So many lanes of a field, by themselves.
 struct NarrowField {
@@ -327,5 +327,5 @@ TEST(Block, TakesNoRoomForOthers) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -15,7 +15,7 @@
 #include "tests/softbody/obj_lines.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 TEST(BodyModel, IsSharedByAllThatAreMadeOfTheSameWhileOneLives) {
   Material m = spring_ball(), renamed = m, stiffer = m;
@@ -198,5 +198,5 @@ TEST(BodyModel, RollsIfItIsNearlyClosed) {
   EXPECT_FALSE(make_body_model({.kind = "grid", .columns = 3, .rows = 3, .width = 1, .depth = 1}, {})->rolls);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -10,7 +10,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr double radius = 0.5, g = 9.81;
 constexpr std::array both{ContactSurface::vertices, ContactSurface::surfaces};
@@ -161,5 +161,5 @@ TEST(ImplicitBounce, OfTwoBodiesBySurfacesGainsNoEnergy) {
   EXPECT_GT(motion(world, 1).velocity.x, 4) << "m/s: they have met";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -17,7 +17,7 @@
 #include "tests/softbody/obj_lines.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// A ball with bumps that are concave in places.
 Mesh bumpy_ball(int subdivisions, double radius = 0.5, const glm::dvec3& centre = glm::dvec3(0.0)) {
@@ -313,5 +313,5 @@ TEST_F(FineBody, JoinsBodiesThatShowTheirOwnMesh) {
   EXPECT_EQ(world.bodies().vertex_count(), 162u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -9,7 +9,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Two bodies meet off the line of their centres, one three times as heavy.
 TEST(Collision, ConservesMomentumLosesEnergyAndThrowsBackNoFasterThanPenaltyContactAllows) {
@@ -191,5 +191,5 @@ TEST(Collision, InsideOneBodyConservesMomentumAndSpin) {
   EXPECT_GT(most, 0.01) << "its contacts act";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -10,7 +10,7 @@
 #include "softbody/mesh/mesh.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 double area(const Mesh& mesh) {
   double sum = 0;
@@ -116,5 +116,5 @@ TEST(QuadGrid, BendSpringsAreAsLongInFinerGrids) {
   EXPECT_NEAR(of_bends(coarser).second, of_bends(stated).second, 0.04 * of_bends(stated).second);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr double h = 1.0 / 1024;  // s; a power of two, so that a length over it is exact
 
@@ -64,5 +64,5 @@ TEST(ContactLaw, MixesTheMaterialsOfBothSides) {
   EXPECT_EQ(law::common_restitution(0.9, 0.2), 0.9);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

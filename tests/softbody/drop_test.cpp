@@ -10,7 +10,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr double radius = 0.5;     // of a body
 constexpr double touching = 0.01;  // the bodies keep 5 mm from solids
@@ -72,5 +72,5 @@ TEST(Drop, ShowsWhatTheCaptionsSay) {
   EXPECT_LT(stacked(world), 0.2 * radius) << "none on another";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

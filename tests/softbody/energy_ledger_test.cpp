@@ -20,7 +20,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// The energies (J) of a world, by plain loops.
 struct Sums {
@@ -285,5 +285,5 @@ TEST(EnergyWatch, FindsNothingWhereAHandTearsABallThroughItself) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -10,7 +10,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 double largest(const std::vector<glm::dvec3>& vectors) {
   double size = 0;
@@ -109,5 +109,5 @@ TEST(Equilibrium, ThatDoesNotExistIsAnErrorThatNamesTheMaterial) {
   expect_error("'balloon'", [&] { make_body_model({}, m); });
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

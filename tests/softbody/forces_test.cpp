@@ -12,7 +12,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 using Places = std::vector<glm::dvec3>;
 
@@ -164,5 +164,5 @@ TEST(Forces, AreNoStifferAndDampNoMoreThanTheirBounds) {
   });
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

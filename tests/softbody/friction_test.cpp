@@ -12,7 +12,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr double g = 9.81;
 const glm::dvec3 down(0, -g, 0);
@@ -158,5 +158,5 @@ TEST_P(SolidKernels, PushAParticleAtASpheresCentreUpAndLeaveHeldBodiesAlone) {
 
 INSTANTIATE_TEST_SUITE_P(All, SolidKernels, testing::ValuesIn(tests::targets()), tests::target_name);
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

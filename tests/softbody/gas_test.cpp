@@ -10,7 +10,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 struct Solid {
   std::vector<glm::dvec3> corners;
@@ -118,5 +118,5 @@ TEST(PressureAtEnd, IsTheRootWhateverTheGas) {
         }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

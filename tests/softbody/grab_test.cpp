@@ -13,7 +13,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody {
-namespace {
+namespace THIS_FILE {
 
 /// Returns a grab of a point of the first face of body 0 that is not its middle.
 Grab on_first_face(const World& world) {
@@ -144,5 +144,5 @@ TEST(Grab, WakesASleeperKeepsItAwakeAndFreesAHeldBody) {
   EXPECT_TRUE(world.body(0).asleep);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody

@@ -10,7 +10,7 @@
 #include "tests/softbody/implicit_rig.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Makes the end of all lanes something that no attempt comes to, makes an attempt in the lanes `tried`, and expects it
 /// to leave the other lanes alone. Returns what it has solved.
@@ -252,5 +252,5 @@ TEST(ImplicitAttempts, GoFromTheMostAccurateToTheOneThatAlwaysWorks) {
   EXPECT_EQ(open, LaneMask());
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -10,7 +10,7 @@
 #include "tests/softbody/implicit_rig.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// In each lane, sum c_i / 2 (x_i - 1)^2 + q / 4 (x_i - 1)^4, with coefficients c_i from `softest` to `stiffest` and q
 /// of the lane. Its second derivative is taken to be 1.
@@ -175,5 +175,5 @@ TEST(ContactForces, AreNotFoundWherePlanesContradictEachOther) {
   EXPECT_EQ(p.changes, Lanes(p.changes.size()));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -9,7 +9,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 RigidMotion rigid(const std::vector<Particle>& all) {
   return rigid_motion(
@@ -79,5 +79,5 @@ TEST(ImplicitSpin, LeavesASmoothSolidNoFasterThanItShould) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -11,7 +11,7 @@
 #include "tests/support/penalty_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// A batch of balls that does not stand first in the arrays, on ground that lies at a height of its own for each lane.
 struct BatchRig {
@@ -249,5 +249,5 @@ TEST(ImplicitSteps, ForgetModelsThatAreNotInUse) {
   EXPECT_EQ(advance(), before) << "found anew";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -13,7 +13,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Its mean height when at rest is worked out by nobody: explicit steps of the same model say it.
 Scene ball_above_ground(double stiffness, double height) {
@@ -279,5 +279,5 @@ TEST(Auto, StaysExplicitInAHeap) {
   EXPECT_GT(most, 300) << "a lone body on a solid would have been moved by implicit steps";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

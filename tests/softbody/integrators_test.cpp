@@ -9,7 +9,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// A ball that has been pulled longer along one axis and flies, turning.
 Scene swinging_ball(double damping_ratio) {
@@ -180,5 +180,5 @@ TEST(Integrator, XpbdIsStableHoweverStiffTheGas) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -7,7 +7,7 @@
 #include "softbody/contact/joint_solve.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Particles one above the other; the wall is below the first.
 struct Stack {
@@ -66,5 +66,5 @@ TEST(JointSolver, AddsNoEnergyWhereContactsContradictEachOther) {
   EXPECT_LT(stack.energy(), 1e-6);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -8,7 +8,7 @@
 
 #include "tests/temporary_folder.h"
 
-namespace {
+namespace THIS_FILE {
 
 using softbody::LineReader;
 
@@ -100,4 +100,4 @@ TEST(LineReader, RefusesALineThatIsTooLong) {
   EXPECT_EQ(lines.number(), 2u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE

@@ -5,7 +5,7 @@
 #include "tests/softbody/surface_rig.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 struct HeavyCase {
   const char* name;
@@ -59,5 +59,5 @@ INSTANTIATE_TEST_SUITE_P(Of, HeavyBall,
                                          HeavyCase{"ThreeHundredTimesInAWell", 300, {0.02, 1.7, 0.01}, true}),
                          [](const auto& one) { return std::string(one.param.name); });
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -9,7 +9,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 TEST(Material, HasTheFallbackOfEachKeyThatIsNotSet) {
   const Material m;
@@ -66,5 +66,5 @@ TEST(MaterialKeys, OfOneInlineTableStandTogether) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -16,7 +16,7 @@
 #include "tests/softbody/obj_lines.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// A ring of quads: closed, concave, with a hole.
 std::string torus(int around, int across) {
@@ -168,5 +168,5 @@ TEST(MeshFromFile, ErrorsNameSceneAndMesh) {
   expect_refused(", path = \"good.obj\", radius = 1", "radius");
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

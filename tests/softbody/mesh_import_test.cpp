@@ -16,7 +16,7 @@
 #include "tests/softbody/obj_lines.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 struct Read {
   Mesh mesh;
@@ -510,5 +510,5 @@ TEST(MeshImport, RefusesALargerFileUnread) {
   expect_error<MeshFileError>("large.obj: is larger than 256 MiB", [&] { import_mesh({.path = file}); });
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

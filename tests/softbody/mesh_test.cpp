@@ -11,7 +11,7 @@
 #include <set>
 
 namespace softbody {
-namespace {
+namespace THIS_FILE {
 
 TEST(Icosphere, IsAClosedSphereThatFacesOutward) {
   for (int s = 0; s <= 4; ++s) {
@@ -133,5 +133,5 @@ TEST(Volume, IsSignedAndTheSameWhereverTheMeshIs) {
                   x * 3 * 4 / 6, 1e-12);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody

@@ -8,7 +8,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Three lanes hold a body: the first two move.
 class MomentumRestorerOfABatch : public testing::Test {
@@ -73,5 +73,5 @@ TEST_F(MomentumRestorerOfABatch, LeavesAloneWhatIsPushedOrDoesNotMove) {
     for (const int lane : {1, 2}) ASSERT_EQ(v.at(i, lane), disturbed.at(i, lane));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -8,7 +8,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 struct Flight {
   std::string name, integrator;
@@ -119,5 +119,5 @@ TEST(StiffBody, FliesTheSameWhateverItsNeighboursTouch) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -8,7 +8,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 TEST(FreeFall, IsTheClosedFormOfSemiImplicitEuler) {
   Scene scene = lone_body(spring_ball(), glm::dvec3(1.5, 4, -0.5));
@@ -134,5 +134,5 @@ TEST(FarFromTheOrigin, BodiesCollideAsTheyDoNearIt) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

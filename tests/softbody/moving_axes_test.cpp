@@ -11,7 +11,7 @@
 #include "tests/softbody/implicit_rig.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Four particles in lane 2 that fly and spin as one, the same in lane 5, which has the world's axes.
 struct Flight {
@@ -194,5 +194,5 @@ TEST(ClearPlanes, LeavesNoParticleBehind) {
   EXPECT_EQ(at(m.bodies.end_x, 4, 1), at(before_x, 4, 1));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

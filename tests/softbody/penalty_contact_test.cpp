@@ -15,7 +15,7 @@
 #include "tests/support/penalty_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// One pair of stiffness 100 N/m: b rests at the origin, a lies `apart` from it.
 struct Pair {
@@ -336,5 +336,5 @@ TEST_P(PairsInLanes, GiveTheSameBits) {
 
 INSTANTIATE_TEST_SUITE_P(Targets, PairsInLanes, testing::ValuesIn(tests::targets()), tests::target_name);
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

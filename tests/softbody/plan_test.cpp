@@ -10,7 +10,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 World world_of(const std::string& toml) {
   const TemporaryFolder folder;
@@ -197,5 +197,5 @@ const Idle idle_stages[]{
 INSTANTIATE_TEST_SUITE_P(Stages, StageLeftOut, testing::ValuesIn(idle_stages),
                          [](const auto& i) { return i.param.name; });
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -18,7 +18,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 using Polygon = std::vector<glm::dvec3>;
 
@@ -222,5 +222,5 @@ TEST(Triangulate, NamesAPolygonThatItCannotCut) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -10,7 +10,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr double mass = 2, dt = 0.015;
 
@@ -103,5 +103,5 @@ TEST(Rebounds, GiveBothBodiesOppositeImpulses) {
   EXPECT_EQ(frame(0, 0), 0) << "forgotten with the body";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

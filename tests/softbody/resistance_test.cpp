@@ -10,7 +10,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// One body that wobbles, turns and moves.
 class ResistanceOfABody : public testing::Test {
@@ -125,5 +125,5 @@ TEST_F(ResistanceOfABody, ReturnsWhatItDampedOfARebound) {
   EXPECT_NEAR(motion().velocity.y, before.y, 1e-5);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -5,7 +5,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 struct Bad {
   const char* name;
@@ -136,5 +136,5 @@ TEST(SceneErrors, ListTheKnownScenesForAnUnknownKey) {
   expect_error("drop", [] { find_scene("dorp", SBCOLLIDE_SCENES); });
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -7,7 +7,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 using collide::Contact;
 
@@ -176,5 +176,5 @@ TEST(SceneMethodsTable, NamesEveryScene) {
   EXPECT_EQ(tried, scene_keys(SBCOLLIDE_SCENES));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

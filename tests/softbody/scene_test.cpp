@@ -10,7 +10,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 Scene read(const std::string& toml) {
   const TemporaryFolder folder;
@@ -294,5 +294,5 @@ TEST(MaterialPresets, RefuseUnknownNamesAndMissingFiles) {
   expect_error("none.toml", [&] { load_scene(scene, folder.path() / "none.toml"); });
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -11,7 +11,7 @@
 #include "tests/softbody/obj_lines.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Values for fields. Nearly all limits of scene files hold between 0.01 and 0.09.
 class Filler {
@@ -188,5 +188,5 @@ TEST(SavedScene, RefusesWhatNoFileCanHold) {
   expect_error("cannot be written", save);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -9,7 +9,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr int frames = 800;
 
@@ -68,5 +68,5 @@ std::vector<std::string> small_scenes() {
 
 INSTANTIATE_TEST_SUITE_P(All, Scenes, testing::ValuesIn(small_scenes()), [](const auto& scene) { return scene.param; });
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

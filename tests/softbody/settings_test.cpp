@@ -7,7 +7,7 @@
 #include "tests/support/change.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 TEST(Tolerance, ThrowsNoBodiesAboutWhenItGrowsAllOfASudden) {
   for (const double shift : {0.0, 0.002, 0.004}) {  // m: the same bodies come to lie otherwise
@@ -100,5 +100,5 @@ TEST(Settings, KeepTheRunningSceneWholeAtEachEndOfTheirSliders) {
     }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

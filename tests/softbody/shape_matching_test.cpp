@@ -14,7 +14,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// By Rodrigues' formula.
 glm::dmat3 rotation(const glm::dvec3& axis, double angle) {
@@ -89,5 +89,5 @@ TEST(ShapeMatching, IsForMeshesFromFilesUnlessTheMaterialSaysOtherwise) {
   EXPECT_FALSE(data<ShapeMatching>(*make_body_model(source, m)));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -10,7 +10,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Three bodies with speeds of their own; who touches whom is made up, so only the rule itself is tried.
 class SleepRules : public testing::Test {
@@ -169,5 +169,5 @@ TEST(Sleep, EndsOnEverySideOfABodyThatIsRemoved) {
   for (BodyId b = 0; b < near.size(); ++b) EXPECT_EQ(world.body(b).asleep, !near[b]) << b;
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

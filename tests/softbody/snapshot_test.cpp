@@ -9,7 +9,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// What a few frames led to.
 struct Course {
@@ -144,5 +144,5 @@ TEST(Snapshot, ABodyTakesItsOwnSizeBesideItsParticles) {
   EXPECT_EQ(bytes(lanes) - bytes(lanes - 1), sizeof(Body));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -5,7 +5,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Two balls of radius 0.5 over a plane at height 0, the second of which does not move. They fall at 3 m/s.
 class SolidContactOverAPlane : public testing::Test {
@@ -91,5 +91,5 @@ TEST_F(SolidContactOverAPlane, HasTheLargerRestitutionOfSolidAndMaterial) {
   EXPECT_EQ(solids.near(batch())[0].restitution, 0.75f);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -12,7 +12,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Of the points of all faces, on a grid over each, to the solids; m.
 double min_distance(const World& world) {
@@ -136,5 +136,5 @@ TEST(SolidFeature, ThrowsBackByTheSolidsRestitution) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -8,7 +8,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr double g = 9.81, thrown = 100;    // m/s^2, m/s
 const double deepest_allowed = 0.02 * 0.5;  // m, of bodies of 0.5 m
@@ -134,5 +134,5 @@ TEST_P(FastImpact, GoesNeitherInNorThroughAndDoesNotExplode) {
 
 INSTANTIATE_TEST_SUITE_P(Solids, FastImpact, testing::ValuesIn(targets), [](const auto& i) { return i.param.name; });
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

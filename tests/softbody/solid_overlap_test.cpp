@@ -13,7 +13,7 @@
 #include "tests/support/change.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr double g = 9.81;
 
@@ -210,5 +210,5 @@ TEST(SolidOverlap, DoesNotEaseABallOutThatWrapsAroundAnEdge) {
   EXPECT_GT(wrapped, 0);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -12,7 +12,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 const SolidSphere sphere{.centre = {0.25, -0.5, 1}, .radius = 0.75};
 const SolidBox box{
@@ -88,5 +88,5 @@ TEST(SolidShapes, KeepTheirThicknessAllRound) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -9,7 +9,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 Scene falling(const glm::dvec3& position, const glm::dvec3& velocity) {
   Scene scene = lone_body(gas_ball(), velocity);
@@ -170,5 +170,5 @@ TEST(SolidDepth, IsTheDeepestOfAllSolids) {
   EXPECT_EQ(solid_depth(scene, {0, 1, 0}).normal, glm::vec3(0, 1, 0)) << "the very centre: out is up";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

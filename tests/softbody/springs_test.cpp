@@ -12,7 +12,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 class LaneKernels : public tests::OnEveryTarget {
  protected:
@@ -72,5 +72,5 @@ TEST_P(LaneKernels, FindTheBoxAndTheFastestOfEachLane) {
 
 INSTANTIATE_TEST_SUITE_P(All, LaneKernels, testing::ValuesIn(tests::targets()), tests::target_name);
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -9,7 +9,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Largest |x| of the second half of a long run over that of its first steps: semi-implicit Euler with the
 /// stiffness 2 k_m and the damping 2 c_m that stable_step() allows for.
@@ -123,5 +123,5 @@ TEST(StiffnessBound, HoldsACrumpledBody) {
     }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

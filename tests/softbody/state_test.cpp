@@ -7,7 +7,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Two balls more of one model than a batch has lanes, and one of another; each has a velocity of its own.
 class StateOfTwoModels : public testing::Test {
@@ -107,5 +107,5 @@ TEST_F(StateOfTwoModels, IsRestoredToTheBit) {
   EXPECT_EQ(state.body(state.body_count() - 1).number, lanes + 3u);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -7,7 +7,7 @@
 #include <set>
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr double frame = 1.0 / 60;  // s
 constexpr FrameConditions ball{.seconds = frame, .particles = 1000, .moving = 1000};
@@ -269,5 +269,5 @@ TEST(MaxCandidates, AreMoreInLargerWorldsUpToALimit) {
   EXPECT_EQ(max.of(4'000'000), std::size_t{1} << 25);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

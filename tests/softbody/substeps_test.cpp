@@ -7,7 +7,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 TEST(StepBounds, AreOfTheBodyThatNeedsMost) {
   const auto model = make_body_model({}, gas_ball());
@@ -146,5 +146,5 @@ TEST(StepController, KeepsOtherBodiesStableWhereOneNeedsTooMany) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -8,7 +8,7 @@
 #include <set>
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 struct Ball {
   glm::vec3 position, velocity{0.0f};  // m, m/s
@@ -80,5 +80,5 @@ TEST_F(CandidatesOfBalls, AreMovedApartAsAWholeWhereTheyAreInOnePlace) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -13,7 +13,7 @@
 #include "tests/support/world_test_access.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Two balls that meet off their centres.
 Scene glancing(double friction) {
@@ -325,5 +325,5 @@ TEST(SurfaceContact, KeepsBodiesAwakeThatLieInEachOther) {
   EXPECT_TRUE(world.body(0).asleep && world.body(1).asleep);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

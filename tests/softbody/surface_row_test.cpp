@@ -10,7 +10,7 @@
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 struct Impact {
   float gap = 0.01f;  // m, beyond the distance that is kept
@@ -178,5 +178,5 @@ TEST(SurfaceContactRow, GivesNoMomentumInAll) {
   EXPECT_LT(glm::length(rough.given().second), 2 * double(OneRow::reach) * 0.5 * 5 * effective * 1.001);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

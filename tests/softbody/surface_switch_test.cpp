@@ -7,7 +7,7 @@
 #include "tests/support/change.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// Four balls that meet in mid-air.
 Scene crowd() {
@@ -52,5 +52,5 @@ TEST(SurfaceContact, LeavesVertexContactAsItIs) {
   EXPECT_EQ(hash(true), hash(false));
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

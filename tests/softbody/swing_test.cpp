@@ -12,7 +12,7 @@
 #include "tests/support/change.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 /// In balance at a pressure a little above that around it, and nearly undamped.
 Material swinging_ball(double stiffness, double damping_ratio) {
@@ -107,5 +107,5 @@ TEST(Snapshot, RestoresTheRateThatSubstepsKeep) {
   EXPECT_EQ(world.state_hash(), hash);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -11,7 +11,7 @@
 #include "tests/softbody/surface_rig.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 constexpr double g = 9.81;
 
@@ -110,5 +110,5 @@ TEST(ThinSolidAlone, MovesNothingThatIsBesideIt) {
   }
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test

@@ -10,7 +10,7 @@
 #include "tests/support/change.h"
 
 namespace softbody {
-namespace {
+namespace THIS_FILE {
 
 /// `number` bodies of the drop scene's material, in layers of four above the ground.
 Scene pile(int number) {
@@ -395,5 +395,5 @@ TEST(Drop, RefusesMoreParticlesThanAMachineHolds) {
   EXPECT_EQ(world.bodies().count(), before + 1);
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody

@@ -10,7 +10,7 @@
 #include "tests/support/change.h"
 
 namespace softbody::test {
-namespace {
+namespace THIS_FILE {
 
 TEST(World, AddsAndReleasesBodiesAtTheirFrames) {
   Scene scene = lone_body(spring_ball());
@@ -111,5 +111,5 @@ TEST(World, PutsParticlesWhereItIsTold) {
   EXPECT_NEAR(world.positions().x[world.bodies().first[1]], told[0].position.x, 1e-4) << "detectors see them there";
 }
 
-}  // namespace
+}  // namespace THIS_FILE
 }  // namespace softbody::test
