@@ -126,7 +126,7 @@ start
 xdotool mousemove 150 "$field"; sleep 0.3
 xdotool click 1 type --delay 20 mesh.obj
 xdotool key Return
-sleep 1
+sleep 3  # a slow machine loads it meanwhile
 click 150 "$save"  # the field of the scene to save
 keys ctrl+a
 xdotool type --delay 300 kept.toml

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "app/base/usage_error.h"
 #include "app/files/inputs.h"
 #include "tests/cli/process.h"

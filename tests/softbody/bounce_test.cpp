@@ -137,19 +137,6 @@ TEST(Bounce, OfTwoBodiesKeepsTheirMomentumAndNearlySwapsTheirVelocities) {
   }
 }
 
-/// Contact stops a part of what the pressure was found for. Unless it is found again, heavy balls press too far into
-/// each other, and less comes back: 3.02 m/s.
-TEST(ImexBounce, OfHeavyBallsWithGasFindsThePressureAgain) {
-  Material heavy = gas_ball();
-  heavy[Material::mass] = 30;
-  Scene scene = lone_body(heavy, {2, 0, 0});
-  add_body(scene, {1.1, 0, 0}, {-2, 0, 0});
-  scene.contact_surface = ContactSurface::surfaces;
-  World world(std::move(scene), {.integrator = {"imex-euler", 64}});
-  run(world, 60);
-  EXPECT_GT(motion(world, 1).velocity.x - motion(world, 0).velocity.x, 3.1) << "m/s; they come together with 4";
-}
-
 /// Contact of surfaces acts after an implicit step, which must not press gas and springs together meanwhile.
 TEST(ImplicitBounce, OfTwoBodiesBySurfacesGainsNoEnergy) {
   Scene scene = lone_body(gas_ball(), {8, 0, 0});
