@@ -23,28 +23,24 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Returns how many springs at most join any two particles: twice as many as join one particle and the farthest.
 /// Returns nothing if springs do not join all particles.
-std::optional<int> longest_chain(const softbody::BodyModel& body) {
-  const int none = static_cast<int>(body.mesh.vertices.size());  // more than any chain has
-  std::vector<int> distance(body.mesh.vertices.size(), none);
+std::optional<int> longest_chain(const softbody::BodyModel& model) {
+  std::vector<std::vector<softbody::Index>> next(model.mesh.vertices.size());
+  for (const softbody::Spring& s : softbody::springs<softbody::StructuralSprings>(model))
+    next[s.i].push_back(s.j), next[s.j].push_back(s.i);
+  std::vector<int> distance(next.size(), -1);
+  std::vector<softbody::Index> reached{0};  // from the nearest to the farthest
   distance[0] = 0;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const softbody::Spring& s : softbody::springs<softbody::StructuralSprings>(body)) {
-      int &i = distance[s.i], &j = distance[s.j];
-      changed = changed || std::abs(i - j) > 1;
-      i = std::min(i, j + 1);
-      j = std::min(j, i + 1);
-    }
-  }
-  const int max = std::ranges::max(distance);
-  return max == none ? std::nullopt : std::optional(2 * max);
+  for (std::size_t k = 0; k < reached.size(); ++k)
+    for (const softbody::Index j : next[reached[k]])
+      if (distance[j] < 0) distance[j] = distance[reached[k]] + 1, reached.push_back(j);
+  return reached.size() < next.size() ? std::nullopt : std::optional(2 * distance[reached.back()]);
 }
 
-StabilityStart::SpringChain spring_chain_of(const softbody::BodyModel& body) {
-  const auto chain = longest_chain(body);
+StabilityStart::SpringChain spring_chain_of(const softbody::BodyModel& model) {
+  const auto chain = longest_chain(model);
   if (!chain) return {infinite, infinite};
   double longest = 0, softest = infinite;
-  for (const softbody::Spring& s : softbody::springs<softbody::StructuralSprings>(body))
+  for (const softbody::Spring& s : softbody::springs<softbody::StructuralSprings>(model))
     longest = std::max(longest, s.rest), softest = std::min(softest, s.stiffness);
   return {*chain * longest, softest / *chain};
 }
