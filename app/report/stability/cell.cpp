@@ -56,7 +56,7 @@ class Run {
     passages_.observe(world);
     count_excess(world);
     const softbody::Measures m = softbody::measure(world);
-    const double weight = sum_of(present(), &StabilityStart::Member::weight);
+    const double weight = sum_of(present(), &StabilityStart::Member::weight);  // J
     reference::StabilitySample s{.time = time_,
                                  .frame = frame_,
                                  .finite = m.finite,
@@ -82,6 +82,7 @@ class Run {
   }
 
   void add_reach(const World& world, reference::StabilitySample& s) {
+    assert(bodies_ > 0);
     // J, for all but gravity and gas
     double available = available_ + reference::stability_bounds.energy * s.scale;
     double gas = 0;
@@ -95,8 +96,8 @@ class Run {
     }
     const double min_energy = 1e-9 * s.scale;  // what has flown away has lost all to gravity
     const auto particle_mass = [](const StabilityStart::Member& m) { return m.model->particle_mass; };
-    const double balance = sum_of(present(), &StabilityStart::Member::balance),
-                 lightest = particle_mass(std::ranges::min(present(), {}, particle_mass));
+    const double balance = sum_of(present(), &StabilityStart::Member::balance);             // J
+    const double lightest = particle_mass(std::ranges::min(present(), {}, particle_mass));  // kg
     s.reachable_speed = std::sqrt(2 * std::max(available - balance, min_energy) / lightest);
     s.reachable_extent = 1;
     for (std::size_t b = 0; b < extents.size(); ++b) {
