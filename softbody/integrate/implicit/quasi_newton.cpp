@@ -95,7 +95,7 @@ void QuasiNewton::apply_matrix(const ImplicitProblem& p, Lanes& q) {
   }
   kernels_.turn(particles_, rotation_, true, field(q));
   kernels_.substitute(p.matrix.factor(), q.data(), scratch_.data());
-  // Four operations an unknown, where the substitution takes hundreds for its n log n entries: this needs no kernel.
+  // Four operations an unknown, where the substitution takes 100 to 400 (n log n entries in all): no kernel is needed.
   const std::vector<double>&gas = p.matrix.gas(), &response = p.matrix.gas_response();
   assert(gas.size() == response.size());
   PerLane along{};
