@@ -18,7 +18,7 @@ struct SequenceTask {
   std::vector<std::string> files;              // by frame
   std::vector<files::SequenceFrame> frames{};  // all with the same bodies
   collide::Settings settings{};
-  double tolerance = 0;  // m, as typed
+  double tolerance = 0;  // m, as typed: texts show it, since the float of the settings has other digits
   int threads = 1;
   int repeat = 1;                    // runs over the whole sequence, each with a new detector
   bool reuse = true;                 // a detector may use data of earlier frames

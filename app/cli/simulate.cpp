@@ -30,6 +30,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// The figures of one frame.
+struct FrameRow {
+  int frame;
+  softbody::StepReport step;
+  std::uint64_t bodies, self, solid;  // contacts
+  softbody::Measures measures;
+  std::optional<collide::oracle::SurfaceFigures> oracle{};  // on request
+};
+
 Json to_json(const collide::oracle::SurfaceFigures& f) {
   return {{"penetrating_vertices", f.penetrating_vertices},
           {"overlapping_pairs", f.overlapping_pairs},
@@ -40,29 +49,25 @@ Json to_json(const collide::oracle::SurfaceFigures& f) {
           {"edge_crossings", f.edge_crossings}};
 }
 
-/// Returns the figures of the frame at which the world is.
-Json frame_json(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
-  const softbody::StepReport& step = world.last_step();
-  const softbody::Measures m = softbody::measure(world, bodies);
-  const collide::Result& found = world.detection();
+Json to_json(const FrameRow& r) {
+  const softbody::Measures& m = r.measures;
   const auto ratio = [&](double value) { return m.has_volume ? Json(value) : Json(nullptr); };
-  return {{"frame", world.frame()},
-          {"time", step.time},
-          {"ms", {{"detect", step.detect_ms}, {"solve", step.solve_ms}, {"total", step.total_ms}}},
-          {"contacts",
-           {{"bodies", found.contacts.size() - found.self_contacts},
-            {"self", found.self_contacts},
-            {"solid", softbody::solid_contacts(world).size()}}},
-          {"energy", m.energy},
-          {"energies",
-           {{"kinetic", m.energies.kinetic},
-            {"elastic", m.energies.elastic},
-            {"gas", m.energies.gas},
-            {"gravity", m.energies.gravity}}},
-          {"volume_ratio", {{"min", ratio(m.volume_ratio_min)}, {"max", ratio(m.volume_ratio_max)}}},
-          {"deepest_penetration", m.deepest_penetration},
-          {"max_speed", m.max_speed},
-          {"finite", m.finite}};
+  Json row{{"frame", r.frame},
+           {"time", r.step.time},
+           {"ms", {{"detect", r.step.detect_ms}, {"solve", r.step.solve_ms}, {"total", r.step.total_ms}}},
+           {"contacts", {{"bodies", r.bodies}, {"self", r.self}, {"solid", r.solid}}},
+           {"energy", m.energy},
+           {"energies",
+            {{"kinetic", m.energies.kinetic},
+             {"elastic", m.energies.elastic},
+             {"gas", m.energies.gas},
+             {"gravity", m.energies.gravity}}},
+           {"volume_ratio", {{"min", ratio(m.volume_ratio_min)}, {"max", ratio(m.volume_ratio_max)}}},
+           {"deepest_penetration", m.deepest_penetration},
+           {"max_speed", m.max_speed},
+           {"finite", m.finite}};
+  if (r.oracle) row["oracle"] = to_json(*r.oracle);
+  return row;
 }
 
 Json to_json(const std::vector<softbody::Stage>& stages) {
@@ -100,7 +105,8 @@ std::vector<std::string> world_warnings(const softbody::World& world) {
 
 /// Returns the document of a world after its last frame, with these warnings and frames; without frames, its other
 /// fields.
-Json document_json(const softbody::World& world, const std::vector<std::string>& warnings, Json frames) {
+Json document_json(const softbody::World& world, const std::vector<std::string>& warnings,
+                   const std::vector<FrameRow>& frames) {
   Json document{
       {"scene", world.scene().key},
       {"method", world.method().key},
@@ -110,7 +116,7 @@ Json document_json(const softbody::World& world, const std::vector<std::string>&
         {"why", world.last_step().why}}},
       {"plan", plan_json(world)},
       {"warnings", warnings}};
-  if (!frames.empty()) document["frames"] = std::move(frames);
+  for (const FrameRow& r : frames) document["frames"].push_back(to_json(r));
   document["state_hash"] = hex(world.state_hash());
   return document;
 }
@@ -121,23 +127,21 @@ void print_line(const Json& object) {
   flush_standard_output();
 }
 
-void print_table(const softbody::World& world, const std::vector<std::string>& warnings, const Json& frames) {
+void print_table(const softbody::World& world, const std::vector<std::string>& warnings,
+                 const std::vector<FrameRow>& rows) {
   std::cout << fmt::format("{}, {}, bodies: {}, vertices: {}; contacts between bodies, inside one, with solids\n",
                            world.scene().name, world.method().name, world.bodies().count(),
                            world.bodies().vertex_count());
   for (const std::string& warning : warnings) std::cout << "note: " << warning << '\n';
   std::cout
       << "  frame  detect ms  solve ms  between  inside   solid     energy J   V min   V max    deepest m  speed m/s\n";
-  const auto number = [](const Json& figure) { return figure.get<double>(); };
-  const auto ratio = [&](const Json& figure) { return figure.is_null() ? "-" : fmt::format("{:.3f}", number(figure)); };
-  for (const Json& f : frames) {
-    const Json &ms = f["ms"], &contacts = f["contacts"], &volume = f["volume_ratio"];
+  for (const FrameRow& r : rows) {
+    const softbody::Measures& m = r.measures;
+    const auto ratio = [&](double value) { return m.has_volume ? fmt::format("{:.3f}", value) : "-"; };
     std::cout << fmt::format("{:7} {:10.3f} {:9.3f} {:8} {:7} {:7} {:>12.4f} {:>7} {:>7} {:>12.2e} {:>10.4f}{}\n",
-                             f["frame"].get<int>(), number(ms["detect"]), number(ms["solve"]),
-                             contacts["bodies"].get<std::uint64_t>(), contacts["self"].get<std::uint64_t>(),
-                             contacts["solid"].get<std::uint64_t>(), number(f["energy"]), ratio(volume["min"]),
-                             ratio(volume["max"]), number(f["deepest_penetration"]), number(f["max_speed"]),
-                             f["finite"].get<bool>() ? "" : "  NOT FINITE");
+                             r.frame, r.step.detect_ms, r.step.solve_ms, r.bodies, r.self, r.solid, m.energy,
+                             ratio(m.volume_ratio_min), ratio(m.volume_ratio_max), m.deepest_penetration, m.max_speed,
+                             m.finite ? "" : "  NOT FINITE");
   }
   std::cout << "integrator: " << world.last_step().integrator->name;
   if (const auto why = world.last_step().why; !why.empty()) std::cout << ", for " << why;
@@ -305,7 +309,7 @@ void simulate(const Options& options) {
   if (options.oracle) oracle.crossings(world);  // keeps the start positions of the first frame
   // A table has about twenty lines for any number of frames.
   const int stride = options.json || options.json_lines ? 1 : std::max(1, options.frames / 20);
-  Json frames = Json::array();
+  std::vector<FrameRow> rows;
   compare::BlowUpMonitor monitor;
   std::optional<compare::BlowUp> blow_up = monitor.check(world, softbody::measure_bodies(world));
   while (world.frame() < options.frames) {
@@ -316,14 +320,20 @@ void simulate(const Options& options) {
     if (!blow_up && (blow_up = monitor.check(world, bodies)))
       warn(warnings, fmt::format("frame {}: {}; see --integrator and --substeps", blow_up->frame, blow_up->what));
     if (world.frame() % stride == 0 || world.frame() == options.frames) {
-      Json frame = frame_json(world, bodies);
+      const collide::Result& found = world.detection();
+      FrameRow row{.frame = world.frame(),
+                   .step = world.last_step(),
+                   .bodies = found.contacts.size() - found.self_contacts,
+                   .self = found.self_contacts,
+                   .solid = softbody::solid_contacts(world).size(),
+                   .measures = softbody::measure(world, bodies)};
       if (options.oracle)
-        frame["oracle"] = to_json(
-            collide::oracle::figures_of(world.simulated().positions, oracle.overlaps(world), oracle.crossings(world)));
+        row.oracle =
+            collide::oracle::figures_of(world.simulated().positions, oracle.overlaps(world), oracle.crossings(world));
       if (options.json_lines)
-        print_line(frame);
+        print_line(to_json(row));
       else
-        frames.push_back(std::move(frame));
+        rows.push_back(std::move(row));
     }
     if (progress && world.frame() % 10 == 0)
       show_progress(fmt::format("frame {} of {}", world.frame(), options.frames));
@@ -331,8 +341,8 @@ void simulate(const Options& options) {
   pictures.finish();
   if (progress) clear_progress();
   std::ranges::copy(world_warnings(world), std::back_inserter(warnings));
-  if (!options.json_lines && !options.json) return print_table(world, warnings, frames);
-  print_line(document_json(world, warnings, std::move(frames)));
+  if (!options.json_lines && !options.json) return print_table(world, warnings, rows);
+  print_line(document_json(world, warnings, rows));
 }
 
 }  // namespace app::cli

@@ -171,7 +171,12 @@ void SceneView::draw(const softbody::BodiesInMotion& world, const OverlayRequest
   frame_.bounds_radius = enclosing_radius(around.centre, around.radius, positions_);
 
   const float pixels = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
-  add_overlays({world, overlays, camera.eye(), pixels / pixel_scale, std::span(positions_).first(vertices), particles_},
+  add_overlays({.world = world,
+                .request = overlays,
+                .eye = camera.eye(),
+                .pixels_at_one_metre = pixels / pixel_scale,
+                .shown = std::span(positions_).first(vertices),
+                .simulated = particles_},
                frame_);
   if (overlays.highlight) {
     std::ranges::copy(overlays.highlight->boxes, std::back_inserter(frame_.boxes));

@@ -43,13 +43,13 @@ bool SolidPassages::passed(const softbody::World& world, const glm::dvec3& from,
 bool SolidPassages::observe(const softbody::World& world) {
   bool finite = true;
   for (collide::Index b = 0; b < world.bodies().count(); ++b) {
-    const softbody::BodyModel& body = world.model(b);
+    const softbody::BodyModel& model = world.model(b);
     const glm::dvec3 to = middle_of(world, b);
     if (b == outside_.size()) outside_.push_back(to);
     const bool known = std::isfinite(glm::distance(outside_[b], to));
     finite = finite && known;
-    if (!body.mesh.closed || !known || softbody::solid_depth(world.scene(), to).depth > 0) continue;
-    count_ += passed(world, outside_[b], to, body.radius);
+    if (!model.mesh.closed || !known || softbody::solid_depth(world.scene(), to).depth > 0) continue;
+    count_ += passed(world, outside_[b], to, model.radius);
     outside_[b] = to;
   }
   return finite;

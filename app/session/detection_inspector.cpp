@@ -1,5 +1,7 @@
 #include "app/session/detection_inspector.h"
 
+#include <cassert>
+
 #include "app/session/window_work.h"
 #include "collide/methods.h"
 
@@ -41,6 +43,20 @@ const compare::TableContents& DetectionInspector::table() const {
     table_ = {simulation_.revision(),
               compare::TableContents(shown_geometry(), world().positions(), world().collision())};
   return table_.value;
+}
+
+const std::vector<collide::BucketLoad>& DetectionInspector::fullest_buckets(std::uint32_t run) const {
+  const collide::DebugGeometry& table = shown_geometry();
+  assert(table.buckets > 0);
+  if (fullest_.revision == simulation_.revision() && fullest_of_ == run) return fullest_.value;
+  fullest_ = {simulation_.revision(), std::vector<collide::BucketLoad>((table.buckets - 1) / run + 1)};
+  fullest_of_ = run;
+  for (std::uint32_t i = 0; i < fullest_.value.size(); ++i) fullest_.value[i] = {.bucket = i * run, .load = 0};
+  for (const collide::BucketLoad& entry : table.loads) {
+    collide::BucketLoad& of_run = fullest_.value[entry.bucket / run];
+    if (entry.load > of_run.load || (entry.load == of_run.load && entry.bucket < of_run.bucket)) of_run = entry;
+  }
+  return fullest_.value;
 }
 
 void DetectionInspector::select_bucket(std::optional<std::uint32_t> bucket) {

@@ -19,6 +19,8 @@ class DetectionInspector {
   /// be worked out for each picture.
   const collide::DebugGeometry& paper_geometry() const;
   const compare::TableContents& table() const;
+  /// Returns the fullest bucket of every `run` buckets of the table, which must be known; the first one of equals.
+  const std::vector<collide::BucketLoad>& fullest_buckets(std::uint32_t run) const;
 
   /// Returns the bucket whose boxes the scene shows. It is below the number of buckets, since the Session selects it
   /// again when this number changes.
@@ -51,6 +53,8 @@ class DetectionInspector {
   std::optional<compare::Cell> selected_cell_;
   mutable Cached<collide::DebugGeometry> shown_, paper_;
   mutable Cached<compare::TableContents> table_;
+  mutable Cached<std::vector<collide::BucketLoad>> fullest_;
+  mutable std::uint32_t fullest_of_ = 0;  // buckets each
   mutable Cached<compare::BucketContents> bucket_;
   mutable Cached<std::vector<softbody::SurfaceContactPoint>> surface_contacts_;
 };

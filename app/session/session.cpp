@@ -94,19 +94,14 @@ void Session::replaced(bool new_scene) {
 void Session::choose_ghost(const std::optional<softbody::IntegratorChoice>& choice) {
   assert(simulated());
   simulation.notice.clear();
-  try {
-    ghost_.choose(*simulated(), choice, simulation.threads());
-  } catch (const std::exception& error) {
-    simulation.notice.set(error.what());
-  }
+  lead_ghost([&] { ghost_.choose(*simulated(), choice, simulation.threads()); });
 }
 
-/// Ends the ghost, with a notice, if `action` throws.
+/// Carries out an action on the ghost. If it throws, a notice says why.
 void Session::lead_ghost(const std::function<void()>& action) {
   try {
     action();
   } catch (const std::exception& error) {
-    ghost_.end();
     simulation.notice.set(error.what());
   }
 }

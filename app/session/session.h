@@ -56,10 +56,11 @@ class Session : private SimulationObserver {
   /// Returns true if those who look at the world may have an answer soon, though it stands still.
   bool awaits_answer() const;
 
-  /// A second world that goes on from the present state by another integrator. It begins anew whenever hands or
-  /// settings change the one that is shown, which must be simulated. Nothing: there is none.
+  /// Begins a second world that goes on from the present state by another integrator, or ends it (nothing). It begins
+  /// anew whenever hands or settings change the world that is shown, which must be simulated.
   void choose_ghost(const std::optional<softbody::IntegratorChoice>& choice);
   const Ghost& ghost() const { return ghost_; }
+  /// Returns the latest sweep.
   const SweepState& sweep() const { return sweep_worker.state(); }
 
  private:

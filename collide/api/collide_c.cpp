@@ -88,10 +88,12 @@ sbcollide_status sbcollide_finder_add_body(sbcollide_finder* finder, uint32_t ve
                                            size_t triangle_count, const uint32_t* edges, size_t edge_count,
                                            const float* rest) {
   return guarded(finder, [&] {
+    const auto faces = sbcollide::groups_at<3>(triangles, triangle_count, "triangles");
+    const auto sides = sbcollide::groups_at<2>(edges, edge_count, "edges");
     const sbcollide::BodyMesh mesh{
         .vertices = vertices,
-        .triangles = sbcollide::groups_at<3>(triangles, triangle_count, "triangles"),
-        .edges = sbcollide::groups_at<2>(edges, edge_count, "edges"),
+        .triangles = faces,
+        .edges = sides,
         .rest = {rest, rest ? 3 * std::size_t{vertices} : std::size_t{0}},
     };
     finder->found = {};

@@ -5,9 +5,9 @@
 #include <array>
 #include <exception>
 #include <new>
-#include <span>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "collide/api/sbcollide/collide_c.h"
 #include "collide/api/sbcollide/contact.h"
@@ -52,12 +52,13 @@ inline void require_pointer(const void* given, std::size_t count, const char* na
   if (!given && count > 0) throw Error(std::string(name) + ": is NULL");
 }
 
-/// Returns the `count` groups of N numbers that begin at `first`. Throws Error if `first` is no pointer.
+/// Copies the `count` groups of N numbers that begin at `first`. Throws Error if `first` is no pointer.
 template <std::size_t N>
-std::span<const std::array<Index, N>> groups_at(const std::uint32_t* first, std::size_t count, const char* name) {
+std::vector<std::array<Index, N>> groups_at(const std::uint32_t* first, std::size_t count, const char* name) {
   require_pointer(first, count, name);
-  static_assert(sizeof(std::array<Index, N>) == N * sizeof(Index));
-  return {reinterpret_cast<const std::array<Index, N>*>(first), count};
+  std::vector<std::array<Index, N>> groups(count);
+  for (std::size_t i = 0; i < N * count; ++i) groups[i / N][i % N] = first[i];
+  return groups;
 }
 
 /// Makes an object of the C interface. Returns nullptr if there is no memory for it.

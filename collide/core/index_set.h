@@ -26,6 +26,7 @@ class IndexSet {
     used_[word / word_size] |= Word{1} << word % word_size;
   }
 
+  /// Adds one number.
   void add(Index number) { add(number / word_size, Word{1} << number % word_size); }
 
   /// Empties the set and calls take(run) for every maximal run of consecutive members; ascending. Precondition: no

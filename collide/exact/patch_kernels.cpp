@@ -35,11 +35,12 @@ HWY_INLINE M is_excluded(const Box& a, const Box& b, V limit) {
 }
 
 using Coordinates = std::array<std::vector<float>, 3>;
-/// Returns the box of one patch in all lanes, and the boxes of a block of patches.
+/// Returns the box of one patch, in every lane.
 HWY_INLINE Box box_of(const Coordinates& lo, const Coordinates& hi, Index patch) {
   return {Interval{all(lo[0][patch]), all(hi[0][patch])}, Interval{all(lo[1][patch]), all(hi[1][patch])},
           Interval{all(lo[2][patch]), all(hi[2][patch])}};
 }
+/// Returns the boxes of the patches from `patch` on, one in each lane.
 HWY_INLINE Box boxes_from(const Coordinates& lo, const Coordinates& hi, Index patch) {
   return {Interval{load(&lo[0][patch]), load(&hi[0][patch])}, Interval{load(&lo[1][patch]), load(&hi[1][patch])},
           Interval{load(&lo[2][patch]), load(&hi[2][patch])}};

@@ -9,11 +9,15 @@
 
 namespace collide::surface {
 
-/// Returns the vertices of a vertex of surface `a` and a face of surface `b` (ones: 1), or of an edge of each (2).
-template <std::size_t ones>
+enum class PairKind { vertex_face, edge_edge };
+
+/// Returns how many of the four corners of a pair are those of its first feature.
+constexpr std::size_t corners_of_first(PairKind kind) { return kind == PairKind::vertex_face ? 1 : 2; }
+
+/// Returns the corners of a vertex of surface `a` and a face of surface `b`, or of an edge of each.
+template <PairKind kind>
 std::array<Index, 4> corners_of(const Surface& a, Index feature_a, const Surface& b, Index feature_b) {
-  static_assert(ones == 1 || ones == 2);
-  if constexpr (ones == 1) {
+  if constexpr (kind == PairKind::vertex_face) {
     const Triangle& face = b.triangles()[feature_b];
     return {feature_a, face[0], face[1], face[2]};
   } else {
@@ -42,10 +46,12 @@ class FeatureBatch {
   /// Find the closest points of all pairs, as vertices and faces or as edges.
   void find_closest_vertex_faces();
   void find_closest_edges();
-  /// ones: how many corners belong to the first feature of each pair: 1 of a vertex and a face, 2 of edges.
-  template <std::size_t ones>
+  template <PairKind kind>
   void find_closest() {
-    ones == 1 ? find_closest_vertex_faces() : find_closest_edges();
+    if constexpr (kind == PairKind::vertex_face)
+      find_closest_vertex_faces();
+    else
+      find_closest_edges();
   }
 
   Index tag(Index i) const { return tag_[i]; }

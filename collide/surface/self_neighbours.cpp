@@ -25,8 +25,9 @@ float largest(const std::array<Index, n>& corners, std::span<const float> values
   return most;
 }
 
-/// Grows the boxes of the features that a list holds by their rooms.
-void grow(BoxList& boxes, const float* rooms) {
+/// Grows the boxes of the features that a list holds by their rooms; there may be more rooms.
+void grow(BoxList& boxes, std::span<const float> rooms) {
+  assert(boxes.size <= rooms.size());
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (Index k = 0; k < boxes.size; ++k) {
       boxes.lo[axis][k] -= rooms[k];
@@ -167,19 +168,19 @@ void SelfNeighbours::divide_features(const std::vector<std::array<Index, n>>& fe
   for (Index v = 0; v < reference_.size(); ++v) s.vertices.add({reference_[v], reference_[v]}, v);
   s.vertices.end();
   join(s.vertices, features, s.features);
-  grow(s.vertices, room_.data());
-  grow(s.features, room_.data() + first);
+  grow(s.vertices, room_);
+  grow(s.features, std::span(room_).subspan(first));
   const auto vertex_strays = [&](Index v) { return strayed_[v] != 0; };
   const auto feature_strays = [&](Index i) { return strays(features[i]); };
   divide(s.vertices, vertex_strays, s.strayed_vertices, s.calm_vertices);
   divide(s.features, feature_strays, s.strayed, s.calm);
 }
 
-/// Replaces the pairs of what strays by those found that are near each other in the reference shape. ones: see
-/// corners_of().
-template <std::size_t ones>
-void SelfNeighbours::keep_near(List& list, Scratch& s) const {
-  const auto corners = [&](const auto& pair) { return corners_of<ones>(*surface_, pair.a, *surface_, pair.b); };
+/// Replaces the pairs of what strays by those found that are near each other in the reference shape.
+template <PairKind kind>
+void SelfNeighbours::keep_near(List& list, Scratch& s) {
+  constexpr auto ones = static_cast<std::ptrdiff_t>(corners_of_first(kind));
+  const auto corners = [&](const auto& pair) { return corners_of<kind>(*surface_, pair.a, *surface_, pair.b); };
   const auto share_vertex = [](const std::array<Index, 4>& c) {
     return std::find_first_of(c.begin(), c.begin() + ones, c.begin() + ones, c.end()) != c.begin() + ones;
   };
@@ -191,7 +192,7 @@ void SelfNeighbours::keep_near(List& list, Scratch& s) const {
       if (share_vertex(c)) continue;
       s.batch.add({reference_[c[0]], reference_[c[1]], reference_[c[2]], reference_[c[3]]}, static_cast<Index>(i));
     }
-    s.batch.find_closest<ones>();
+    s.batch.find_closest<kind>();
     for (Index k = 0; k < s.batch.size(); ++k) {
       const ItemPair& f = s.found[s.batch.tag(k)];
       const float distance = std::sqrt(s.batch.distance2(k));
@@ -214,7 +215,7 @@ void SelfNeighbours::add_vertex_faces(std::size_t max_pairs, Scratch& s) {
     s.found.clear();
     s.search.between(s.strayed_vertices, s.features, s.found, max_pairs);
     s.search.between(s.calm_vertices, s.strayed, s.found, max_pairs);
-    keep_near<1>(vertex_faces_, s);
+    keep_near<PairKind::vertex_face>(vertex_faces_, s);
   }
   add_needed(vertex_faces_, s);
 }
@@ -227,7 +228,7 @@ void SelfNeighbours::add_edges(std::size_t max_pairs, Scratch& s) {
     s.search.within(s.strayed, s.found, max_pairs);
     s.search.between(s.strayed, s.calm, s.found, max_pairs);
     for (ItemPair& f : s.found) f = {std::min(f.a, f.b), std::max(f.a, f.b)};
-    keep_near<2>(edges_, s);
+    keep_near<PairKind::edge_edge>(edges_, s);
   }
   add_needed(edges_, s);
 }

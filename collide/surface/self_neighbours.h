@@ -62,8 +62,8 @@ class SelfNeighbours {
   void measure_needs(const VertexRun& at, float near, std::span<const float> ways, float margin, Scratch& scratch);
   template <std::size_t n>
   void divide_features(const std::vector<std::array<Index, n>>& features, Index first, Scratch& scratch) const;
-  template <std::size_t ones>
-  void keep_near(List& list, Scratch& scratch) const;
+  template <PairKind kind>
+  void keep_near(List& list, Scratch& scratch);
   void add_needed(const List& list, Scratch& scratch) const;
   template <class Corners>
   bool strays(const Corners& corners) const;

@@ -188,13 +188,13 @@ void SurfaceSearch::find_candidates(Thread& own, Task& task) {
     near_itself_[task.a].add_vertex_faces(max_box_pairs, own);
   switch (task.kind) {
     case Task::Kind::vertex_face:
-      add_reachable<1>(own, task.a, task.b);
+      add_reachable<PairKind::vertex_face>(own, task.a, task.b);
       break;
     case Task::Kind::face_vertex:
-      add_reachable<1>(own, task.b, task.a);
+      add_reachable<PairKind::vertex_face>(own, task.b, task.a);
       break;
     case Task::Kind::edge_edge:
-      add_reachable<2>(own, task.a, task.b);
+      add_reachable<PairKind::edge_edge>(own, task.a, task.b);
   }
   task.end = own.features.size();
   own.found.clear();
@@ -290,18 +290,20 @@ float SurfaceSearch::reach(Index body_a, Index body_b, float speed) const {
 }
 
 /// Adds the pairs found that can come within reach of each other before the prediction ends, in order. Their distance
-/// and relative speed bound the earliest time of that, as in conservative advancement. ones: see corners_of().
-template <std::size_t ones>
+/// and relative speed bound the earliest time of that, as in conservative advancement.
+template <PairKind kind>
 void SurfaceSearch::add_reachable(Thread& own, Index a, Index b) const {
   assert(a != b || swept_[a].begin() == time_);
   const Surface &one = swept_[a].surface(), &two = swept_[b].surface();
-  const auto end_a = static_cast<Index>(ones == 1 ? one.vertex_count() : one.edges().size());
-  const auto end_b = static_cast<Index>(ones == 1 ? two.triangles().size() : two.edges().size());
+  constexpr bool edges = kind == PairKind::edge_edge;
+  constexpr std::size_t ones = corners_of_first(kind);
+  const auto end_a = static_cast<Index>(edges ? one.edges().size() : one.vertex_count());
+  const auto end_b = static_cast<Index>(edges ? two.edges().size() : two.triangles().size());
   const auto& points = a == b ? &SweptBody::deforming_points : &SweptBody::points;
   const std::vector<MovingPoint>&p = (swept_[a].*points)(), &q = (swept_[b].*points)();
   const auto corners = [&](const ItemPair& f) {
-    const std::array<Index, 4> c = corners_of<ones>(one, f.a, two, f.b);
-    return std::array{&p[c[0]], &(ones == 1 ? q : p)[c[1]], &q[c[2]], &q[c[3]]};
+    const std::array<Index, 4> c = corners_of<kind>(one, f.a, two, f.b);
+    return std::array{&p[c[0]], &(edges ? p : q)[c[1]], &q[c[2]], &q[c[3]]};
   };
   const float near = reach(a, b, 0), max_distance = reach(a, b, max_relative_speed(a, b)),
               max_distance2 = max_distance * max_distance;
@@ -312,7 +314,7 @@ void SurfaceSearch::add_reachable(Thread& own, Index a, Index b) const {
       const std::array<const MovingPoint*, 4> c = corners(own.found[i]);
       own.batch.add({c[0]->at, c[1]->at, c[2]->at, c[3]->at}, static_cast<Index>(i));
     }
-    own.batch.find_closest<ones>();
+    own.batch.find_closest<kind>();
     for (Index k = 0; k < own.batch.size(); ++k) {
       const float distance2 = own.batch.distance2(k);
       if (distance2 > max_distance2) continue;

@@ -140,7 +140,7 @@ class SurfaceSearch {
   void reuse_previous(Task& task) const;
   void merge_tasks();
   float reach(Index a, Index b, float speed) const;
-  template <std::size_t ones>
+  template <PairKind kind>
   void add_reachable(Thread& own, Index a, Index b) const;
 
   std::span<const SurfaceBody> bodies_;

@@ -20,13 +20,15 @@ namespace {
 
 glm::dvec3 to_glm(const Vector& v) { return {v[0], v[1], v[2]}; }
 
-/// Throws Error unless all numbers of a vector or matrix, or a number itself, are finite.
-void require_finite(const auto& value) {
-  if constexpr (requires { value[0]; }) {
-    for (int axis = 0; axis < 3; ++axis) require_finite(value[axis]);
-  } else if (!std::isfinite(value)) {
-    throw Error("a number is not finite");
-  }
+// Throw Error unless all numbers are finite.
+void require_finite(double value) {
+  if (!std::isfinite(value)) throw Error("a number is not finite");
+}
+void require_finite(const glm::dvec3& v) {
+  for (int axis = 0; axis < 3; ++axis) require_finite(v[axis]);
+}
+void require_finite(const glm::dmat3& m) {
+  for (int axis = 0; axis < 3; ++axis) require_finite(m[axis]);
 }
 
 /// Returns a solid as a scene file has it. Throws Error unless all numbers are finite.

@@ -247,6 +247,7 @@ void Solver::share_batches(bool in_step) {
 void Solver::run(int count, float h, bool first, const AfterSubstep& after_substep) {
   last_substep_ = h;
   const Integrator& integrator = *steps_.plan().integrator;
+  // Fixed ones are equally long in a frame, and a look at whether they are stable takes a pass over all bodies.
   if (first || !steps_.fixed()) set_staggering(staggering(h));
   motion_.begin_substeps(integrator, h);
   if (integrator.implicit) prepare_implicit(h);

@@ -1,6 +1,5 @@
 #include "softbody/mechanics/body_measures.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -30,14 +29,18 @@ BodyMeasures measures_of(const BodyModel& model, const MotionSums& sums, std::si
   return m;
 }
 
-/// Measures the body in each lane of a batch. wide: memory for positions and velocities in double.
-std::array<BodyMeasures, lanes> measure_batch(const State& state, const Batch& b, const glm::dvec3& gravity,
-                                              LaneArray<double>& wide) {
+/// Measures the body in each lane of a batch, each of whose values is `stride` after the one before. wide: memory for
+/// positions and velocities in double.
+std::array<BodyMeasures, lanes> measure_batch(const State& state, const Batch& b, std::size_t stride,
+                                              const glm::dvec3& gravity, LaneArray<double>& wide) {
   const std::size_t count = b.values();
   wide.resize(6 * count);
   double* to = wide.data();
   for (const VectorArray* array : {&state.x, &state.v})
-    for (const auto& component : *array) to = std::copy_n(component.data() + b.base, count, to);
+    for (const auto& component : *array) {
+      const float* from = component.data() + b.base;
+      for (std::size_t i = 0; i < count; ++i) *to++ = double(from[i * stride]);
+    }
   const auto vectors = [&](std::size_t k) -> Field<const double> {
     const double* first = wide.data() + 3 * k * count;
     return {first, first + count, first + 2 * count};
@@ -61,15 +64,17 @@ Energy& Energy::operator+=(const Energy& other) {
 }
 
 BodyMeasures measure(const State& state, BodyId id, const glm::dvec3& gravity) {
+  const Batch& b = state.batch_of(id);
+  const Batch alone{.model = b.model, .width = one_lane, .base = state.slot(id, 0), .used = 1, .body = {id}};
   LaneArray<double> wide;
-  return measure_batch(state, state.batch_of(id), gravity, wide)[std::size_t(state.body(id).lane)];
+  return measure_batch(state, alone, std::size_t(b.width), gravity, wide)[0];
 }
 
 std::vector<BodyMeasures> measure_bodies(const State& state, const glm::dvec3& gravity) {
   std::vector<BodyMeasures> list(state.body_count());
   LaneArray<double> wide;  // stays in the cache
   for (const Batch& b : state.batches()) {
-    const std::array<BodyMeasures, lanes> measures = measure_batch(state, b, gravity, wide);
+    const std::array<BodyMeasures, lanes> measures = measure_batch(state, b, 1, gravity, wide);
     for (std::size_t l = 0; l < std::size_t(b.used); ++l) list[b.body[l]] = measures[l];
   }
   return list;

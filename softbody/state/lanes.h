@@ -58,11 +58,11 @@ struct CacheLineAllocator {
 template <class Real>
 using LaneArray = std::vector<Real, CacheLineAllocator<Real>>;
 
-/// A field of vectors of implicit steps. Component k of particle i of lane l has the index
-/// (k * particles + i) * implicit_lanes + l.
+/// A field of vectors: all x, then all y, then all z. Component k of particle i of lane l has the index
+/// (k * particles + i) * width + l, where the width is implicit_lanes in implicit steps.
 using Lanes = LaneArray<double>;
 
-// Reads, writes or adds to the vector at index `at` = particle * implicit_lanes + lane.
+// Reads, writes or adds to the vector whose x has the index `at` = particle * width + lane.
 inline glm::dvec3 read(const Lanes& field, std::size_t at) {
   const std::size_t stride = field.size() / 3;
   return {field[at], field[at + stride], field[at + 2 * stride]};
@@ -76,7 +76,7 @@ inline void add(Lanes& field, std::size_t at, const glm::dvec3& more) {
   field[at] += more.x, field[at + stride] += more.y, field[at + 2 * stride] += more.z;
 }
 
-/// Reads one lane of a field by particle.
+/// Reads one lane of a field of implicit steps by particle.
 struct LaneView {
   const Lanes& field;
   std::size_t lane;
@@ -91,7 +91,7 @@ struct Field {
   Field operator+(std::size_t values) const { return {x + values, y + values, z + values}; }
 };
 
-/// Returns the components of a field of implicit steps.
+/// Returns the components of a field.
 inline Field<double> field(Lanes& f) { return {f.data(), f.data() + f.size() / 3, f.data() + 2 * (f.size() / 3)}; }
 inline Field<const double> field(const Lanes& f) {
   return {f.data(), f.data() + f.size() / 3, f.data() + 2 * (f.size() / 3)};

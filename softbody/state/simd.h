@@ -272,11 +272,13 @@ HWY_INLINE void transpose(Lane<float, 4> (&rows)[4]) {
 // Arithmetic that is written once: V is one value for each lane, or a float or double. So numbers have what lanes have.
 
 HWY_INLINE auto square_root(std::floating_point auto v) { return std::sqrt(v); }
-HWY_INLINE auto select(bool condition, std::floating_point auto a, decltype(a) b) { return condition ? a : b; }
-HWY_INLINE auto larger(std::floating_point auto a, decltype(a) b) { return a > b ? a : b; }
-HWY_INLINE auto smaller(std::floating_point auto a, decltype(a) b) { return a < b ? a : b; }
-HWY_INLINE bool any_above(std::floating_point auto a, decltype(a) b) { return a > b; }
-HWY_INLINE unsigned lanes_above(std::floating_point auto a, decltype(a) b) { return a > b; }
+HWY_INLINE auto select(bool condition, std::floating_point auto a, std::same_as<decltype(a)> auto b) {
+  return condition ? a : b;
+}
+HWY_INLINE auto larger(std::floating_point auto a, std::same_as<decltype(a)> auto b) { return a > b ? a : b; }
+HWY_INLINE auto smaller(std::floating_point auto a, std::same_as<decltype(a)> auto b) { return a < b ? a : b; }
+HWY_INLINE bool any_above(std::floating_point auto a, std::same_as<decltype(a)> auto b) { return a > b; }
+HWY_INLINE unsigned lanes_above(std::floating_point auto a, std::same_as<decltype(a)> auto b) { return a > b; }
 HWY_INLINE auto select_bits(std::uint64_t bits, std::floating_point auto value) { return bits & 1 ? value : 0; }
 HWY_INLINE double widened(float v) { return double(v); }
 HWY_INLINE float narrowed(double v) { return float(v); }

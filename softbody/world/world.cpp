@@ -20,9 +20,9 @@ double ms_since(Clock::time_point start) {
 glm::vec3 rest_cell_size(const BodyModelSet& models, int levels, float tolerance) {
   collide::Bodies bodies;
   Coordinates rest;
-  for (const auto& p : models.all()) {
-    bodies.add(std::make_shared<collide::Shape>(p->shown().shape->shared_topology()));  // without another shape at rest
-    rest.add(p->shown_at_rest());
+  for (const auto& model : models.all()) {
+    bodies.add(std::make_shared<collide::Shape>(model->shown().shape->shared_topology()));  // without a shape at rest
+    rest.add(model->shown_at_rest());
   }
   return collide::automatic_cell_size(rest.input(bodies), levels, tolerance);
 }

@@ -21,8 +21,8 @@ namespace {
 double smallest_closed_radius(const softbody::World& world) {
   double radius = 0;
   for (collide::Index b = 0; b < world.bodies().count(); ++b) {
-    const softbody::BodyModel& body = world.model(b);
-    if (body.mesh.closed && (radius == 0 || body.radius < radius)) radius = body.radius;
+    const softbody::BodyModel& model = world.model(b);
+    if (model.mesh.closed && (radius == 0 || model.radius < radius)) radius = model.radius;
   }
   return radius;
 }

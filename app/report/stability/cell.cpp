@@ -1,6 +1,7 @@
 #include "app/report/stability/results.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "app/report/solid_passages.h"
@@ -71,6 +72,7 @@ class Run {
   }
 
   void add_reach(const World& world, double max_speed, double scale, reference::StabilitySample& s) {
+    assert(bodies_ > 0);
     double available = available_ + reference::stability_bounds.energy * scale;  // J, for all but gravity and gas
     double gas = 0;
     std::vector<double> extents;
@@ -85,8 +87,8 @@ class Run {
     }
     const double min_energy = 1e-9 * scale;  // what has flown away has lost all to gravity
     const auto particle_mass = [](const StabilityStart::Member& m) { return m.model->particle_mass; };
-    const double balance = sum_of(present(), &StabilityStart::Member::balance),
-                 lightest = particle_mass(std::ranges::min(present(), {}, particle_mass));
+    const double balance = sum_of(present(), &StabilityStart::Member::balance);             // J
+    const double lightest = particle_mass(std::ranges::min(present(), {}, particle_mass));  // kg
     s.speed = max_speed / std::sqrt(2 * std::max(available - balance, min_energy) / lightest);
     for (std::size_t b = 0; b < extents.size(); ++b) {
       const auto& [length, stiffness] = start_.members[b].chain;

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
@@ -21,26 +22,35 @@ using softbody::World;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-StabilityStart::SpringChain spring_chain_of(const softbody::BodyModel& body) {
-  const int none = int(body.mesh.vertices.size());  // more springs than any chain has
-  std::vector<int> distance(body.mesh.vertices.size(), none);
-  distance[0] = 0;
-  double longest = 0, softest = infinite;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const softbody::Spring& s : softbody::springs<softbody::StructuralSprings>(body)) {
-      longest = std::max(longest, s.rest);
-      softest = std::min(softest, s.stiffness);
-      int &i = distance[s.i], &j = distance[s.j];
-      changed = changed || std::abs(i - j) > 1;
-      i = std::min(i, j + 1);
-      j = std::min(j, i + 1);
-    }
+/// Returns how many springs at most join any two particles: twice as many as join one particle and the farthest.
+/// Returns nothing if springs do not join all particles.
+std::optional<int> longest_chain(const softbody::BodyModel& model) {
+  std::vector<std::vector<softbody::Index>> next(model.mesh.vertices.size());
+  for (const softbody::Spring& s : softbody::springs<softbody::StructuralSprings>(model)) {
+    next[s.i].push_back(s.j);
+    next[s.j].push_back(s.i);
   }
-  const int farthest = std::ranges::max(distance);
-  if (farthest == none) return {infinite, infinite};
-  const int chain = 2 * farthest;  // joins any two: from one to particle 0 and from there to the other
-  return {chain * longest, softest / chain};
+  std::vector<int> distance(next.size(), -1);
+  std::vector<softbody::Index> reached{0};  // from the nearest to the farthest
+  distance[0] = 0;
+  for (std::size_t k = 0; k < reached.size(); ++k)
+    for (const softbody::Index j : next[reached[k]])
+      if (distance[j] < 0) {
+        distance[j] = distance[reached[k]] + 1;
+        reached.push_back(j);
+      }
+  return reached.size() < next.size() ? std::nullopt : std::optional(2 * distance[reached.back()]);
+}
+
+StabilityStart::SpringChain spring_chain_of(const softbody::BodyModel& model) {
+  const auto chain = longest_chain(model);
+  if (!chain) return {infinite, infinite};
+  double longest = 0, softest = infinite;
+  for (const softbody::Spring& s : softbody::springs<softbody::StructuralSprings>(model)) {
+    longest = std::max(longest, s.rest);
+    softest = std::min(softest, s.stiffness);
+  }
+  return {*chain * longest, softest / *chain};
 }
 
 /// True if shape and volume agree.

@@ -29,12 +29,12 @@ StableStep find_stable_step(const softbody::Integrator& integrator, double stiff
     return true;
   };
   const softbody::World world = make(1);
-  const softbody::BodyModel& ball = world.model(0);
+  const softbody::BodyModel& model = world.model(0);
   const double k_m =
-      softbody::stiffness_per_mass(ball, softbody::measure_surface(ball, reference::state_of(world, 0).x));
+      softbody::stiffness_per_mass(model, softbody::measure_surface(model, reference::state_of(world, 0).x));
   StableStep s{.stiffness = stiffness,
                .found = max_step_tried,
-               .predicted = integrator.stable_step(k_m, softbody::damping_bound(ball) / ball.particle_mass)};
+               .predicted = integrator.stable_step(k_m, softbody::damping_bound(model) / model.particle_mass)};
   if (stable(max_step_tried)) return s;
   double good = 1e-8, bad = max_step_tried;
   while (bad / good > 1.1) {

@@ -33,16 +33,19 @@ void Ghost::choose(const softbody::World& of, const std::optional<softbody::Inte
   restarted();
 }
 
-void Ghost::restart(const softbody::World* of) {
+void Ghost::restart(const softbody::World* of) try {
   if (!of) world_.reset();
   if (world_) {
     bring_to(*world_, *of, softbody::IntegratorChoice(world_->integrator_choice()));
     before_.copy(world_->positions());
   }
   restarted();
+} catch (...) {
+  end();
+  throw;
 }
 
-void Ghost::step(const softbody::World& of) {
+void Ghost::step(const softbody::World& of) try {
   // While a hand holds a body the ghost begins anew with each step.
   if (!world_ || blown_up_ || of.grabbed()) return;
   before_.copy(world_->positions());
@@ -55,6 +58,9 @@ void Ghost::step(const softbody::World& of) {
   if (blown_up_) return;
   if (world_->last_step().seconds != of.last_step().seconds) return restart(&of);  // one was cut short
   distances_.push(of.frame(), static_cast<float>(distance(of)));
+} catch (...) {
+  end();
+  throw;
 }
 
 /// Forgets what was found out about the ghost before.

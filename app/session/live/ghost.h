@@ -10,8 +10,8 @@
 
 namespace app::session {
 
-/// There is one if the user wants it. It is kept in step with the world that is shown (`of`). If restart() or step()
-/// throws, what() is for the user, and end() must follow.
+/// There is one if the user wants it. It is kept in step with the world that is shown (`of`). What functions
+/// throw is for the user. The ghost ends if restart() or step() throws.
 class Ghost {
  public:
   /// Begins a ghost of the present state, or ends it. If it throws, the ghost before stays.
@@ -20,7 +20,6 @@ class Ghost {
   void restart(const softbody::World* of);
   /// Follows a step of the world.
   void step(const softbody::World& of);
-  void end();
 
   /// Returns nullptr if there is no ghost.
   const softbody::World* world() const { return world_.get(); }
@@ -42,6 +41,7 @@ class Ghost {
 
  private:
   void restarted();
+  void end();
 
   std::unique_ptr<softbody::World> world_;
   compare::Positions before_;

@@ -86,7 +86,8 @@ std::optional<Pair> nearest_pair(const collide::BodyBoxes& boxes, std::optional<
   const auto distance = [&](BodyId candidate) {
     return candidate == body ? std::numeric_limits<float>::infinity() : gap(boxes.box[body], boxes.box[candidate]);
   };
-  const BodyId other = *std::ranges::min_element(boxes.live, {}, distance);
+  const BodyId nearest = *std::ranges::min_element(boxes.live, {}, distance);
+  const BodyId other = std::isfinite(distance(nearest)) ? nearest : body;
   return Pair{std::min(body, other), std::max(body, other)};
 }
 

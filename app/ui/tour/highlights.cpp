@@ -16,10 +16,6 @@ namespace {
 
 constexpr glm::vec3 outline_colour{0.13f, 0.16f, 0.20f};
 
-collide::Aabb hull(const collide::Aabb& a, const collide::Aabb& b) {
-  return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)};
-}
-
 void frame_camera(render::Highlight& highlight, const collide::Aabb& region) {
   highlight.centre = 0.5f * (region.lo + region.hi);
   highlight.radius = std::max(0.5f * glm::distance(region.lo, region.hi), 1e-3f);
@@ -137,7 +133,7 @@ void highlight_bucket(const TourContext& v, render::Highlight& highlight) {
       const auto& [lo, hi, body] = v.f.structure.boxes[item];
       boxes.boxes.push_back({lo, hi, glm::vec4(colour_of(group), 1.0f)});
       highlight.bodies.insert(body);
-      framed = hull(framed, {lo, hi});
+      framed = collide::joint(framed, {lo, hi});
     }
   for (const compare::CellGroup& group : groups) {
     const engine::Box cell = add_cell(v, group.cell, colour_of(group) * 0.7f, framed, cells);
@@ -159,7 +155,7 @@ void highlight_contact(const TourContext& v, render::Highlight& highlight) {
     highlight.labels = {{0.5f * (position(frame, v.f.closest->a) + position(frame, v.f.closest->b)),
                          fmt::format("d = {:.3f} m", v.f.distance)}};
   }
-  frame_camera(highlight, hull(v.f.bounds[0], v.f.bounds[1]));
+  frame_camera(highlight, collide::joint(v.f.bounds[0], v.f.bounds[1]));
 }
 
 void highlight_miss(const TourContext& v, render::Highlight& highlight) {
@@ -170,7 +166,7 @@ void highlight_miss(const TourContext& v, render::Highlight& highlight) {
   highlight.bodies_hide = false;
   collide::Aabb framed{glm::min(miss.at[0], miss.at[1]), glm::max(miss.at[0], miss.at[1])};
   for (const collide::Index box : miss.boxes)
-    framed = hull(framed, {v.f.structure.boxes[box].lo, v.f.structure.boxes[box].hi});
+    framed = collide::joint(framed, {v.f.structure.boxes[box].lo, v.f.structure.boxes[box].hi});
   engine::BoxSet boxes = outlines(2.5f, 0.2f), cells = cell_outlines();
   for (std::size_t i = 0; i < 2; ++i) {
     const glm::vec3 colour = render::body_colour(v.world.body(miss.bodies[i]).number) * 0.72f;

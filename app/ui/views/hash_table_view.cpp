@@ -15,20 +15,9 @@ namespace {
 
 constexpr float grid_height = 160;  // design pixels
 
-/// Returns the fullest bucket of each square.
-std::vector<collide::BucketLoad> fullest_buckets(const collide::DebugGeometry& table, const BucketGrid& grid) {
-  std::vector<collide::BucketLoad> fullest;
-  for (std::uint32_t s = 0; s < grid.squares(); ++s) fullest.push_back({.bucket = grid.first_bucket(s), .load = 0});
-  for (const collide::BucketLoad& entry : table.loads) {
-    collide::BucketLoad& square = fullest[entry.bucket / grid.per_square];
-    if (entry.load > square.load || (entry.load == square.load && entry.bucket < square.bucket)) square = entry;
-  }
-  return fullest;
-}
-
 void draw_squares(Widgets& w, const Session& session, const BucketGrid& grid, const ImVec2& size,
                   std::uint32_t max_load) {
-  const std::vector<collide::BucketLoad> squares = fullest_buckets(session.inspector.shown_geometry(), grid);
+  const std::vector<collide::BucketLoad>& squares = session.inspector.fullest_buckets(grid.per_square);
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const bool clicked = ImGui::InvisibleButton("##buckets", size);
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -113,7 +102,9 @@ void draw_hash_table(Widgets& w, const Session& session) {
     return;
   }
   const BucketGrid grid = BucketGrid::fit(table.buckets, size.x, size.y, std::floor(w.px(min_square)));
-  const std::uint32_t max_load = std::max(8u, std::bit_ceil(longest_bucket(table)));  // so that it rarely changes
+  const std::vector<collide::BucketLoad>& squares = session.inspector.fullest_buckets(grid.per_square);
+  const std::uint32_t longest = std::ranges::max(squares, {}, &collide::BucketLoad::load).load;
+  const std::uint32_t max_load = std::max(8u, std::bit_ceil(longest));  // so that it rarely changes
   draw_squares(w, session, grid, size, max_load);
   draw_load_scale(w, max_load);
   draw_summary(session, grid);

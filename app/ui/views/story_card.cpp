@@ -99,7 +99,8 @@ float StoryCard::draw(Widgets& w, const Session& session, const ScreenRect& area
   ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), top + lines + ImGui::GetStyle().ItemSpacing.y));
   const bool may_miss = !session.world().all_at_rest() ||
                         (session.comparison.paper_row() && !session.comparison.paper_row()->missed.empty());
-  if (w.button("Show me a miss###Explain story", "Opens the guided tour at its page on a missed contact.", 0, may_miss))
+  if (const Disabled off(!may_miss);
+      w.button("Show me a miss###Explain story", "Opens the guided tour at its page on a missed contact."))
     w.ask([](Session& s, UiState& ui) { ui.tour.start(s, ui.overlays, miss_step); });
   return box_.end(area);
 }

@@ -56,19 +56,18 @@ void SweepPlot::set(const compare::SweepReport& report, const compare::MethodSet
   front_ = compare::pareto_front(values);
 }
 
-void SweepPlot::draw(const Widgets& w, const ScreenRect& area, std::optional<std::size_t> method,
-                     std::optional<std::size_t> row) {
+void SweepPlot::draw(const Widgets& w, const ScreenRect& area, const Emphasis& emphasis) {
   place_points(w, area);
   draw_axes(w);
   for (const Point& point : points_) {
-    const bool pale = method && *method != point.method;
+    const bool pale = emphasis.method && *emphasis.method != point.method;
     const compare::MethodStyle style = compare::style(collide::method_table()[point.method]);
     draw_marker(point.at, w.px(mark_radius(point.level)), style.marker, to_imgui(style.colour, pale ? 0.12f : 0.85f),
                 w.px(mark_line));
   }
   draw_front(w);
   for (const Point& point : points_)
-    if (row == point.row) draw_ring(w, point.at);
+    if (emphasis.row == point.row) draw_ring(w, point.at);
 }
 
 void SweepPlot::draw_ring(const Widgets& w, ImVec2 at) {

@@ -15,15 +15,17 @@ class SweepPlot {
     compare::Tradeoff value;           // median time
     ImVec2 at{-1, -1};                 // where it was drawn last
   };
+  struct Emphasis {
+    std::optional<std::size_t> method;  // the points of all other methods are drawn faintly
+    std::optional<std::size_t> row;     // gets a ring: the settings in use
+  };
 
   /// Gathers the report's points of these methods. There are none without true contacts to measure against.
   void set(const compare::SweepReport& report, const compare::MethodSet& methods);
   const std::vector<Point>& points() const { return points_; }
 
-  /// Draws the plot into the rectangle. method: the points of all others are drawn faintly. row: of the settings in
-  /// use, gets a ring.
-  void draw(const Widgets& widgets, const ScreenRect& area, std::optional<std::size_t> method,
-            std::optional<std::size_t> row);
+  /// Draws the plot into the rectangle.
+  void draw(const Widgets& widgets, const ScreenRect& area, const Emphasis& emphasis);
   /// Returns the nearest drawn point within the pick radius, or nullptr.
   const Point* hit_test(const Widgets& widgets, ImVec2 mouse) const;
 

@@ -40,11 +40,11 @@ std::string point_tooltip(const compare::SweepRow& row) {
 /// Lists what was not run and why, at most max_reasons of them.
 std::string not_run_text(const compare::SweepReport& report) {
   std::vector<std::string> reasons;
+  std::size_t all = 0;
   for (const compare::SweepRow& row : report.rows)
-    if (!was_run(row)) reasons.push_back(configuration_text(row.configuration) + ": " + row.not_run);
-  if (reasons.empty()) return "All settings fit the budget.";
-  const std::size_t all = reasons.size();
-  if (all > max_reasons) reasons.resize(max_reasons);
+    if (!was_run(row) && ++all <= max_reasons)
+      reasons.push_back(configuration_text(row.configuration) + ": " + row.not_run);
+  if (all == 0) return "All settings fit the budget.";
   const std::string text = joined(reasons, "\n");
   return all > max_reasons ? text + fmt::format("\nand {} more.", grouped(all - max_reasons)) : text;
 }
@@ -204,10 +204,10 @@ void SweepView::draw_plot(Widgets& w, const Session& session, float height, std:
   const bool clicked = ImGui::InvisibleButton("##scatter", size);
   const bool hovered = ImGui::IsItemHovered();
   w.register_item("Scatter");
-  std::optional<std::size_t> used;
+  SweepPlot::Emphasis emphasis{.method = method, .row = {}};
   for (const SweepPlot::Point& point : plot_.points())
-    if (in_use(session.sweep().report.rows[point.row], session.world())) used = point.row;
-  plot_.draw(w, {min, {min.x + size.x, min.y + size.y}}, method, used);
+    if (in_use(session.sweep().report.rows[point.row], session.world())) emphasis.row = point.row;
+  plot_.draw(w, {min, {min.x + size.x, min.y + size.y}}, emphasis);
   const SweepPlot::Point* under = hovered ? plot_.hit_test(w, ImGui::GetIO().MousePos) : nullptr;
   if (!under) return;
   const compare::SweepRow& row = session.sweep().report.rows[under->row];

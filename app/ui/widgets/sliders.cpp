@@ -134,6 +134,8 @@ template <class Value>
 bool Widgets::slider(std::string_view label, Value& value, std::type_identity_t<Value> min,
                      std::type_identity_t<Value> max, const char* format, std::string_view tooltip, bool logarithmic) {
   assert(min > 0 || !logarithmic || !std::is_integral_v<Value>);
+  assert(*format || (std::is_same_v<Value, std::uint32_t>));
+  // The field for typing shows the value even where `format` hides it.
   const Number<Value> n{label, value, min, max, *format ? format : "%u"};
   const Value now = value;
   const bool double_clicked = opens_field() && input_.pressed == label;

@@ -43,6 +43,8 @@ inline bool overlap(const ScreenRect& a, const ScreenRect& b) {
 /// Greys out, while it lives, the items that are drawn, and keeps the mouse from them: if `off`.
 struct Disabled {
   explicit Disabled(bool off) { ImGui::BeginDisabled(off); }
+  Disabled(const Disabled&) = delete;
+  Disabled& operator=(const Disabled&) = delete;
   ~Disabled() { ImGui::EndDisabled(); }
 };
 
@@ -123,8 +125,9 @@ class Widgets {
   bool closable_heading(std::string_view label, std::string_view tooltip);
   /// Draws the heading of a section that folds. True if it is open.
   bool section(std::string_view label, bool open_at_first);
-  /// A slider for an int, a float, a std::uint32_t or a double. A double-click opens a field for typing. With an empty
-  /// `format` only the field shows the value. A logarithmic one for whole numbers: min > 0.
+  /// Draws a slider for an int, a float, a std::uint32_t or a double. A double-click opens a field for typing. `format`
+  /// may be empty for a std::uint32_t: then only that field shows the value. Precondition of a logarithmic slider for
+  /// whole numbers: min > 0.
   template <class Value>
   bool slider(std::string_view label, Value& value, std::type_identity_t<Value> min, std::type_identity_t<Value> max,
               const char* format, std::string_view tooltip, bool logarithmic = false);
