@@ -73,8 +73,6 @@ std::map<Edge, std::vector<Index>> faces_at_edges(const std::vector<Triangle>& t
   return faces;
 }
 
-std::vector<glm::vec3> rounded(const std::vector<glm::dvec3>& points) { return {points.begin(), points.end()}; }
-
 /// Returns the normal of a triangle, of any length.
 auto normal_of(const auto& at, const Triangle& t) { return glm::cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]]); }
 
@@ -149,7 +147,7 @@ class Coarsener {
  public:
   explicit Coarsener(const Mesh& fine)
       : fine_(fine),
-        at_(rounded(fine.vertices)),
+        at_(fine.vertices.begin(), fine.vertices.end()),
         part_(parts_of(fine)),
         normal_(at_.size(), glm::vec3(0.0f)),
         faces_(at_, fine.triangles) {
@@ -254,7 +252,7 @@ class Coarsener {
   }
 
   CoarseMesh embedded(Mesh mesh, const std::vector<Index>& from, std::size_t crossings) const {
-    const std::vector<glm::vec3> coarse = rounded(mesh.vertices);
+    const std::vector<glm::vec3> coarse(mesh.vertices.begin(), mesh.vertices.end());
     const FaceTree tree(coarse, mesh.triangles);
     std::vector<Embedding::Hold> holds;
     double farthest = 0;

@@ -104,86 +104,74 @@ struct Walk {
   }
 };
 
-/// The edges, bend pairs and shares of a mesh, found from its triangles.
-class Net {
- public:
-  explicit Net(Mesh& mesh) : mesh_(mesh), surface_(static_cast<Index>(mesh.vertices.size()), mesh.triangles) {}
+constexpr double max_share = 2;  // so that needles hardly need shorter steps than other triangles
 
-  void fill() {
-    mesh_.closed = !mesh_.triangles.empty();
-    double all_areas = 0, of_shares = 0;
-    mesh_.edges = surface_.edges();
-    for (const Edge& e : mesh_.edges) {
-      const EdgeFaces at = faces_at(surface_, e);
-      const double areas = areas_of(e, at);
-      mesh_.edge_shares.push_back(std::min(max_share, 2 / std::sqrt(3.0) * areas / length2(e)));
-      all_areas += areas / 3;
-      of_shares += mesh_.edge_shares.back() * length2(e) / (2 * std::sqrt(3.0));
-      if (at.faces != 2) mesh_.closed = false;
-    }
-    const bool regular = std::ranges::all_of(mesh_.edge_shares, [](double s) { return std::abs(s - 1) < 0.25; });
-    const double factor = of_shares > 0 ? all_areas / of_shares : 1;
-    for (double& share : mesh_.edge_shares) share = regular ? 1 : std::min(max_share, share * factor);
-    join_bend_pairs(all_areas, regular);
+double length2_of(const Mesh& mesh, const Edge& e) {
+  const dvec3 d = mesh.vertices[e[1]] - mesh.vertices[e[0]];
+  return glm::dot(d, d);
+}
+
+double areas_of(const Mesh& mesh, const Edge& e, const EdgeFaces& at) {
+  double sum = 0;
+  for (int k = 0; k < std::min(at.faces, 2); ++k) {
+    const dvec3& a = mesh.vertices[e[0]];
+    sum += glm::length(glm::cross(mesh.vertices[e[1]] - a, mesh.vertices[at.corner[std::size_t(k)]] - a)) / 2;
   }
+  return sum;
+}
 
- private:
-  static constexpr double max_share = 2;  // so that needles hardly need shorter steps than other triangles
-
-  double length2(const Edge& e) const {
-    const dvec3 d = mesh_.vertices[e[1]] - mesh_.vertices[e[0]];
-    return glm::dot(d, d);
+void join_bend_pairs(Mesh& mesh, const Surface& surface, double all_areas, bool regular) {
+  const bool all_alike = regular && double(mesh.vertices.size()) <= mesh.stated_for;
+  // In a regular mesh that materials are stated for: 2 V - 4 equal triangles, and springs of twice their height.
+  const double length = std::sqrt(3.0) * std::sqrt(4 / std::sqrt(3.0) * all_areas / (2 * mesh.stated_for - 4));
+  std::vector<std::pair<Edge, double>> shares;
+  for (const Edge& e : surface.edges()) {
+    const EdgeFaces at = faces_at(surface, e);
+    if (at.faces != 2) continue;
+    const double middle = std::sqrt(length2_of(mesh, e)) / 2;
+    const auto walk = [&](std::size_t side) { return Walk{mesh, surface, e[0], e[1], at.corner[side], middle}; };
+    // The second half makes up for what the nearest vertex is too near or too far in the first.
+    const Walk::End one = walk(0).go(length / 2);
+    const Walk::End two = walk(1).go(length - one.distance);
+    if (one.vertex == two.vertex) continue;  // around a thin part
+    const Edge ends = ordered(one.vertex, two.vertex);
+    const double reach = std::max(one.distance + two.distance, std::sqrt(length2_of(mesh, ends)));
+    const double by_area = 2 * std::sqrt(3.0) * areas_of(mesh, e, at) / (reach * reach);
+    shares.push_back({ends, all_alike ? 1 : std::min(max_share, by_area)});
   }
-  double areas_of(const Edge& e, const EdgeFaces& at) const {
-    double sum = 0;
-    for (int k = 0; k < std::min(at.faces, 2); ++k) {
-      const dvec3& a = mesh_.vertices[e[0]];
-      sum += glm::length(glm::cross(mesh_.vertices[e[1]] - a, mesh_.vertices[at.corner[std::size_t(k)]] - a)) / 2;
+  std::ranges::sort(shares);
+  for (const auto& [ends, share] : shares) {
+    if (mesh.bend_pairs.empty() || mesh.bend_pairs.back() != ends) {
+      mesh.bend_pairs.push_back(ends);
+      mesh.bend_shares.push_back(0);
     }
-    return sum;
+    mesh.bend_shares.back() += share;
   }
-
-  void join_bend_pairs(double all_areas, bool regular) {
-    const bool all_alike = regular && double(mesh_.vertices.size()) <= mesh_.stated_for;
-    // In a regular mesh that materials are stated for: 2 V - 4 equal triangles, and springs of twice their height.
-    const double length = std::sqrt(3.0) * std::sqrt(4 / std::sqrt(3.0) * all_areas / (2 * mesh_.stated_for - 4));
-    std::vector<std::pair<Edge, double>> shares;
-    for (const Edge& e : surface_.edges()) {
-      const EdgeFaces at = faces_at(surface_, e);
-      if (at.faces != 2) continue;
-      const double middle = std::sqrt(length2(e)) / 2;
-      const auto walk = [&](std::size_t side) { return Walk{mesh_, surface_, e[0], e[1], at.corner[side], middle}; };
-      // The second half makes up for what the nearest vertex is too near or too far in the first.
-      const Walk::End one = walk(0).go(length / 2);
-      const Walk::End two = walk(1).go(length - one.distance);
-      if (one.vertex == two.vertex) continue;  // around a thin part
-      const Edge ends = ordered(one.vertex, two.vertex);
-      const double reach = std::max(one.distance + two.distance, std::sqrt(length2(ends)));
-      const double by_area = 2 * std::sqrt(3.0) * areas_of(e, at) / (reach * reach);
-      shares.push_back({ends, all_alike ? 1 : std::min(max_share, by_area)});
-    }
-    std::ranges::sort(shares);
-    for (const auto& [ends, share] : shares) {
-      if (mesh_.bend_pairs.empty() || mesh_.bend_pairs.back() != ends) {
-        mesh_.bend_pairs.push_back(ends);
-        mesh_.bend_shares.push_back(0);
-      }
-      mesh_.bend_shares.back() += share;
-    }
-  }
-
-  Mesh& mesh_;
-  Surface surface_;
-};
+}
 
 }  // namespace
 
 void connect_triangles(Mesh& mesh) {
-  Mesh connected;
-  connected.vertices = std::move(mesh.vertices);
-  connected.triangles = std::move(mesh.triangles);
-  Net(connected).fill();
-  mesh = std::move(connected);
+  Mesh bare;
+  bare.vertices = std::move(mesh.vertices);
+  bare.triangles = std::move(mesh.triangles);
+  mesh = std::move(bare);
+  const Surface surface(static_cast<Index>(mesh.vertices.size()), mesh.triangles);
+  mesh.closed = !mesh.triangles.empty();
+  double all_areas = 0, of_shares = 0;
+  mesh.edges = surface.edges();
+  for (const Edge& e : mesh.edges) {
+    const EdgeFaces at = faces_at(surface, e);
+    const double areas = areas_of(mesh, e, at);
+    mesh.edge_shares.push_back(std::min(max_share, 2 / std::sqrt(3.0) * areas / length2_of(mesh, e)));
+    all_areas += areas / 3;
+    of_shares += mesh.edge_shares.back() * length2_of(mesh, e) / (2 * std::sqrt(3.0));
+    if (at.faces != 2) mesh.closed = false;
+  }
+  const bool regular = std::ranges::all_of(mesh.edge_shares, [](double s) { return std::abs(s - 1) < 0.25; });
+  const double factor = of_shares > 0 ? all_areas / of_shares : 1;
+  for (double& share : mesh.edge_shares) share = regular ? 1 : std::min(max_share, share * factor);
+  join_bend_pairs(mesh, surface, all_areas, regular);
 }
 
 }  // namespace softbody

@@ -15,13 +15,13 @@ bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; 
 
 }  // namespace
 
-std::string_view Words::next() {
-  const char *at = rest_.data(), *const end = at + rest_.size();
+std::string_view next_word(std::string_view& line) {
+  const char *at = line.data(), *const end = at + line.size();
   while (at != end && is_space(*at)) ++at;
   if (at != end && *at == '#') at = end;
   const char* const begin = at;
   while (at != end && !is_space(*at)) ++at;
-  rest_ = {at, static_cast<std::size_t>(end - at)};
+  line = {at, static_cast<std::size_t>(end - at)};
   return {begin, static_cast<std::size_t>(at - begin)};
 }
 
@@ -89,7 +89,8 @@ FileMesh read_file_mesh(const std::filesystem::path& file, const MeshReading& re
       lines.next(line);
       if (line.starts_with("\xFF\xFE") || line.starts_with("\xFE\xFF"))
         throw MeshFileError(name + ":1: is UTF-16; save it as UTF-8");
-      if (Words(line).next() == "ply") return parse_ply(name, lines, reading);
+      std::string_view rest = line;
+      if (next_word(rest) == "ply") return parse_ply(name, lines, reading);
       if (extension == ".ply")
         throw MeshFileError(name + ":1: the line 'ply' is missing; is this a file in PLY format?");
       return parse_obj(name, lines, reading, line);

@@ -11,16 +11,8 @@
 
 namespace softbody {
 
-/// Splits a line into words. A word that begins with # ends the line.
-class Words {
- public:
-  explicit Words(std::string_view line) : rest_(line) {}
-  /// Returns the next word; empty if there is none.
-  std::string_view next();
-
- private:
-  std::string_view rest_;
-};
+/// Returns the next word of a line and removes it; empty if there is none. A word that begins with # ends the line.
+std::string_view next_word(std::string_view& line);
 
 /// Returns a word of the file for a message: short, and with printable characters only.
 std::string quoted(std::string_view word);

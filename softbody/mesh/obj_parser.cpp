@@ -31,7 +31,7 @@ class ObjParser : public MeshParser {
 
   FileMesh run(std::string_view line) {
     do {
-      statement(Words(line));
+      statement(line);
     } while (lines_.next(line));
     if (mesh_.objects.empty() || (mesh_.x.empty() && passed_over_))
       throw MeshFileError(name_ + ": no vertex in it; give a Wavefront OBJ file with lines such as v 0 0 0");
@@ -40,8 +40,8 @@ class ObjParser : public MeshParser {
   }
 
  private:
-  void statement(Words words) {
-    const std::string_view keyword = words.next();
+  void statement(std::string_view words) {
+    const std::string_view keyword = next_word(words);
     if (keyword == "v") return vertex(words);
     if (keyword == "f") return face(words);
     if (keyword == "l" && reading_.lines) return line(words);
@@ -58,12 +58,12 @@ class ObjParser : public MeshParser {
     mesh_.objects.push_back({vertex_count(), mesh_.faces.size(), named});
   }
 
-  void vertex(Words words) {
+  void vertex(std::string_view words) {
     if (mesh_.objects.empty()) begin_object(false);
     if (vertex_count() == max_particles) fail_at_line(beyond("vertices", max_particles));
     std::array<double, 3> position;
     for (double& coordinate : position) {
-      const std::string_view word = words.next();
+      const std::string_view word = next_word(words);
       if (word.empty()) fail_at_line("a vertex with fewer than 3 coordinates; write v X Y Z");
       coordinate = number(word);
     }
@@ -75,10 +75,10 @@ class ObjParser : public MeshParser {
 
   /// Skips a weight and a colour, whatever their values, such as 1.#QNAN. Anything else after a vertex, such as a
   /// second vertex, is an error, since it must not be lost.
-  void pass_over_weight_and_colour(Words words) {
+  void pass_over_weight_and_colour(std::string_view words) {
     int count = 0;
     bool is_one = true;
-    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+    for (std::string_view word = next_word(words); !word.empty(); word = next_word(words)) {
       float value = 0;
       const char *const stop = parse(word, value).ptr, *const end = word.data() + word.size();
       if (stop == word.data() || (stop != end && *stop != '#'))
@@ -89,17 +89,17 @@ class ObjParser : public MeshParser {
     if (count == 1 && !is_one) ++mesh_.weights;
   }
 
-  void face(Words words) {
-    for (std::string_view word = words.next(); !word.empty(); word = words.next())
+  void face(std::string_view words) {
+    for (std::string_view word = next_word(words); !word.empty(); word = next_word(words))
       mesh_.corners.push_back(corner(word));
     if (mesh_.corners.size() > max_file_corners) fail_at_line(beyond("corners of faces", max_file_corners));
     end_face([&](const std::string& what) { fail_at_line(what); });
   }
 
-  void line(Words words) {
-    std::string_view word = words.next();
+  void line(std::string_view words) {
+    std::string_view word = next_word(words);
     if (word.empty()) fail_at_line("a line without a vertex; write l V V");
-    for (Index last = corner(word); !(word = words.next()).empty();) {
+    for (Index last = corner(word); !(word = next_word(words)).empty();) {
       const Index next = corner(word);
       mesh_.segments.push_back({last, next, lines_.number()});
       if (mesh_.segments.size() > max_file_corners) fail_at_line(beyond("segments of lines", max_file_corners));

@@ -45,7 +45,7 @@ class PlyParser : public MeshParser {
   FileMesh run() {
     mesh_.objects.push_back({0, 0, false});
     header();
-    words_ = Words({});
+    words_ = {};
     for (const Element& element : elements_) {
       element_ = &element;
       for (row_ = 0; row_ < element.rows; ++row_) row();
@@ -70,11 +70,11 @@ class PlyParser : public MeshParser {
       if (lines_.end() == (cr_alone ? LineReader::End::lf : LineReader::End::cr))
         fail_at_line("ends in " + std::string(cr_alone ? "LF and line 1 in CR" : "CR and line 1 in LF") +
                      "; end all lines of the header alike");
-      Words words(line);
-      const std::string_view keyword = words.next();
+      std::string_view words = line;
+      const std::string_view keyword = next_word(words);
       if (keyword == "end_header") break;
       if (keyword == "format") {
-        read_format(words.next());
+        read_format(next_word(words));
         has_format = true;
       } else if (keyword == "element") {
         begin_element(words);
@@ -96,8 +96,8 @@ class PlyParser : public MeshParser {
     foreign_order_ = big != (std::endian::native == std::endian::big);
   }
 
-  void begin_element(Words words) {
-    const std::string_view name = words.next(), count = words.next();
+  void begin_element(std::string_view words) {
+    const std::string_view name = next_word(words), count = next_word(words);
     std::uint64_t rows = 0;
     const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), rows);
     if (count.empty() || end != count.data() + count.size() || error != std::errc())
@@ -113,19 +113,19 @@ class PlyParser : public MeshParser {
     elements_.push_back({std::string(name), kind, rows, {}});
   }
 
-  void add_property(Words words) {
+  void add_property(std::string_view words) {
     if (elements_.empty()) fail_at_line("a property before the first element; write element NAME COUNT first");
     Element& element = elements_.back();
     Property property{};
-    std::string_view word = words.next();
+    std::string_view word = next_word(words);
     const bool list = word == "list";
     if (list) {
-      property.length = type_of(words.next());
+      property.length = type_of(next_word(words));
       if (is_real(*property.length)) fail_at_line("a list whose length is no whole number; use e.g. uchar");
-      word = words.next();
+      word = next_word(words);
     }
     property.type = type_of(word);
-    const std::string_view name = words.next();
+    const std::string_view name = next_word(words);
     if (element.kind == Element::Kind::vertex && !list) {
       property.use = name == "x" ? Use::x : name == "y" ? Use::y : name == "z" ? Use::z : Use::none;
     } else if (element.has_faces() && list && (name == "vertex_indices" || name == "vertex_index")) {
@@ -180,7 +180,7 @@ class PlyParser : public MeshParser {
           skip(property.type);
       }
     }
-    if (text() && !words_.next().empty()) fail("more numbers than the header says; correct the header or the line");
+    if (text() && !next_word(words_).empty()) fail("more numbers than the header says; correct the header or the line");
     using Kind = Element::Kind;
     if (element_->kind == Kind::vertex)
       mesh_.x.push_back(position_[0]), mesh_.y.push_back(position_[1]), mesh_.z.push_back(position_[2]);
@@ -225,7 +225,7 @@ class PlyParser : public MeshParser {
     const std::string what = "the file goes on after the last row of the header's elements; correct the header";
     if (text()) {
       for (std::string_view line; lines_.next(line);)
-        if (!Words(line).next().empty()) fail_at_line(what);
+        if (!next_word(line).empty()) fail_at_line(what);
       return;
     }
     for (std::string_view rest = lines_.bytes(1); !rest.empty(); rest = lines_.bytes(1))
@@ -236,10 +236,10 @@ class PlyParser : public MeshParser {
 
   /// Returns the next word of a text file. A row may continue in the next line.
   std::string_view word() {
-    std::string_view next = words_.next();
-    for (std::string_view line; next.empty(); next = words_.next()) {
+    std::string_view next = next_word(words_);
+    for (std::string_view line; next.empty(); next = next_word(words_)) {
       if (!lines_.next(line)) fail_truncated();
-      words_ = Words(line);
+      words_ = line;
     }
     return next;
   }
@@ -301,7 +301,7 @@ class PlyParser : public MeshParser {
   bool foreign_order_ = false;        // the bytes of a number are reversed
   const Element* element_ = nullptr;  // of the row
   std::uint64_t row_ = 0;
-  Words words_{{}};                   // the rest of the line
+  std::string_view words_;            // the rest of the line
   std::array<double, 3> position_{};  // of the row
   std::vector<Index> corners_;        // of the row; no_vertex ends a strip
 };

@@ -39,54 +39,16 @@ double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// The remaining part of a polygon while ears are clipped.
-class Remainder {
- public:
-  explicit Remainder(std::span<const glm::dvec3> corners) : flat_(flattened(corners)), left_(corners.size()) {
-    std::iota(left_.begin(), left_.end(), Index{0});
-  }
-  std::size_t size() const { return left_.size(); }
-
-  /// Returns the triangle at place k and removes its corner.
-  Triangle clip(std::size_t k) {
-    const Triangle t = at(k);
-    left_.erase(left_.begin() + std::ptrdiff_t(k));
-    return t;
-  }
-
-  /// Returns the place of the ear with the shortest cut, or any place if there is no ear.
-  std::size_t best_ear() const {
-    std::size_t best = 0;
-    double shortest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < left_.size(); ++k) {
-      const auto [a, b, c] = at(k);
-      const glm::dvec2 cut = flat_[c] - flat_[a];
-      if (glm::dot(cut, cut) >= shortest || !is_ear(a, b, c)) continue;
-      best = k;
-      shortest = glm::dot(cut, cut);
-    }
-    return best;
-  }
-
- private:
-  Triangle at(std::size_t k) const {
-    return {left_[(k + left_.size() - 1) % left_.size()], left_[k], left_[(k + 1) % left_.size()]};
-  }
-
-  bool is_ear(Index a, Index b, Index c) const {
-    const glm::dvec2 &pa = flat_[a], &pb = flat_[b], &pc = flat_[c];
-    if (turn(pa, pb, pc) <= 0) return false;
-    for (const Index other : left_) {
-      const glm::dvec2& p = flat_[other];
-      if (p == pa || p == pb || p == pc) continue;
-      if (turn(pa, pb, p) >= 0 && turn(pb, pc, p) >= 0 && turn(pc, pa, p) >= 0) return false;
-    }
-    return true;
-  }
-
-  std::vector<glm::dvec2> flat_;
-  std::vector<Index> left_;
-};
+/// Returns true if a triangle of the corners that are left is an ear: it turns to the left and holds none of the
+/// others.
+bool is_ear(const Triangle& t, const std::vector<Index>& left, const std::vector<glm::dvec2>& flat) {
+  const glm::dvec2 &a = flat[t[0]], &b = flat[t[1]], &c = flat[t[2]];
+  if (turn(a, b, c) <= 0) return false;
+  return std::ranges::none_of(left, [&](Index other) {
+    const glm::dvec2& p = flat[other];
+    return p != a && p != b && p != c && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
+  });
+}
 
 /// Cost of a triangulation. A smaller cost is better.
 struct Cost {
@@ -288,10 +250,27 @@ class Auction {
 std::vector<Triangle> triangulate(std::span<const glm::dvec3> corners) {
   assert(corners.size() >= 3);
   if (corners.size() == 3) return {{0, 1, 2}};
-  Remainder rest(corners);
+  const std::vector<glm::dvec2> flat = flattened(corners);
+  std::vector<Index> left(corners.size());
+  std::iota(left.begin(), left.end(), Index{0});
+  const auto at = [&left](std::size_t k) -> Triangle {
+    return {left[(k + left.size() - 1) % left.size()], left[k], left[(k + 1) % left.size()]};
+  };
   std::vector<Triangle> triangles;
-  while (rest.size() > 3) triangles.push_back(rest.clip(rest.best_ear()));
-  triangles.push_back(rest.clip(1));
+  while (left.size() > 3) {
+    std::size_t best = 0;  // the ear with the shortest cut, or any corner if there is no ear
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      const Triangle t = at(k);
+      const glm::dvec2 cut = flat[t[2]] - flat[t[0]];
+      if (glm::dot(cut, cut) >= shortest || !is_ear(t, left, flat)) continue;
+      best = k;
+      shortest = glm::dot(cut, cut);
+    }
+    triangles.push_back(at(best));
+    left.erase(left.begin() + std::ptrdiff_t(best));
+  }
+  triangles.push_back(at(1));
   return triangles;
 }
 

@@ -21,79 +21,55 @@ struct Neighbour {
   Edge edge{};
 };
 
-/// Walks over the parts and decides for each face whether it must be reversed.
-class Alignment {
- public:
-  explicit Alignment(std::vector<Triangle>& triangles)
-      : triangles_(triangles), neighbours_(triangles.size()), turned_(triangles.size(), unseen) {
-    Index vertices = 0;
-    for (const Triangle& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
-    join(collide::surface::Surface(vertices, triangles));
-  }
+using Neighbours = std::vector<std::array<Neighbour, 3>>;  // of each face
 
-  std::vector<SurfacePart> run() {
-    std::vector<SurfacePart> parts;
-    for (Index f = 0; f < triangles_.size(); ++f)
-      if (turned_[f] == unseen) settle(parts.emplace_back(walk(f)));
-    return parts;
-  }
-
- private:
-  enum Turned : char { no, yes, unseen };
-
-  void join(const collide::surface::Surface& surface) {
-    std::vector<std::size_t> used(triangles_.size(), 0);
-    const auto add = [&](Index face, const Neighbour& n) { neighbours_[face][used[face]++] = n; };
-    for (const Edge& edge : surface.edges()) {
-      std::vector<Index> there;
-      std::ranges::copy_if(surface.triangles_at(edge[0]), std::back_inserter(there),
-                           [&](Index f) { return std::ranges::count(triangles_[f], edge[1]) > 0; });
-      if (there.size() > 2) throw SurfaceError("has more than two faces", edge, std::move(there));
-      const bool agree = runs_along(there.front(), edge) != runs_along(there.back(), edge);
-      if (there.size() == 2) add(there[0], {there[1], agree, edge}), add(there[1], {there[0], agree, edge});
-    }
-  }
-  /// Returns true if the face goes from edge[0] to edge[1].
-  bool runs_along(Index face, const Edge& edge) const {
-    const Triangle& t = triangles_[face];
+/// Throws SurfaceError if an edge has more than two faces.
+Neighbours neighbours_of(const std::vector<Triangle>& triangles) {
+  Index vertices = 0;
+  for (const Triangle& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
+  const collide::surface::Surface surface(vertices, triangles);
+  Neighbours neighbours(triangles.size());
+  std::vector<std::size_t> used(triangles.size(), 0);
+  const auto add = [&](Index face, const Neighbour& n) { neighbours[face][used[face]++] = n; };
+  const auto runs_along = [&](Index face, const Edge& edge) {  // from edge[0] to edge[1]
+    const Triangle& t = triangles[face];
     const auto from = std::size_t(std::ranges::find(t, edge[0]) - t.begin());
     return t[(from + 1) % 3] == edge[1];
+  };
+  for (const Edge& edge : surface.edges()) {
+    std::vector<Index> there;
+    std::ranges::copy_if(surface.triangles_at(edge[0]), std::back_inserter(there),
+                         [&](Index f) { return std::ranges::count(triangles[f], edge[1]) > 0; });
+    if (there.size() > 2) throw SurfaceError("has more than two faces", edge, std::move(there));
+    const bool agree = runs_along(there.front(), edge) != runs_along(there.back(), edge);
+    if (there.size() == 2) add(there[0], {there[1], agree, edge}), add(there[1], {there[0], agree, edge});
   }
+  return neighbours;
+}
 
-  /// Returns the part of a face, and marks the faces that must be reversed to agree with it.
-  SurfacePart walk(Index start) {
-    std::vector<Index> component{start};
-    bool closed = true;
-    turned_[start] = no;
-    for (std::size_t i = 0; i < component.size(); ++i) {
-      const Index face = component[i];
-      for (const Neighbour& n : neighbours_[face]) {
-        closed = closed && n.face != none;
-        if (n.face == none) continue;
-        const Turned wanted = n.agrees == (turned_[face] == no) ? no : yes;
-        if (turned_[n.face] == unseen) {
-          turned_[n.face] = wanted;
-          component.push_back(n.face);
-        } else if (turned_[n.face] != wanted) {
-          throw SurfaceError("has only one side", n.edge, {face, n.face});
-        }
+enum class Turned : char { no, yes, unseen };
+
+/// Returns the part of a face, and marks the faces that must be reversed to agree with it. Throws SurfaceError if the
+/// part has one side only.
+SurfacePart part_of_face(Index start, const Neighbours& neighbours, std::vector<Turned>& turned) {
+  SurfacePart part{{start}, true};
+  turned[start] = Turned::no;
+  for (std::size_t i = 0; i < part.faces.size(); ++i) {
+    const Index face = part.faces[i];
+    for (const Neighbour& n : neighbours[face]) {
+      part.closed = part.closed && n.face != none;
+      if (n.face == none) continue;
+      const Turned wanted = n.agrees == (turned[face] == Turned::no) ? Turned::no : Turned::yes;
+      if (turned[n.face] == Turned::unseen) {
+        turned[n.face] = wanted;
+        part.faces.push_back(n.face);
+      } else if (turned[n.face] != wanted) {
+        throw SurfaceError("has only one side", n.edge, {face, n.face});
       }
     }
-    return {std::move(component), closed};
   }
-
-  /// Reverses the marked faces, or the others if they are fewer and the part is closed.
-  void settle(const SurfacePart& part) {
-    const auto marked = std::ranges::count_if(part.faces, [&](Index f) { return turned_[f] == yes; });
-    const Turned wrong = part.closed && 2 * marked > std::ssize(part.faces) ? no : yes;
-    for (const Index f : part.faces)
-      if (turned_[f] == wrong) std::swap(triangles_[f][1], triangles_[f][2]);
-  }
-
-  std::vector<Triangle>& triangles_;
-  std::vector<std::array<Neighbour, 3>> neighbours_;  // of each face
-  std::vector<Turned> turned_;
-};
+  return part;
+}
 
 /// Returns for each of these closed parts how many others it lies wholly inside; none for one that meets another.
 std::vector<std::size_t> depths_of(const std::vector<SurfacePart>& parts, const std::vector<Triangle>& triangles,
@@ -132,7 +108,20 @@ std::vector<std::size_t> depths_of(const std::vector<SurfacePart>& parts, const 
 
 }  // namespace
 
-std::vector<SurfacePart> align(std::vector<Triangle>& triangles) { return Alignment(triangles).run(); }
+std::vector<SurfacePart> align(std::vector<Triangle>& triangles) {
+  const Neighbours neighbours = neighbours_of(triangles);
+  std::vector<Turned> turned(triangles.size(), Turned::unseen);
+  std::vector<SurfacePart> parts;
+  for (Index start = 0; start < triangles.size(); ++start) {
+    if (turned[start] != Turned::unseen) continue;
+    const SurfacePart& part = parts.emplace_back(part_of_face(start, neighbours, turned));
+    const auto marked = std::ranges::count_if(part.faces, [&](Index f) { return turned[f] == Turned::yes; });
+    const Turned wrong = part.closed && 2 * marked > std::ssize(part.faces) ? Turned::no : Turned::yes;
+    for (const Index f : part.faces)
+      if (turned[f] == wrong) std::swap(triangles[f][1], triangles[f][2]);
+  }
+  return parts;
+}
 
 double volume(const std::vector<glm::dvec3>& vertices, const std::vector<Triangle>& triangles,
               const SurfacePart& part) {

@@ -20,35 +20,34 @@
 namespace softbody {
 namespace {
 
-/// Finds for each point the first earlier point within `distance`, by a grid.
-class Places {
- public:
-  Places(double distance, double min_cell) : distance_(distance), cell_(std::max(distance, min_cell)) {}
+/// Returns a hash of a grid's cell. Cells with equal keys only cost time.
+std::uint64_t key_of(const glm::dvec3& cell) {
+  std::uint64_t h = 0;
+  for (int k = 0; k < 3; ++k) h = (h ^ static_cast<std::uint64_t>(std::int64_t(cell[k]))) * 0x9e3779b97f4a7c15u;
+  return h ^ (h >> 32);
+}
 
-  /// Adds a point. Returns the number of the earlier point at the same place, or `number` if there is none.
-  Index add(const glm::dvec3& point, Index number) {
-    const glm::dvec3 cell = glm::floor(point / cell_);
-    for (int n = 0; n < 27; ++n) {
-      const auto there = cells_.find(key(cell + glm::dvec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1)));
-      if (there == cells_.end()) continue;
-      for (const auto& [other, position] : there->second)
-        if (glm::distance(position, point) <= distance_) return other;
+/// Returns for each point the first earlier one that is used and within `distance`, by a grid of this cell size; itself
+/// if there is none, or if it is not used.
+std::vector<Index> first_at_places(std::span<const glm::dvec3> points, const std::vector<char>& used, double distance,
+                                   double cell_size) {
+  std::vector<Index> first(points.size());
+  std::iota(first.begin(), first.end(), Index{0});
+  std::unordered_map<std::uint64_t, std::vector<Index>> cells;
+  for (Index v = 0; v < first.size(); ++v) {
+    if (!used[v]) continue;
+    const glm::dvec3 cell = glm::floor(points[v] / cell_size);
+    for (int n = 0; n < 27 && first[v] == v; ++n) {
+      const auto there = cells.find(key_of(cell + glm::dvec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1)));
+      if (there == cells.end()) continue;
+      const auto near = std::ranges::find_if(
+          there->second, [&](Index other) { return glm::distance(points[other], points[v]) <= distance; });
+      if (near != there->second.end()) first[v] = *near;
     }
-    cells_[key(cell)].emplace_back(number, point);
-    return number;
+    if (first[v] == v) cells[key_of(cell)].push_back(v);
   }
-
- private:
-  /// Returns a hash of the cell. Cells with equal keys only cost time.
-  static std::uint64_t key(const glm::dvec3& cell) {
-    std::uint64_t h = 0;
-    for (int k = 0; k < 3; ++k) h = (h ^ static_cast<std::uint64_t>(std::int64_t(cell[k]))) * 0x9e3779b97f4a7c15u;
-    return h ^ (h >> 32);
-  }
-
-  double distance_, cell_;
-  std::unordered_map<std::uint64_t, std::vector<std::pair<Index, glm::dvec3>>> cells_;
-};
+  return first;
+}
 
 /// A side of a face.
 struct PolygonSide {
@@ -270,14 +269,9 @@ std::vector<Index> weld(const FileMesh& file, std::span<const glm::dvec3> points
     used[corner] = true;
     for (int k = 0; k < 3; ++k) reach = std::max(reach, std::abs(points[corner][k]));
   }
-  std::vector<Index> place(points.size());
-  std::iota(place.begin(), place.end(), Index{0});
-  Places places(distance, 1e-9 * reach);
+  std::vector<Index> place = first_at_places(points, used, distance, std::max(distance, 1e-9 * reach));
   bool shared = false;
-  for (Index v = 0; v < place.size(); ++v) {
-    if (used[v]) place[v] = places.add(points[v], v);
-    shared = shared || place[v] != v;
-  }
+  for (Index v = 0; v < place.size(); ++v) shared = shared || place[v] != v;
   if (!shared) return place;
   return Seams(file, std::move(place)).run();
 }
