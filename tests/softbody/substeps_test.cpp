@@ -65,8 +65,9 @@ TEST(StepBounds, ReckonWithTheRoundingOfTheFarthestPosition) {
   batch.used = 2;
   batch.moves[0] = 1;  // the second body stands
   Extent extent{};
-  extent.lo.set(0, {0, -3, 0}), extent.hi.set(0, {2, -1, 1});
-  extent.lo.set(1, {0, 0, 0}), extent.hi.set(1, {9, 0, 0});
+  extent.lo.set(0, {0, -3, 0});
+  extent.hi.set(0, {2, -1, 1});
+  extent.hi.set(1, {9, 0, 0});
   const Batch* const moving = &batch;
   EXPECT_EQ(StepBounds::rounding({&moving, 1}, {&extent, 1}), 3.0 / (1 << 24));
 }
