@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -79,9 +78,8 @@ FileReader::Answer read_file(const FileReader::Question& question,
 }
 
 bool is_mesh(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".obj" || ending == ".ply";
+  const std::string ending = file.extension().string();
+  return strcasecmp(ending.c_str(), ".obj") == 0 || strcasecmp(ending.c_str(), ".ply") == 0;
 }
 
 /// Returns true for the file that an export of motion writes beside its frames.

@@ -1,5 +1,5 @@
 #pragma once
-// Small scenes for the demo's tests, in motion from the first frame.
+// Small scenes for the demo's tests, in motion from the first frame; how tests let them go on, and what they look for.
 
 #include <chrono>
 #include <limits>
@@ -75,6 +75,7 @@ inline softbody::Scene without_solids() {
   return scene;
 }
 
+/// Returns the mean of the positions of a body's vertices (m).
 inline glm::dvec3 centre(const softbody::BodiesInMotion& world, softbody::BodyId id) {
   glm::dvec3 sum(0.0);
   const collide::Frame f = world.positions();
