@@ -56,21 +56,16 @@ const BodyPass::Level& BodyPass::level_of_detail(Mesh& mesh, int level) const {
   built->index_count = static_cast<GLsizei>(tessellated.indices.size());
   built->indices.set(GL_ELEMENT_ARRAY_BUFFER, std::span(tessellated.indices));
   built->vertices.set(GL_ARRAY_BUFFER, std::span(tessellated.vertices));
-  constexpr GLsizei stride = sizeof(TessellatedVertex);
-  glVertexAttribIPointer(0, 3, GL_UNSIGNED_INT, stride, attribute_offset(offsetof(TessellatedVertex, corners)));
-  glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(TessellatedVertex, weights)));
-  set_instance_attributes();
+  set_attributes(built->vertices, sizeof(TessellatedVertex),
+                 {{3, offsetof(TessellatedVertex, corners), true}, {2, offsetof(TessellatedVertex, weights)}}, 0,
+                 Advance::per_vertex);
+  set_attributes(instances_, sizeof(Instance),
+                 {{1, offsetof(Instance, first_vertex), true},
+                  {1, offsetof(Instance, radius)},
+                  {2, offsetof(Instance, occluders), true},
+                  {3, offsetof(Instance, colour)}},
+                 2);
   return *built;
-}
-
-void BodyPass::set_instance_attributes() const {
-  constexpr GLsizei stride = sizeof(Instance);
-  glBindBuffer(GL_ARRAY_BUFFER, instances_.id());
-  glVertexAttribIPointer(2, 1, GL_UNSIGNED_INT, stride, attribute_offset(offsetof(Instance, first_vertex)));
-  glVertexAttribPointer(3, 1, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(Instance, radius)));
-  glVertexAttribIPointer(4, 2, GL_UNSIGNED_INT, stride, attribute_offset(offsetof(Instance, occluders)));
-  glVertexAttribPointer(5, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(Instance, colour)));
-  enable_attributes(6, 2);
 }
 
 void BodyPass::check(const FrameData& frame) const {
