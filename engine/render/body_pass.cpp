@@ -96,7 +96,6 @@ void BodyPass::update(const FrameData& frame, const AmbientOcclusion& occlusion,
   build_batches(frame, occlusion, eye, pixels_at_one_metre);
   occluder_buffer_.stream(GL_TEXTURE_BUFFER, occlusion.occluders());
   attach_buffer(occluders_, occluder_buffer_, unit_occluders, GL_RGBA32F);
-  build_translucent_batches(frame, eye, pixels_at_one_metre);
   if (frame.positions.empty()) return;
   position_buffer_.stream(GL_TEXTURE_BUFFER, frame.positions);
   attach_buffer(positions_, position_buffer_, unit_positions, GL_R32F);
@@ -107,33 +106,27 @@ void BodyPass::update(const FrameData& frame, const AmbientOcclusion& occlusion,
   attach_buffer(marks_, mark_buffer_, unit_marks, GL_R32F);
 }
 
-// Sorts from front to back, so that hidden pixels are not shaded.
 void BodyPass::build_batches(const FrameData& frame, const AmbientOcclusion& occlusion, const glm::vec3& eye,
                              float pixels_at_one_metre) {
+  const auto add = [&](Batches& batches, const MeshDraw& draw, const glm::vec4& sphere,
+                       const OccluderRange& occluders) {
+    const float radius = std::max(sphere.w, min_radius), distance = glm::distance(glm::vec3(sphere), eye);
+    const int level = frame.tessellated ? choose_level(draw, radius, distance, pixels_at_one_metre) : 0;
+    batches[{draw.mesh.index, level}].push_back({draw.first_vertex, radius, occluders, draw.colour});
+  };
   distances_.clear();
   for (std::uint32_t i = 0; i < frame.meshes.size(); ++i) {
     distances_.emplace_back(glm::distance(glm::vec3(occlusion.spheres()[i]), eye), i);
   }
-  std::ranges::sort(distances_);
+  std::ranges::sort(distances_);  // from front to back, so that hidden pixels are not shaded
   for (auto& [key, batch] : batches_) batch.clear();
-  for (const auto& [distance, i] : distances_) {
-    const MeshDraw& draw = frame.meshes[i];
-    const float radius = std::max(occlusion.spheres()[i].w, min_radius);
-    const int level = frame.tessellated ? choose_level(draw, radius, distance, pixels_at_one_metre) : 0;
-    batches_[{draw.mesh.index, level}].push_back({draw.first_vertex, radius, occlusion.ranges()[i], draw.colour});
-  }
-}
-
-void BodyPass::build_translucent_batches(const FrameData& frame, const glm::vec3& eye, float pixels_at_one_metre) {
+  for (const auto& [distance, i] : distances_)
+    add(batches_, frame.meshes[i], occlusion.spheres()[i], occlusion.ranges()[i]);
   translucent_.clear();
   for (const TranslucentSet& set : frame.translucent) {
     Batches& batches = translucent_.emplace_back(&set, Batches{}).second;
-    for (const MeshDraw& draw : set.meshes) {
-      const glm::vec4 sphere = mean_sphere(frame.positions.subspan(draw.first_vertex, draw.vertex_count));
-      const float radius = std::max(sphere.w, min_radius), distance = glm::distance(glm::vec3(sphere), eye);
-      const int level = frame.tessellated ? choose_level(draw, radius, distance, pixels_at_one_metre) : 0;
-      batches[{draw.mesh.index, level}].push_back({draw.first_vertex, radius, {}, draw.colour});
-    }
+    for (const MeshDraw& draw : set.meshes)
+      add(batches, draw, mean_sphere(frame.positions.subspan(draw.first_vertex, draw.vertex_count)), {});
   }
 }
 
