@@ -39,9 +39,7 @@ run_tests() {
   shift
   cd "$root"
   # Without -noreset the server starts over when its last client leaves, and turns away who comes just then.
-  # One test more at a time than there are cores: the one with a window mostly waits.
-  xvfb-run --auto-servernum --server-args="-screen 0 1600x1000x24 -noreset" \
-    ctest --preset "$preset" --parallel $(($(nproc) + 1)) "$@"
+  xvfb-run --auto-servernum --server-args="-screen 0 1600x1000x24 -noreset" ctest --preset "$preset" --parallel "$(nproc)" "$@"
 }
 
 # build_and_test PRESET: two steps.
