@@ -20,10 +20,19 @@ void Buffer::upload(GLenum target, const void* data, std::size_t bytes, GLenum u
   glBufferData(target, static_cast<GLsizeiptr>(bytes), data, usage);
 }
 
-void enable_attributes(GLuint count, GLuint first_per_instance) {
-  for (GLuint attribute = 0; attribute < count; ++attribute) {
-    glEnableVertexAttribArray(attribute);
-    if (attribute >= first_per_instance) glVertexAttribDivisor(attribute, 1);
+void set_attributes(const Buffer& buffer, std::size_t stride, std::initializer_list<Attribute> attributes, GLuint first,
+                    Advance advance) {
+  glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
+  for (GLuint index = first; const Attribute& a : attributes) {
+    const auto size = static_cast<GLsizei>(stride);
+    const auto* offset = reinterpret_cast<const void*>(a.offset);
+    if (a.integers) {
+      glVertexAttribIPointer(index, a.components, GL_UNSIGNED_INT, size, offset);
+    } else {
+      glVertexAttribPointer(index, a.components, GL_FLOAT, GL_FALSE, size, offset);
+    }
+    glVertexAttribDivisor(index, static_cast<GLuint>(advance));
+    glEnableVertexAttribArray(index++);
   }
 }
 

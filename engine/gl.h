@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <glm/vec2.hpp>
+#include <initializer_list>
 #include <span>
 #include <utility>
 
@@ -82,12 +83,18 @@ class VertexArray {
   GlName<detail::delete_vertex_array> name_{generated(glGenVertexArrays)};
 };
 
-/// The offset of an attribute in its buffer, in the form that glVertexAttribPointer takes.
-inline const void* attribute_offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+/// What a vertex shader reads from each row of a buffer.
+struct Attribute {
+  GLint components;    // 1 to 4 floats, or unsigned integers
+  std::size_t offset;  // in the row, bytes
+  bool integers = false;
+};
+enum class Advance : GLuint { per_vertex, per_instance };
 
-/// Enables the attributes 0 to `count` - 1 of the bound vertex array. From `first_per_instance` on, they advance once
-/// per instance.
-void enable_attributes(GLuint count, GLuint first_per_instance);
+/// Lets the bound vertex array read `attributes`, numbered from `first` on, from `buffer`, whose rows have `stride`
+/// bytes.
+void set_attributes(const Buffer& buffer, std::size_t stride, std::initializer_list<Attribute> attributes,
+                    GLuint first = 0, Advance advance = Advance::per_instance);
 
 /// A texture of any kind; the caller binds and defines it.
 class Texture {
@@ -110,15 +117,14 @@ class Framebuffer {
   explicit Framebuffer(glm::ivec2 size, int samples = 4);
 
   glm::ivec2 size() const { return size_; }
-  int samples() const { return samples_; }  // 0: not multisampled
-  void bind() const;                        // also sets the viewport to the whole framebuffer
-  Image read() const;                       // resolves the samples; leaves this framebuffer bound
+  void bind() const;   // also sets the viewport to the whole framebuffer
+  Image read() const;  // resolves the samples; leaves this framebuffer bound
 
  private:
   void attach(GLuint framebuffer, GLuint colour, GLuint depth, int samples) const;
 
   glm::ivec2 size_;
-  int samples_;
+  int samples_;  // 0: not multisampled
   FramebufferName framebuffer_, resolved_;
   GlName<detail::delete_renderbuffer> colour_, depth_, resolved_colour_;
 };

@@ -56,21 +56,16 @@ const BodyPass::Level& BodyPass::level_of_detail(Mesh& mesh, int level) const {
   built->index_count = static_cast<GLsizei>(tessellated.indices.size());
   built->indices.set(GL_ELEMENT_ARRAY_BUFFER, std::span(tessellated.indices));
   built->vertices.set(GL_ARRAY_BUFFER, std::span(tessellated.vertices));
-  constexpr GLsizei stride = sizeof(TessellatedVertex);
-  glVertexAttribIPointer(0, 3, GL_UNSIGNED_INT, stride, attribute_offset(offsetof(TessellatedVertex, corners)));
-  glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(TessellatedVertex, weights)));
-  set_instance_attributes();
+  set_attributes(built->vertices, sizeof(TessellatedVertex),
+                 {{3, offsetof(TessellatedVertex, corners), true}, {2, offsetof(TessellatedVertex, weights)}}, 0,
+                 Advance::per_vertex);
+  set_attributes(instances_, sizeof(Instance),
+                 {{1, offsetof(Instance, first_vertex), true},
+                  {1, offsetof(Instance, radius)},
+                  {2, offsetof(Instance, occluders), true},
+                  {3, offsetof(Instance, colour)}},
+                 2);
   return *built;
-}
-
-void BodyPass::set_instance_attributes() const {
-  constexpr GLsizei stride = sizeof(Instance);
-  glBindBuffer(GL_ARRAY_BUFFER, instances_.id());
-  glVertexAttribIPointer(2, 1, GL_UNSIGNED_INT, stride, attribute_offset(offsetof(Instance, first_vertex)));
-  glVertexAttribPointer(3, 1, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(Instance, radius)));
-  glVertexAttribIPointer(4, 2, GL_UNSIGNED_INT, stride, attribute_offset(offsetof(Instance, occluders)));
-  glVertexAttribPointer(5, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(Instance, colour)));
-  enable_attributes(6, 2);
 }
 
 void BodyPass::check(const FrameData& frame) const {
@@ -101,7 +96,6 @@ void BodyPass::update(const FrameData& frame, const AmbientOcclusion& occlusion,
   build_batches(frame, occlusion, eye, pixels_at_one_metre);
   occluder_buffer_.stream(GL_TEXTURE_BUFFER, occlusion.occluders());
   attach_buffer(occluders_, occluder_buffer_, unit_occluders, GL_RGBA32F);
-  build_translucent_batches(frame, eye, pixels_at_one_metre);
   if (frame.positions.empty()) return;
   position_buffer_.stream(GL_TEXTURE_BUFFER, frame.positions);
   attach_buffer(positions_, position_buffer_, unit_positions, GL_R32F);
@@ -112,33 +106,27 @@ void BodyPass::update(const FrameData& frame, const AmbientOcclusion& occlusion,
   attach_buffer(marks_, mark_buffer_, unit_marks, GL_R32F);
 }
 
-// Sorts from front to back, so that hidden pixels are not shaded.
 void BodyPass::build_batches(const FrameData& frame, const AmbientOcclusion& occlusion, const glm::vec3& eye,
                              float pixels_at_one_metre) {
+  const auto add = [&](Batches& batches, const MeshDraw& draw, const glm::vec4& sphere,
+                       const OccluderRange& occluders) {
+    const float radius = std::max(sphere.w, min_radius), distance = glm::distance(glm::vec3(sphere), eye);
+    const int level = frame.tessellated ? choose_level(draw, radius, distance, pixels_at_one_metre) : 0;
+    batches[{draw.mesh.index, level}].push_back({draw.first_vertex, radius, occluders, draw.colour});
+  };
   distances_.clear();
   for (std::uint32_t i = 0; i < frame.meshes.size(); ++i) {
     distances_.emplace_back(glm::distance(glm::vec3(occlusion.spheres()[i]), eye), i);
   }
-  std::ranges::sort(distances_);
+  std::ranges::sort(distances_);  // from front to back, so that hidden pixels are not shaded
   for (auto& [key, batch] : batches_) batch.clear();
-  for (const auto& [distance, i] : distances_) {
-    const MeshDraw& draw = frame.meshes[i];
-    const float radius = std::max(occlusion.spheres()[i].w, min_radius);
-    const int level = frame.tessellated ? choose_level(draw, radius, distance, pixels_at_one_metre) : 0;
-    batches_[{draw.mesh.index, level}].push_back({draw.first_vertex, radius, occlusion.ranges()[i], draw.colour});
-  }
-}
-
-void BodyPass::build_translucent_batches(const FrameData& frame, const glm::vec3& eye, float pixels_at_one_metre) {
+  for (const auto& [distance, i] : distances_)
+    add(batches_, frame.meshes[i], occlusion.spheres()[i], occlusion.ranges()[i]);
   translucent_.clear();
   for (const TranslucentSet& set : frame.translucent) {
     Batches& batches = translucent_.emplace_back(&set, Batches{}).second;
-    for (const MeshDraw& draw : set.meshes) {
-      const glm::vec4 sphere = mean_sphere(frame.positions.subspan(draw.first_vertex, draw.vertex_count));
-      const float radius = std::max(sphere.w, min_radius), distance = glm::distance(glm::vec3(sphere), eye);
-      const int level = frame.tessellated ? choose_level(draw, radius, distance, pixels_at_one_metre) : 0;
-      batches[{draw.mesh.index, level}].push_back({draw.first_vertex, radius, {}, draw.colour});
-    }
+    for (const MeshDraw& draw : set.meshes)
+      add(batches, draw, mean_sphere(frame.positions.subspan(draw.first_vertex, draw.vertex_count)), {});
   }
 }
 

@@ -67,10 +67,8 @@ class BodyPass {
 
   void build_batches(const FrameData& frame, const AmbientOcclusion& occlusion, const glm::vec3& eye,
                      float pixels_at_one_metre);
-  void build_translucent_batches(const FrameData& frame, const glm::vec3& eye, float pixels_at_one_metre);
   void draw_batches(const Batches& batches, bool coarsest);
   const Level& level_of_detail(Mesh& mesh, int level) const;
-  void set_instance_attributes() const;
 
   Program program_, marked_program_, shadow_program_;
   std::vector<Mesh> meshes_;

@@ -26,10 +26,7 @@ glm::mat3 basis_round(const glm::vec3& n) {
 BoxPass::BoxPass(const std::filesystem::path& shaders)
     : box_program_(scene_program(shaders, "oriented_box.vert", "surface.frag")),
       shadow_program_(shaders, "oriented_box_shadow.vert", "depth.frag"),
-      plane_program_(scene_program(shaders, "plane.vert", "plane.frag")) {
-  array_.bind();
-  enable_attributes(5, 0);
-}
+      plane_program_(scene_program(shaders, "plane.vert", "plane.frag")) {}
 
 void BoxPass::update(const FrameData& frame) {
   instances_.clear();
@@ -61,15 +58,13 @@ void BoxPass::draw() const {
 void BoxPass::draw_instances(std::size_t first, std::size_t count, GLint begin, GLsizei vertices) const {
   if (count == 0) return;
   array_.bind();
-  glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.id());
-  constexpr GLsizei stride = sizeof(Instance);
-  const std::size_t start = first * sizeof(Instance);
-  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(start + offsetof(Instance, centre)));
-  for (GLuint axis = 0; axis < 3; ++axis) {
-    const std::size_t column = offsetof(Instance, half_axes) + axis * sizeof(glm::vec3);
-    glVertexAttribPointer(1 + axis, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(start + column));
-  }
-  glVertexAttribPointer(4, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(start + offsetof(Instance, colour)));
+  const std::size_t start = first * sizeof(Instance), axes = start + offsetof(Instance, half_axes);
+  set_attributes(instance_buffer_, sizeof(Instance),
+                 {{3, start + offsetof(Instance, centre)},
+                  {3, axes},
+                  {3, axes + sizeof(glm::vec3)},
+                  {3, axes + 2 * sizeof(glm::vec3)},
+                  {3, start + offsetof(Instance, colour)}});
   glEnable(GL_CULL_FACE);
   glDrawArraysInstanced(GL_TRIANGLES, begin, vertices, static_cast<GLsizei>(count));
   glDisable(GL_CULL_FACE);

@@ -38,9 +38,7 @@ EnvironmentPass::EnvironmentPass(const std::filesystem::path& shaders)
       shadowed_(scene_program(shaders, "floor.vert", "floor_shadowed.frag")),
       backdrop_(shaders, "backdrop.vert", "backdrop.frag") {
   array_.bind();
-  glBindBuffer(GL_ARRAY_BUFFER, buffer_.id());
-  glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, sizeof(glm::vec2), nullptr);
-  glEnableVertexAttribArray(0);
+  set_attributes(buffer_, sizeof(glm::vec2), {{2, 0}}, 0, Advance::per_vertex);
 }
 
 void EnvironmentPass::update(const FrameData& frame, std::span<const glm::vec4> casters, const glm::vec3& to_light,

@@ -16,10 +16,8 @@ FloorMap::FloorMap(const std::filesystem::path& shaders)
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, map_.id(), 0);
   array_.bind();
-  glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.id());
-  glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(Instance), attribute_offset(offsetof(Instance, sphere)));
-  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Instance), attribute_offset(offsetof(Instance, colour)));
-  enable_attributes(2, 0);
+  set_attributes(instance_buffer_, sizeof(Instance),
+                 {{4, offsetof(Instance, sphere)}, {3, offsetof(Instance, colour)}});
 }
 
 void FloorMap::draw(const FrameData& frame, const AmbientOcclusion& occlusion) {

@@ -12,23 +12,6 @@
 namespace engine::render {
 namespace {
 
-static_assert(sizeof(Line) == 40 && offsetof(Line, colour) == 24);
-static_assert(sizeof(Box) == 40 && offsetof(Box, colour) == 24);
-static_assert(sizeof(Point) == 28 && offsetof(Point, colour) == 12);
-
-/// Sets the attributes of a vertex array: `vectors` of three floats each, then a colour. They advance once per
-/// instance, or once per vertex if `per_instance` is false.
-void set_attributes(const VertexArray& array, const Buffer& buffer, GLuint vectors, std::size_t stride,
-                    bool per_instance = true) {
-  array.bind();
-  glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
-  for (GLuint attribute = 0; attribute <= vectors; ++attribute) {
-    glVertexAttribPointer(attribute, attribute < vectors ? 3 : 4, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
-                          attribute_offset(attribute * sizeof(glm::vec3)));
-  }
-  enable_attributes(vectors + 1, per_instance ? 0 : vectors + 1);
-}
-
 /// An edge parallel to `axis`, from `lo` to `hi`; `at` are its coordinates on the next two axes.
 struct Edge {
   int axis;
@@ -84,9 +67,15 @@ OverlayPass::OverlayPass(const std::filesystem::path& shaders)
       line_program_(shaders, "line.vert", "line.frag"),
       point_program_(shaders, "point.vert", "point.frag"),
       box_program_(shaders, "box_faces.vert", "box_faces.frag") {
-  set_attributes(line_array_, line_buffer_, 2, sizeof(Line), !uses_gl_lines_);
-  set_attributes(point_array_, point_buffer_, 1, sizeof(Point));
-  set_attributes(box_array_, box_buffer_, 2, sizeof(Box));
+  line_array_.bind();
+  set_attributes(line_buffer_, sizeof(Line),
+                 {{3, offsetof(Line, a)}, {3, offsetof(Line, b)}, {4, offsetof(Line, colour)}}, 0,
+                 uses_gl_lines_ ? Advance::per_vertex : Advance::per_instance);
+  point_array_.bind();
+  set_attributes(point_buffer_, sizeof(Point), {{3, offsetof(Point, position)}, {4, offsetof(Point, colour)}});
+  box_array_.bind();
+  set_attributes(box_buffer_, sizeof(Box),
+                 {{3, offsetof(Box, lo)}, {3, offsetof(Box, hi)}, {4, offsetof(Box, colour)}});
 }
 
 void OverlayPass::draw(const FrameData& frame) {

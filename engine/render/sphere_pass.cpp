@@ -38,14 +38,13 @@ SpherePass::SpherePass(const std::filesystem::path& shaders)
   array_.bind();
   indices_.set(GL_ELEMENT_ARRAY_BUFFER, std::span(indices));
   directions_.set(GL_ARRAY_BUFFER, std::span(directions));
-  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
-  constexpr GLsizei stride = sizeof(Instance);
-  glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.id());
-  glVertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(Instance, sphere)));
-  glVertexAttribIPointer(2, 2, GL_UNSIGNED_INT, stride, attribute_offset(offsetof(Instance, occluders)));
-  glVertexAttribPointer(3, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(Instance, colour)));
-  glVertexAttribPointer(4, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(Instance, segment)));
-  enable_attributes(5, 1);
+  set_attributes(directions_, sizeof(glm::vec3), {{3, 0}}, 0, Advance::per_vertex);
+  set_attributes(instance_buffer_, sizeof(Instance),
+                 {{4, offsetof(Instance, sphere)},
+                  {2, offsetof(Instance, occluders), true},
+                  {3, offsetof(Instance, colour)},
+                  {3, offsetof(Instance, segment)}},
+                 1);
 }
 
 void SpherePass::update(const FrameData& frame, const AmbientOcclusion& occlusion) {

@@ -74,7 +74,7 @@ std::map<Edge, std::vector<Index>> faces_at_edges(const std::vector<Triangle>& t
 }
 
 /// Returns the normal of a triangle, of any length.
-auto normal_of(const auto& at, const Triangle& t) { return glm::cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]]); }
+auto area_normal(const auto& at, const Triangle& t) { return glm::cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]]); }
 
 /// Removes blisters: a few triangles that hang together and are joined to many others along edges of more than two
 /// triangles only. Edge collapses leave them, mostly as two triangles with the same corners.
@@ -129,9 +129,9 @@ void flip_edges(Mesh& mesh) {
       if (c == d || faces.contains(across) || made.contains(across)) continue;
       const Triangle one{a, d, c}, other{d, b, c};
       if (std::max(slimness(one), slimness(other)) >= std::max(slimness(left), slimness(right)) - 1e-6) continue;
-      const glm::dvec3 before = normal_of(at, left) + normal_of(at, right);
+      const glm::dvec3 before = area_normal(at, left) + area_normal(at, right);
       const auto bends = [&](const Triangle& t) {
-        const glm::dvec3 n = normal_of(at, t);
+        const glm::dvec3 n = area_normal(at, t);
         return !(glm::dot(n, before) > straight * glm::length(n) * glm::length(before));
       };
       if (bends(one) || bends(other)) continue;
@@ -160,7 +160,7 @@ class Coarsener {
         cavities_.insert(part);
     }
     for (const Triangle& t : fine.triangles)
-      for (const Index corner : t) normal_[corner] += normal_of(at_, t);
+      for (const Index corner : t) normal_[corner] += area_normal(at_, t);
     const glm::dvec3 size = faces_.box().hi - faces_.box().lo;
     extent_ = static_cast<float>(std::max({size.x, size.y, size.z}));
   }
@@ -261,7 +261,7 @@ class Coarsener {
       const auto same_part = [&](Index face) { return part_[from[mesh.triangles[face][0]]] == part_[v]; };
       // A vertex on one side of a thin wall must not hold on to the other side.
       const auto same_side = [&](Index face) {
-        return same_part(face) && glm::dot(normal_of(coarse, mesh.triangles[face]), normal_[v]) > 0;
+        return same_part(face) && glm::dot(area_normal(coarse, mesh.triangles[face]), normal_[v]) > 0;
       };
       auto nearest = tree.nearest(at_[v], guess, same_side);
       if (nearest.distance == INFINITY) nearest = tree.nearest(at_[v], guess, same_part);

@@ -10,15 +10,12 @@
 namespace engine::render {
 namespace THIS_FILE {
 
-TEST(MeanSphere, HoldsTheVerticesOfAnOctahedron) {
-  const std::vector<glm::vec3> points{{3, 0, 0}, {-1, 0, 0}, {1, 2, 0}, {1, -2, 0}, {1, 0, 2}, {1, 0, -2}};
-  EXPECT_EQ(mean_sphere(points), glm::vec4(1, 0, 0, 2));
+TEST(MeanSphere, HoldsTheVerticesAndIsZeroWithoutThemOrIfOneIsNotFinite) {
+  std::vector<glm::vec3> octahedron{{3, 0, 0}, {-1, 0, 0}, {1, 2, 0}, {1, -2, 0}, {1, 0, 2}, {1, 0, -2}};
+  EXPECT_EQ(mean_sphere(octahedron), glm::vec4(1, 0, 0, 2));
   EXPECT_EQ(mean_sphere({}), glm::vec4(0.0f));
-}
-
-TEST(MeanSphere, IsZeroIfAPositionIsNotFinite) {
-  const std::vector<glm::vec3> points{{0, 0, 0}, {std::numeric_limits<float>::quiet_NaN(), 0, 0}};
-  EXPECT_EQ(mean_sphere(points), glm::vec4(0.0f));
+  octahedron[4].x = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(mean_sphere(octahedron), glm::vec4(0.0f));
 }
 
 TEST(AmbientOcclusion, TouchingSpheresOccludeEachOtherAndDistantOnesDoNot) {
@@ -48,10 +45,8 @@ TEST(AmbientOcclusion, SweepMissesNoOccluderOfAnySize) {
     for (std::size_t j = 0; j < frame.spheres.size(); ++j) {
       const Sphere &a = frame.spheres[i], &b = frame.spheres[j];
       // A sphere occludes another if its centre is within 2.2 of its radii of the surface of the other.
-      const bool near = i != j && glm::distance(a.centre, b.centre) < a.radius + 2.2f * b.radius;
-      if (near) {
-        EXPECT_EQ(found.count(b.centre.x), 1u) << i << " " << j;
-      }
+      if (i == j || glm::distance(a.centre, b.centre) >= a.radius + 2.2f * b.radius) continue;
+      EXPECT_EQ(found.count(b.centre.x), 1u) << i << " " << j;
     }
   }
 }

@@ -59,19 +59,16 @@ TEST(Gui, PanelIsLightWithDarkText) {
 
 TEST(Gui, ScaleAppliesToFontAndSizes) {
   const HeadlessContext context;
-  float ordinary = 0.0f;
-  for (const float scale : {1.0f, 2.0f}) {
+  const auto frame_height = [](float scale) {
     Gui gui(scale);
     gui.begin_frame(GuiInput{});
     const float height = ImGui::GetFrameHeight();
     gui.end_frame();
     gui.draw();
     EXPECT_EQ(gui.scale(), scale);
-    if (scale == 1.0f) ordinary = height;
-    if (scale == 2.0f) {
-      EXPECT_NEAR(height, 2.0f * ordinary, 2.0f);
-    }
-  }
+    return height;
+  };
+  EXPECT_NEAR(frame_height(2.0f), 2.0f * frame_height(1.0f), 2.0f);
 }
 
 }  // namespace THIS_FILE

@@ -52,7 +52,11 @@ struct User {
     button(true);
     button(false);
   }
-  std::string next_frame() { return text_of(queue.take()); }
+  void expect_frames(std::initializer_list<const char*> frames) {
+    for (const char* frame : frames) EXPECT_EQ(text_of(queue.take()), frame);
+    EXPECT_TRUE(queue.empty());
+    EXPECT_EQ(text_of(queue.take()), "");
+  }
 };
 
 TEST(InputQueue, CharactersAfterAClickWaitForTheNextFrame) {
@@ -60,11 +64,7 @@ TEST(InputQueue, CharactersAfterAClickWaitForTheNextFrame) {
   user.type('A');
   user.click();
   user.type('B');
-  EXPECT_EQ(user.next_frame(), "Aa(");
-  EXPECT_EQ(user.next_frame(), "-)Bb");
-  EXPECT_EQ(user.next_frame(), "-");
-  EXPECT_TRUE(user.queue.empty());
-  EXPECT_EQ(user.next_frame(), "");
+  user.expect_frames({"Aa(", "-)Bb", "-"});
 }
 
 TEST(InputQueue, BothClicksOfADoubleClickArrive) {
@@ -72,14 +72,13 @@ TEST(InputQueue, BothClicksOfADoubleClickArrive) {
   user.click();
   user.click();
   user.queue.push(ScrollEvent{{0, 1}});
-  for (const char* frame : {"(", ")", "(", ")*", ""}) EXPECT_EQ(user.next_frame(), frame);
+  user.expect_frames({"(", ")", "(", ")*"});
 }
 
 TEST(InputQueue, AKeyStaysDownForOneFrameAndOthersDoNotWait) {
   User user;
   for (const char c : std::string("EVEN")) user.type(c);
-  EXPECT_EQ(user.next_frame(), "EeVvEeNn");
-  EXPECT_EQ(user.next_frame(), "----");
+  user.expect_frames({"EeVvEeNn", "----"});
 }
 
 TEST(InputQueue, EventsAfterEnterOrControlWait) {
@@ -87,24 +86,19 @@ TEST(InputQueue, EventsAfterEnterOrControlWait) {
   user.type('A');
   user.tap(GLFW_KEY_ENTER);
   user.key(GLFW_KEY_LEFT_CONTROL, GLFW_PRESS);
-  user.key('Z', GLFW_PRESS);
-  user.key('Z', GLFW_RELEASE);
+  user.tap('Z');
   user.key(GLFW_KEY_LEFT_CONTROL, GLFW_RELEASE);
   user.type('B');
-  EXPECT_EQ(user.next_frame(), "Aa");
-  EXPECT_EQ(user.next_frame(), "-\n");
-  EXPECT_EQ(user.next_frame(), "-^Z");
-  EXPECT_EQ(user.next_frame(), "--Bb");
+  user.expect_frames({"Aa", "-\n", "-^Z", "--Bb", "-"});
 }
 
 TEST(InputQueue, CharactersBeforeControlComeBeforeIt) {
   User user;
   user.type('A');
   user.key(GLFW_KEY_LEFT_CONTROL, GLFW_PRESS);
-  user.key('V', GLFW_PRESS);
-  user.key('V', GLFW_RELEASE);
+  user.tap('V');
   user.key(GLFW_KEY_LEFT_CONTROL, GLFW_RELEASE);
-  for (const char* frame : {"Aa", "-^V", "--", ""}) EXPECT_EQ(user.next_frame(), frame);
+  user.expect_frames({"Aa", "-^V", "--"});
 }
 
 TEST(InputQueue, EachBackspaceHasAFrameOfItsOwn) {
@@ -113,7 +107,7 @@ TEST(InputQueue, EachBackspaceHasAFrameOfItsOwn) {
   user.tap(GLFW_KEY_BACKSPACE);
   user.tap(GLFW_KEY_BACKSPACE);
   user.type('B');
-  for (const char* frame : {"Aa", "-<", "-", "<", "-Bb", "-", ""}) EXPECT_EQ(user.next_frame(), frame);
+  user.expect_frames({"Aa", "-<", "-", "<", "-Bb", "-"});
 }
 
 TEST(InputQueue, KeysThatMoveTheCursorKeepTheirPlaceBetweenCharacters) {
@@ -122,7 +116,8 @@ TEST(InputQueue, KeysThatMoveTheCursorKeepTheirPlaceBetweenCharacters) {
     user.type('A');
     user.tap(key);
     user.type('B');
-    for (const char* frame : {"Aa", "-#", "-Bb", "-", ""}) EXPECT_EQ(user.next_frame(), frame) << key;
+    SCOPED_TRACE(key);
+    user.expect_frames({"Aa", "-#", "-Bb", "-"});
   }
 }
 
@@ -130,7 +125,7 @@ TEST(InputQueue, NoEventsFollowInTheFrameAfterTab) {
   User user;
   user.tap(GLFW_KEY_TAB);
   user.type('B');
-  for (const char* frame : {">", "", "-Bb", "-", ""}) EXPECT_EQ(user.next_frame(), frame);
+  user.expect_frames({">", "", "-Bb", "-"});
 }
 
 }  // namespace THIS_FILE

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "engine/headless.h"
 #include "tests/temporary_folder.h"
@@ -32,27 +33,18 @@ class ProgramTest : public testing::Test {
 constexpr const char* correct_vertex = "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n";
 constexpr const char* correct_fragment = "#version 330 core\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n";
 
-TEST_F(ProgramTest, ErrorNamesFileAndLine) {
+TEST_F(ProgramTest, ErrorNamesFileAndLineAlsoInAndAfterAnIncludedFile) {
   write("correct.vert", correct_vertex);
-  write("bad.frag", "#version 330 core\nout vec4 c;\n\nvoid main() { c = nothing; }\n");
-  const std::string message = error_of("correct.vert", "bad.frag");
-  EXPECT_TRUE(message.starts_with((folder.path() / "bad.frag").string() + ":4")) << message;
-}
-
-TEST_F(ProgramTest, ErrorNamesTheIncludedFile) {
-  write("correct.vert", correct_vertex);
-  write("part.glsl", "float twice(float x) {\n  return 2.0 * y;\n}\n");
-  write("main.frag", "#version 330 core\n#include \"part.glsl\"\nout vec4 c;\nvoid main() { c = vec4(twice(1.0)); }\n");
-  const std::string message = error_of("correct.vert", "main.frag");
-  EXPECT_TRUE(message.starts_with((folder.path() / "part.glsl").string() + ":2")) << message;
-}
-
-TEST_F(ProgramTest, ErrorAfterAnIncludeNamesTheRightLine) {
-  write("correct.vert", correct_vertex);
-  write("part.glsl", "float one() {\n  return 1.0;\n}\n");
-  write("main.frag", "#version 330 core\n#include \"part.glsl\"\nout vec4 c;\nvoid main() { c = wrong; }\n");
-  const std::string message = error_of("correct.vert", "main.frag");
-  EXPECT_TRUE(message.starts_with((folder.path() / "main.frag").string() + ":4")) << message;
+  write("correct.glsl", "float one() {\n  return 1.0;\n}\n");
+  write("bad.glsl", "float twice(float x) {\n  return 2.0 * y;\n}\n");
+  const std::string head = "#version 330 core\nout vec4 c;\n";
+  for (const auto& [rest, place] : {std::pair{"\nvoid main() { c = nothing; }\n", "main.frag:4"},
+                                    {"#include \"bad.glsl\"\nvoid main() { c = vec4(twice(1.0)); }\n", "bad.glsl:2"},
+                                    {"#include \"correct.glsl\"\nvoid main() { c = wrong; }\n", "main.frag:4"}}) {
+    folder.write("main.frag", head + rest);
+    const std::string message = error_of("correct.vert", "main.frag");
+    EXPECT_TRUE(message.starts_with((folder.path() / place).string())) << message;
+  }
 }
 
 TEST_F(ProgramTest, ErrorNamesAMissingFile) {

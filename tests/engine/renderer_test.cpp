@@ -16,6 +16,8 @@ namespace engine {
 namespace THIS_FILE {
 
 constexpr glm::ivec2 size{320, 240};
+const glm::vec3 middle(0.0f, 1.0f, 0.0f);
+const Sphere red_sphere{middle, 0.5f, glm::vec3(0.9f, 0.2f, 0.2f)};
 
 /// Draws a frame with a floor, seen from above.
 class RendererTest : public testing::Test {
@@ -35,6 +37,18 @@ class RendererTest : public testing::Test {
     return framebuffer.read();
   }
 
+  /// Adds the vertices of a red icosahedron to the frame; returns how to draw it.
+  MeshDraw body(const glm::vec3& at, float radius) {
+    const auto first = static_cast<std::uint32_t>(positions.size());
+    for (const glm::vec3& p : icosahedron().positions) {
+      positions.push_back(at + radius * p);
+      normals.push_back(p);
+    }
+    frame.positions = positions;
+    frame.normals = normals;
+    return {mesh, first, 12, red_sphere.colour};
+  }
+
   glm::ivec3 colour(const Image& image, const glm::vec3& point) const {
     const auto pixel = camera.project(point, {image.width, image.height});
     return glm::ivec3(image.at(static_cast<int>(pixel->x), static_cast<int>(pixel->y)));
@@ -45,12 +59,11 @@ class RendererTest : public testing::Test {
 
   HeadlessContext context;
   render::Renderer renderer{find_folder("shaders")};
+  MeshHandle mesh = renderer.add_mesh(icosahedron().triangles, 12);
   Camera camera;
   FrameData frame;
+  std::vector<glm::vec3> positions, normals;
 };
-
-const glm::vec3 middle(0.0f, 1.0f, 0.0f);
-const Sphere red_sphere{middle, 0.5f, glm::vec3(0.9f, 0.2f, 0.2f)};
 
 TEST_F(RendererTest, EmptyFrameShowsABrightBackdrop) {
   frame.floor_height.reset();
@@ -60,10 +73,11 @@ TEST_F(RendererTest, EmptyFrameShowsABrightBackdrop) {
   EXPECT_LE(max, 255);
 }
 
-TEST_F(RendererTest, DrawsASphereAtItsPlace) {
+TEST_F(RendererTest, DrawsASphereAtItsPlaceTheSameTwice) {
   frame.spheres = {red_sphere};
   for (const int samples : {0, 4}) {
     const Image image = picture(samples);
+    EXPECT_EQ(picture(samples).rgba, image.rgba);
     const glm::vec3 right(0.45f, 0.0f, 0.0f), beyond(0.6f, 0.0f, 0.0f);
     EXPECT_TRUE(red(colour(image, middle)));
     EXPECT_TRUE(red(colour(image, middle + right)));
@@ -136,16 +150,9 @@ TEST_F(RendererTest, LitFloorShowsNoShadowAcne) {
 }
 
 TEST_F(RendererTest, DrawsABodyInItsColourAtItsVertices) {
-  const Mesh mesh = icosahedron();
-  const MeshHandle handle = renderer.add_mesh(mesh.triangles, 12);
-  std::vector<glm::vec3> positions(5, glm::vec3(9.0f)), normals(5, glm::vec3(0, 1, 0));  // another body's
-  for (const glm::vec3& p : mesh.positions) {
-    positions.push_back(middle + 0.5f * p);
-    normals.push_back(p);
-  }
-  frame.positions = positions;
-  frame.normals = normals;
-  frame.meshes = {{handle, 5, 12, red_sphere.colour}};
+  positions.assign(5, glm::vec3(9.0f));  // another body's
+  normals.assign(5, glm::vec3(0, 1, 0));
+  frame.meshes = {body(middle, 0.5f)};
   for (const bool tessellated : {false, true}) {
     frame.tessellated = tessellated;
     const Image image = picture();
@@ -155,11 +162,7 @@ TEST_F(RendererTest, DrawsABodyInItsColourAtItsVertices) {
 }
 
 TEST_F(RendererTest, TessellatedBodyFillsTheSphereBetterThanFlatTriangles) {
-  const Mesh mesh = icosahedron();
-  frame.meshes = {{renderer.add_mesh(mesh.triangles, 12), 0, 12, red_sphere.colour}};
-  std::vector<glm::vec3> positions = mesh.positions;
-  frame.positions = positions;
-  frame.normals = mesh.positions;
+  frame.meshes = {body(glm::vec3(0.0f), 1.0f)};
   const auto covered = [&](bool tessellated) {
     frame.tessellated = tessellated;
     const Image image = picture();
@@ -245,12 +248,6 @@ TEST_F(RendererTest, DrawsAtAnySizeDownToOnePixel) {
   renderer.draw(camera, {glm::ivec2(0), glm::ivec2(0)}, frame);  // a minimised window
 }
 
-TEST_F(RendererTest, EqualFramesGiveEqualPictures) {
-  frame.spheres = {red_sphere};
-  const Image first = picture(4);
-  EXPECT_EQ(picture(4).rgba, first.rgba);
-}
-
 TEST_F(RendererTest, DrawsOnlyIntoTheViewport) {
   const Framebuffer framebuffer(size, 0);
   framebuffer.bind();
@@ -264,13 +261,11 @@ TEST_F(RendererTest, DrawsOnlyIntoTheViewport) {
 }
 
 TEST_F(RendererTest, RefusesDrawsThatDoNotFit) {
-  const Mesh mesh = icosahedron();
-  frame.positions = frame.normals = mesh.positions;
-  frame.meshes = {{{0}, 0, 12}};
-  EXPECT_THROW(picture(), std::invalid_argument);  // no such mesh
-  renderer.add_mesh(mesh.triangles, 12);
+  frame.meshes = {body(middle, 0.5f)};
   EXPECT_NO_THROW(picture());
-  frame.meshes = {{{0}, 1, 12}};
+  frame.meshes = {{{1}, 0, 12}};
+  EXPECT_THROW(picture(), std::invalid_argument);  // no such mesh
+  frame.meshes = {{mesh, 1, 12}};
   EXPECT_THROW(picture(), std::invalid_argument);  // beyond the last vertex
   frame.meshes.clear();
   frame.marks = {1.0f};
@@ -278,24 +273,19 @@ TEST_F(RendererTest, RefusesDrawsThatDoNotFit) {
   frame.marks.clear();
   frame.normals = {};
   EXPECT_THROW(picture(), std::invalid_argument);
-  EXPECT_THROW(renderer.add_mesh(mesh.triangles, 11), std::invalid_argument);
+  EXPECT_THROW(renderer.add_mesh(icosahedron().triangles, 11), std::invalid_argument);
 }
 
 TEST_F(RendererTest, TranslucentBodiesShowWhatIsBehindThemAndCastNoShadow) {
-  const Mesh mesh = icosahedron();
-  const MeshHandle handle = renderer.add_mesh(mesh.triangles, 12);
-  std::vector<glm::vec3> positions = mesh.positions;
-  for (glm::vec3& p : positions) p = middle + 0.5f * p;
   const Image empty = picture();
-  frame.positions = positions;
-  frame.normals = mesh.positions;
+  const MeshDraw draw = body(middle, 0.5f);
   const auto redness = [&](const Image& image) {
     const glm::ivec3 c = colour(image, middle);
     return 2 * c.r - c.g - c.b;
   };
   int before = redness(empty);
   for (const float opacity : {0.2f, 0.5f, 1.0f}) {
-    frame.translucent = {{{{handle, 0, 12, red_sphere.colour}}, opacity}};
+    frame.translucent = {{{draw}, opacity}};
     const Image image = picture();
     EXPECT_GT(redness(image), before + 20) << opacity;
     before = redness(image);
@@ -309,26 +299,12 @@ TEST_F(RendererTest, TranslucentBodiesShowWhatIsBehindThemAndCastNoShadow) {
 class TranslucentTest : public RendererTest {
  protected:
   TranslucentTest() {
-    const Mesh mesh = icosahedron();
-    const MeshHandle handle = renderer.add_mesh(mesh.triangles, 12);
     camera.set_orbit({middle, 5.0f, 0.0f, 0.0f});
-    for (const float z : {0.5f, -0.5f}) {
-      for (const glm::vec3& p : mesh.positions) {
-        positions_.push_back(middle + 0.4f * p + glm::vec3(0, 0, z));
-        normals_.push_back(p);
-      }
-    }
-    frame.positions = positions_;
-    frame.normals = normals_;
-    front = {handle, 0, 12, red_sphere.colour};
-    back = {handle, 12, 12, glm::vec3(0.1f, 0.1f, 0.9f)};
+    back.colour = {0.1f, 0.1f, 0.9f};
   }
   glm::ivec3 centre() { return colour(picture(), middle + glm::vec3(0, 0, 0.5f)); }
 
-  MeshDraw front, back;
-
- private:
-  std::vector<glm::vec3> positions_, normals_;
+  MeshDraw front = body(middle + glm::vec3(0, 0, 0.5f), 0.4f), back = body(middle - glm::vec3(0, 0, 0.5f), 0.4f);
 };
 
 TEST_F(TranslucentTest, ShowsOnlyTheNearestSurfaceOfASet) {
