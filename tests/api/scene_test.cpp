@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -155,6 +156,15 @@ TEST(ApiWorld, GivesTheVelocityOfEachVertexOfAFineMesh) {
   }
   EXPECT_GT(fastest - slowest, 1);  // m/s: an impact
   EXPECT_LT(furthest_off, 0.1 * (fastest - slowest));
+}
+
+TEST(ApiWorld, GivesTheContactsOfTheVerticesOfFineMeshes) {
+  Scene scene;
+  const int ring = Ring().add_to(scene);
+  scene.add_body({.mesh = ring});
+  scene.add_body({.mesh = ring, .position = {0, 0.41, 0}});  // 0.01 m above
+  const World world(scene);                                  // fewer than 1800 particles simulate both
+  EXPECT_TRUE(std::ranges::any_of(world.contacts(), [](const sbcollide::Contact& c) { return c.b >= 1800; }));
 }
 
 TEST(Scene, RefusesMeshesThatAreNoSurface) {

@@ -161,6 +161,7 @@ TEST_F(RecordedSession, RefusesBodiesAndChangesNothing) {
   session.bodies.throw_body({0, 0, 5}, {0, 0, 0});
   session.bodies.add(softbody::BodySource{}, softbody::Material{});
   EXPECT_TRUE(simulation.notice.is_error());
+  EXPECT_NO_THROW(simulation.pull_to({0, 9, 0})) << "nothing is held";
   EXPECT_EQ(session.world().bodies().count(), RecordedBalls::all);
   simulation.clock.paused = false;
   run(session, 1);

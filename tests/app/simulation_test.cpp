@@ -9,6 +9,12 @@
 namespace app {
 namespace THIS_FILE {
 
+struct Observer : session::SimulationObserver {
+  int interventions = 0;
+  double stepped() override { return 1e6; }  // ms, longer than any step
+  void intervened() override { ++interventions; }
+};
+
 class SimulationTest : public testing::Test {
  protected:
   std::uint64_t hash() const { return simulation.simulated()->state_hash(); }
@@ -33,7 +39,8 @@ class SimulationTest : public testing::Test {
     EXPECT_EQ(simulation.world().scene().contact_surface, softbody::ContactSurface::surfaces);
   }
 
-  session::Simulation simulation{touching_pair(), 1};
+  Observer observer;
+  session::Simulation simulation{touching_pair(), 1, "", &observer};
   session::SettingControls controls{simulation};
   session::BodyControls bodies{simulation};
 };
@@ -65,6 +72,16 @@ TEST_F(SimulationTest, InterpolatesSlowMotionBetweenTwoSteps) {
   EXPECT_EQ(simulation.before_last_step().shown().y[0], height);
   simulation.clock.paused = true;
   EXPECT_EQ(simulation.between(), 1.0f);
+}
+
+TEST_F(SimulationTest, CountsTheTimeOfItsObserverAsPartOfAStep) {
+  run(simulation, 1);
+  EXPECT_GE(simulation.step_ms(), 1e6);
+}
+
+TEST_F(SimulationTest, TellsItsObserverThatASettingChanged) {
+  set_gravity(3);
+  EXPECT_EQ(observer.interventions, 1);
 }
 
 TEST_F(SimulationTest, HasTheCaptionOfTheFrame) {

@@ -23,7 +23,7 @@ void sweep(PanelRig& rig) {
   rig.click("Sweep");
 }
 
-TEST(SweepView, AddsPointsDuringTheSweepSlowerOnesFurtherRightAndBetterOnesLower) {
+TEST(SweepView, PlacesAPointForEachConfigurationByItsTimeAndError) {
   PanelRig rig;
   sweep(rig);
   const std::vector<ui::SweepPlot::Point>& points = rig.interface.sweep_view().plot().points();

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "tests/cli/process.h"
 
 namespace cli::test {
@@ -18,17 +16,18 @@ TEST(Errors, NameTheOptionWithABadValue) {
     Words command;
     std::string option;
     Words values, says;
+    bool says_value = false;  // behind the option
   };
   const std::string triple = ": must be three whole numbers from 1 to 4294967295",
                     metres = ": must be a number of metres, three of them as X,Y,Z, or auto";
-  for (const auto& [command, option, values, says] : std::vector<BadValues>{
+  for (const auto& [command, option, values, says, says_value] : std::vector<BadValues>{
            {drop, "--frames", {"0", "-3", "many", "2.5", "99999999999999999999"}, {"whole number from 1 to 10000000"}},
            {drop, "--levels", {"16", "-1"}, {"must be a whole number from 0 to 15"}},
            {drop, "--buckets", {"0", "-5", "16777217", "4294967297"}, {"must be a whole number from 1 to 16777216"}},
            {drop, "--cell-size", {"0", "nan", "1e300", "1,2,-3"}, {"cell size"}},
            {drop, "--cell-size", {"1e30", "1e-30", "1,2,1e7"}, {" metres from 1e-09 to 1000000"}},
            {drop, "--tolerance", {"0", "-0.1", "nan", "inf", "1e-10", "1e-40", "5e+29", "10.1"}, {"from 1e-09 to 10"}},
-           {drop, "--tolerance", {"0,1", "0.1m"}, {" = ", ": is no number"}},
+           {drop, "--tolerance", {"0,1", "0.1m"}, {": is no number"}, true},
            {drop,
             "--view",
             {"0,1,0,8,30", "0,1,0,8,30,up", "0,1,0,0,30,0", "0,1,0,8,30,120", "0,1,0,8,nan,0"},
@@ -64,11 +63,9 @@ TEST(Errors, NameTheOptionWithABadValue) {
             "--tolerance",
             {"0", "-1", "-0.5", "nan", "inf", "1e300", "1e-60", "5e+29", "2e+18", "9e-19", "1e-40"},
             {"1e-18 to 1e18 m"}},
-           {{"detect", mesh}, "--tolerance", {"one", "0.1m"}, {" = ", ": is no number"}}})
-    for (const std::string& value : values) {
-      const bool is_number = std::ranges::count(says, " = ") == 0;
-      expect_refused(with(command, {option, value}), with(says, {option, is_number ? option : option + " = " + value}));
-    }
+           {{"detect", mesh}, "--tolerance", {"one", "0.1m"}, {": is no number"}, true}})
+    for (const std::string& value : values)
+      expect_refused(with(command, {option, value}), with(says, {says_value ? option + " = " + value : option}));
   for (const char* option : {"--cell-size", "--primes", "--rest", "--contacts", "--method", "--tolerance"}) {
     expect_refused({"detect", mesh, option, ""}, {option, "the value is empty"});
     expect_refused({"detect", mesh, option}, {option, "missing"});

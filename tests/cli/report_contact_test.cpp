@@ -115,7 +115,24 @@ TEST(ContactTrial, SaysWhatIsWrong) {
       {{.passed = 3, .through_solids = 2, .finite = false}, {"not finite", "through a solid: 2", "passed: 3"}},
       {{.settles = true, .self_intersecting = 1}, {"pierce themselves: 1", "awake"}},
       {{.not_run = "over the budget", .passed = 3}, {"over the budget"}}};
-  for (const auto& [trial, failures] : rows) EXPECT_EQ(trial.failures(), failures);
+  for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(rows[i].first.failures(), rows[i].second) << "row " << i;
+}
+
+TEST(ContactPage, HasAPlotOfASceneAndOfItsImpacts) {
+  using namespace app::report;
+  ContactResults r;
+  r.options.name = "contact";
+  r.choices = {{.surface = softbody::ContactSurface::surfaces}, {}};
+  ContactCase& scene = r.cases.emplace_back();
+  scene.scene.key = "pair";
+  for (const ContactChoice& choice : r.choices) scene.trials.push_back({.choice = choice, .radius = 0.5});
+  r.cases.push_back(scene);
+  r.cases[1].scene.key = "balls";
+  r.cases[1].speed = 10;
+  const std::string text = contact_page(r).markdown(true);
+  for (const char* plot : {"](<contact-time-pair.svg>)", "](<contact-impact-balls.svg>)"})
+    EXPECT_NE(text.find(plot), std::string::npos) << plot;
+  EXPECT_EQ(text.find("nan"), std::string::npos) << text;
 }
 
 TEST(ContactReport, ListsASceneOverBudgetAndDoesNotRunIt) {

@@ -45,7 +45,7 @@ TEST(SolverCaseOrder, IsTheMedianSlopeOfTheLongestRowOfFallingErrors) {
 TEST(SolverCaseOrder, IsNothingIfErrorsDoNotFallOrNothingMoves) {
   for (const std::vector<double>& errors :
        {std::vector<double>{}, {0, 0}, {1.1e-4, 5.6e-5, 1.2e-4}, {1.9, 1.8, 1.5, 1.4}, {8e-5, 9e-5, 9.5e-5, 1.9e-4}})
-    EXPECT_EQ(order(errors), std::nullopt);
+    EXPECT_EQ(order(errors), std::nullopt) << testing::PrintToString(errors);
   EXPECT_EQ(order({1.6e-1, 4e-2, 1e-2, 2.5e-3}, true), std::nullopt);
 }
 

@@ -74,8 +74,10 @@ class BoxPairsTest : public OnEveryTarget {
 };
 
 TEST_P(BoxPairsTest, FindsThePairsOfPlainLoopsWithoutCuts) {
-  for (const std::size_t count : {0u, 1u, 2u, 15u, 16u, 17u, 63u, 64u, 65u, 200u})
+  for (const std::size_t count : {0u, 1u, 2u, 15u, 16u, 17u, 63u, 64u, 65u, 200u}) {
+    SCOPED_TRACE(count);
     expect_plain_pairs(random_boxes(random_, count, 1, 0.4f), random_boxes(random_, 70, 1, 0.4f));
+  }
 }
 
 TEST_P(BoxPairsTest, FindsEachPairOnceWithCuts) {

@@ -101,6 +101,13 @@ TEST(Debug, OfTheExactMethodShowsWhereBodiesOverlap) {
   EXPECT_EQ(geometry.box_first, (std::vector<std::uint32_t>{0, 0}));
 }
 
+TEST(Debug, OfTheExactMethodShowsTheLeavesOfItsCuts) {
+  State state;
+  std::mt19937 random(31);
+  for (int body = 0; body < 2; ++body) state.add(random_points(random, 400, 0, 1));
+  EXPECT_GT(picture("multi-level-sb-exact", state, settings_of(state, 1)).boxes.size(), 4u);
+}
+
 TEST(Debug, KeepsTheFirstCellsWhereThereAreTooMany) {
   CellList cells;
   CellHash hash{metre_cells()};

@@ -3,6 +3,8 @@
 #include <array>
 #include <limits>
 
+#include "app/base/heap.h"
+#include "collide/methods/bucket_table.h"
 #include "collide/methods/cell_hash.h"
 
 namespace collide::test {
@@ -63,6 +65,21 @@ TEST(CellHash, ClampsWhatNoIntegerHolds) {
   EXPECT_EQ(hash.index(1, -1e38), -limit);
   EXPECT_EQ(hash.index(2, std::numeric_limits<double>::infinity()), limit);
   EXPECT_GT((CellRange{{-limit, -limit, -limit}, {limit, limit, limit}}.count()), 0x1p182);
+}
+
+TEST(MaxListedCells, IsAThirtySecondOfTheVerticesWithinItsBounds) {
+  EXPECT_EQ(max_listed_cells(100), 64.0);
+  EXPECT_EQ(max_listed_cells(6400), 200.0);
+  EXPECT_EQ(max_listed_cells(6400, 1), 27.0);
+}
+
+TEST(BucketTable, GivesALargeTableBack) {
+  const std::vector<std::uint32_t> bucket{3, 0, 3};
+  BucketTable table;
+  const std::size_t before = app::heap_in_use();  // always 0 where the C library does not report it
+  table.build(bucket, max_buckets);
+  table.build(bucket, 101);
+  EXPECT_LE(app::heap_in_use(), before + 10'000);
 }
 
 }  // namespace THIS_FILE

@@ -124,6 +124,19 @@ TEST(FindOverlaps, DepthIsTheSmallestOverAllFaces) {
   }
 }
 
+TEST(FindOverlaps, NamesTheFirstOfEquallyNearFaces) {
+  for (const bool reversed : {false, true}) {
+    SurfaceMesh cube = box(glm::vec3(0), glm::vec3(4));
+    if (reversed) std::ranges::reverse(cube.triangles);
+    Scene scene{cube};
+    add_points(scene, {glm::vec3(2), {2, 3, 2}});  // in the centre, and below the diagonal of the upper side
+    const Overlaps overlaps = overlaps_of(scene);
+    ASSERT_EQ(overlaps.penetrations.size(), 2u);
+    EXPECT_EQ(overlaps.penetrations[0].triangle, 0u) << reversed;
+    EXPECT_EQ(overlaps.penetrations[1].triangle, reversed ? 4u : 6u);
+  }
+}
+
 TEST(FindOverlaps, FindsASheetThroughASphere) {
   const SurfaceFigures figures = figures_of(Scene{ball(1), moved(sheet(1, 10), glm::vec3(0, 0.3f, 0))});
   EXPECT_EQ(figures.penetrating_vertices, 0u);  // the sheet's corners are far outside, and it has no inside

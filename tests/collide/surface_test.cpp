@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collide/surface/box_tree.h"
 #include "surface_meshes.h"
 
 namespace collide::test {
@@ -36,6 +37,13 @@ TEST(Surface, IsNotClosedWithAHoleOrAReversedFace) {
 TEST(Surface, ThrowsForInvalidTriangles) {
   EXPECT_THROW(Surface(3, {{0, 1, 3}}), std::invalid_argument);
   EXPECT_THROW(Surface(3, {{0, 1, 1}}), std::invalid_argument);
+}
+
+TEST(MovingBox, OverlapsUnlessAnAxisSeparatesBothEndsInOneOrder) {
+  const Box unit{glm::dvec3(0), glm::dvec3(1)}, beside{glm::dvec3(2, 0, 0), glm::dvec3(3, 1, 1)};
+  const Box far{glm::dvec3(9), glm::dvec3(10)}, beside_far{glm::dvec3(11, 9, 9), glm::dvec3(12, 10, 10)};
+  EXPECT_FALSE(overlap(MovingBox{unit, far}, {beside, beside_far})) << "they fly together";
+  EXPECT_TRUE(overlap(MovingBox{unit, beside}, {beside, unit})) << "they change places";
 }
 
 }  // namespace THIS_FILE

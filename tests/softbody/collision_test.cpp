@@ -11,15 +11,19 @@
 namespace softbody::test {
 namespace THIS_FILE {
 
-/// Two bodies meet off the line of their centres, one three times as heavy.
-TEST(Collision, ConservesMomentumLosesEnergyAndThrowsBackNoFasterThanPenaltyContactAllows) {
+/// Two bodies meet off the line of their centres, one three times as heavy. After 90 frames they are apart.
+Scene unlike_bodies_that_meet() {
   Scene scene = lone_body(gas_ball(), glm::dvec3(3, 0.2, 0));
   scene.materials[0][Material::internal_damping] = 5;
   scene.materials.push_back(scene.materials[0]);
   scene.materials[1][Material::mass] = 3;
   add_body(scene, {1.6, 0.3, 0.1}, {-1.5, 0, 0.3});
   scene.bodies[1].material = 1;
-  World world(scene, {});
+  return scene;
+}
+
+TEST(Collision, ConservesMomentum) {
+  World world(unlike_bodies_that_meet(), {});
   const Measures before = measure(world);
   const double size = 3 * 1 + 1.5 * 3;
   std::size_t contacts = 0;
@@ -29,11 +33,17 @@ TEST(Collision, ConservesMomentumLosesEnergyAndThrowsBackNoFasterThanPenaltyCont
     ASSERT_LT(glm::distance(measure(world).momentum, before.momentum), 1e-5 * size) << "frame " << i;
   }
   EXPECT_GT(contacts, 20u);
+}
+
+TEST(Collision, LosesEnergy) {
+  World world(unlike_bodies_that_meet(), {});
+  const double before = measure(world).energy;
+  run(world, 90);
   EXPECT_TRUE(world.detection().contacts.empty());
-  EXPECT_LT(measure(world).energy, before.energy);
+  EXPECT_LT(measure(world).energy, before);
   const double apart = motion(world, 1).velocity.x - motion(world, 0).velocity.x;
   EXPECT_GT(apart, 0);
-  EXPECT_LT(apart, PenaltyLaw<double>::rebound_speed + 1);
+  EXPECT_LT(apart, PenaltyLaw<double>::rebound_speed + 1) << "no faster than penalty contact allows";
 }
 
 TEST(Collision, FrictionSpringsSlipOnceAStepInEveryExplicitIntegrator) {

@@ -484,7 +484,10 @@ TEST(MeshImport, NamesTheFilesLinesAndVerticesInRefusals) {
       {"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\nf 2 1 4\nf 4 1 3\n", "holds no volume"},
       {corners + polygon + "\n", "1001 corners; at most 1000"},
   };
-  for (const auto& [obj, says] : rows) EXPECT_NE(error_of(obj).find(says), std::string::npos) << error_of(obj);
+  for (const auto& [obj, says] : rows) {
+    const std::string message = error_of(obj);
+    EXPECT_NE(message.find(says), std::string::npos) << '"' << says << "\" is not in: " << message;
+  }
   EXPECT_EQ(error_of("v 3e38 0 0\nv -3e38 0 0\nv 0 3e38 0\nf 1 2 3\n", {.size = 1}), "was taken");
 }
 

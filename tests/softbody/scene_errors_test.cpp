@@ -76,6 +76,7 @@ const Bad bad_scenes[]{
     {"subdivisions_7", "[[body]]\nmesh = {subdivisions = 7}\n", 2, "from 0 to 6"},
     {"columns_zero", "[[body]]\nmesh = {kind = \"grid\", columns = 0}\n", 2, "from 1 to 1000"},
     {"columns_1001", "[[body]]\nmesh = {kind = \"grid\", columns = 1001}\n", 2, "from 1 to 1000"},
+    {"rows_1001", "[[body]]\nmesh = {kind = \"grid\", rows = 1001}\n", 2, "from 1 to 1000"},
     {"frame_negative", "[[body]]\nappear = -1\n", 2, "appear must be"},
     {"frames_zero", "[[body]]\n[sleep]\nframes = 0\n", 3, "frames must be"},
     {"nan", "[[material]]\nmass = nan\n[[body]]\n", 2, "mass must be a number"},

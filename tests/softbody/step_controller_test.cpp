@@ -108,6 +108,13 @@ TEST(StepController, KeepsTheRateForAWhile) {
   EXPECT_LE(after, 1 + frame);
 }
 
+TEST(StepController, ForgetsTheRateWhileNothingMoves) {
+  StepController steps = with("semi-implicit-euler");
+  substeps(steps, stable(100));
+  for (int i = 0; i < 62; ++i) steps.begin_frame({.seconds = frame, .particles = 1000}, {});
+  EXPECT_LT(substeps(steps, stable(10)), 20);
+}
+
 /// One that no number of substeps carries must not have the next frames cut short, too.
 TEST(StepController, KeepsNoRateThatIsBeyondTheBudget) {
   StepController steps = with("semi-implicit-euler");
