@@ -168,10 +168,11 @@ class Demo {
   void draw_frame(double elapsed) {
     seconds_ += elapsed;
     session_.import.drop(graphics_->window.take_dropped_files());
-    if (session_.import.update()) perform(ui::WindowTask::show_joined, scene_viewport().size);
+    const bool has_joined = session_.import.update();
     // Handles all waiting input in this frame, a click at a time, so that a slow world does not delay typing and
     // clicks.
     handle_input(elapsed);
+    if (has_joined) perform(ui::WindowTask::show_joined, scene_viewport().size);  // once the scene's camera is set up
     while (graphics_->window.has_pending_input()) {
       graphics_->gui.end_frame();
       handle_input(0);
