@@ -26,10 +26,11 @@ struct Moments {
 };
 Moments moments(const Mesh& mesh, const std::vector<Edge>& pairs, const std::vector<double>& shares) {
   Moments m;
+  const double whole = area(mesh);
   for (std::size_t s = 0; s < pairs.size(); ++s) {
     const double length = glm::distance(mesh.vertices[pairs[s][0]], mesh.vertices[pairs[s][1]]);
-    m.second += shares[s] * std::pow(length, 2) / area(mesh);
-    m.fourth += shares[s] * std::pow(length, 4) / area(mesh);
+    m.second += shares[s] * std::pow(length, 2) / whole;
+    m.fourth += shares[s] * std::pow(length, 4) / whole;
     m.mean += length / double(pairs.size());
   }
   return m;
