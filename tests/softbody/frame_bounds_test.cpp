@@ -230,7 +230,7 @@ TEST(MaxCandidates, EndAFrameEarlyIfItHasMoved) {
 TEST(PenaltyContact, GrowsByTheSimulatedSecondsOfAShortFrame) {
   Scene scene = lone_body(gas_ball());
   add_body(scene, {5, 0, 0}, {});
-  World world(scene, {.integrator = {"semi-implicit-euler"}});
+  World world(scene, {.integrator = {"semi-implicit-euler"}, .budget = {.least = 4e6}});
   world.step();
   change(world, [&](Scene& s) { s.contact_surface = ContactSurface::surfaces; });  // after which it grows from nothing
   change(world, [&](Scene& s) { s.contact_surface = ContactSurface::vertices; });
