@@ -15,6 +15,7 @@
 #include "softbody/mechanics/make_body_model.h"
 #include "softbody/state/state.h"
 #include "softbody/world/energy_watch.h"
+#include "softbody/world/snapshot.h"
 #include "tests/softbody/surface_rig.h"
 #include "tests/support/change.h"
 #include "tests/support/world_test_access.h"
@@ -223,20 +224,24 @@ TEST(EnergyLedger, BooksWhatStepsGiveThatBecomeLonger) {
 /// Steps are ten times too long, or dampers drive.
 TEST(EnergyWatch, FindsBlowUpsWithinTenFramesInEveryScene) {
   constexpr Index many = 50'000;  // vertices: they would take minutes
-  for (const std::string& key : scene_keys(SBCOLLIDE_SCENES))
+  for (const std::string& key : scene_keys(SBCOLLIDE_SCENES)) {
+    World world(find_scene(key, SBCOLLIDE_SCENES),
+                {.integrator = {"semi-implicit-euler"}, .budget = {.least = 1e7}});  // it cuts frames that blow up
+    if (world.bodies().vertex_count() > many) continue;
+    EnergyWatch watch;
+    const auto found = [&] {
+      world.step();
+      const std::vector<BodyMeasures> bodies = measure_bodies(world);
+      if (!std::ranges::all_of(bodies, &BodyMeasures::finite)) return true;
+      const std::optional<EnergyChange> change = watch.look(world, bodies);
+      return change && change->from_nowhere();
+    };
+    while (world.frame() < 40 || measure(world).max_speed == 0)
+      ASSERT_FALSE(found()) << key << ", frame " << world.frame();
+    const Snapshot sound = world.snapshot();
     for (const bool too_long : {true, false}) {
-      World world(find_scene(key, SBCOLLIDE_SCENES), {.integrator = {"semi-implicit-euler"}});
-      if (world.bodies().vertex_count() > many) continue;
-      EnergyWatch watch;
-      const auto found = [&] {
-        world.step();
-        const std::vector<BodyMeasures> bodies = measure_bodies(world);
-        if (!std::ranges::all_of(bodies, &BodyMeasures::finite)) return true;
-        const std::optional<EnergyChange> change = watch.look(world, bodies);
-        return change && change->from_nowhere();
-      };
-      while (world.frame() < 40 || measure(world).max_speed == 0)
-        ASSERT_FALSE(found()) << key << ", frame " << world.frame();
+      world.restore(sound);
+      watch.look(world, measure_bodies(world));
       if (too_long) world.set_integrator({"semi-implicit-euler", std::max(1, world.last_step().needed / 10)});
       for (std::size_t i = 0; !too_long && i < world.scene().materials.size(); ++i) {
         Material m = world.scene().materials[i];
@@ -247,6 +252,7 @@ TEST(EnergyWatch, FindsBlowUpsWithinTenFramesInEveryScene) {
       while (frames <= 10 && !found()) ++frames;
       EXPECT_LE(frames, 10) << key << (too_long ? ", too long" : ", driven");
     }
+  }
 }
 
 TEST(EnergyWatch, DoesNotJudgeAcrossASwitchOfIntegrators) {
