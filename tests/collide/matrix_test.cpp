@@ -105,11 +105,12 @@ TEST_P(Matrix, FindsTheSameOnAnyNumberOfThreadsAndTheNextTime) {
   for (const Method& method : method_table()) {
     for (const float cell : {0.02f, 0.6f}) {
       const Settings settings{.tolerance = state.tolerance, .cell_size = glm::vec3(cell)};
+      const Settings before{.tolerance = other.tolerance, .cell_size = glm::vec3(cell)};
       const Result first = detect(method.key, state, settings);
       const std::unique_ptr<Detector> kept = method.make();
       for (Workers& workers : bench_->workers) {
         Result result;
-        kept->detect(other.frame(), settings, workers, result);
+        kept->detect(other.frame(), before, workers, result);
         kept->detect(state.frame(), settings, workers, result);
         EXPECT_EQ(result.contacts, first.contacts) << method.key;
         EXPECT_EQ(result.self_contacts, first.self_contacts) << method.key;
