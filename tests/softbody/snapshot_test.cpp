@@ -51,10 +51,8 @@ TEST(Snapshot, ContinuesToTheBitByEitherContact) {
     Scene scene = find_scene("star", SBCOLLIDE_SCENES);
     scene.contact_surface = surface.value;
     World world(scene, {.threads = 2});
-    for (const int start : {40, 100}) {
-      run(world, start - world.frame());
-      expect_the_same_again(world, scene, 4);
-    }
+    run(world, 40);  // they touch
+    expect_the_same_again(world, scene, 4);
   }
 }
 
