@@ -91,7 +91,7 @@ TEST_P(Integrators, LetNothingSinkIntoTheGround) {
   scene.bodies[0].position = {0, 1, 0};
   set_solid(scene, {Ground{}});
   World world(scene, {.integrator = {std::string(GetParam().key), about(GetParam(), 100)}});
-  for (int frame = 0; frame < 70; ++frame) {
+  for (int frame = 0; frame < 50; ++frame) {
     world.step();
     const Measures m = measure(world);
     ASSERT_TRUE(m.finite) << frame;
