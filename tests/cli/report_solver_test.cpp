@@ -99,6 +99,7 @@ TEST(SolverScenes, AutoKeepsItsPromise) {
   constexpr double bound = 1e-3;           // R, a tenth of what is promised
   constexpr std::uint64_t steps = 60'000;  // of the reference, at most
   for (const app::report::SolverScene& scene : app::report::solver_scenes()) {
+    if (scene.at_rest) continue;  // balls as stiff that fly show more
     const app::report::SolverCase c = begin_case(scene, bound, steps);
     EXPECT_TRUE(c.reference.converged) << scene.key;
     EXPECT_TRUE(c.keeps_promise()) << scene.key << ": " << c.own("auto").error << " R of " << c.allowed() << " R";
