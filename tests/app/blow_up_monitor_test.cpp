@@ -76,7 +76,7 @@ TEST(BlowUpMonitor, AcceptsABodyAddedInsideAnother) {
         scene.bodies[1].position = scene.bodies[0].position + glm::dvec3(apart, 0);
         scene.bodies[1].appear = 5;
         session::Simulation simulation(scene, 1);
-        while (simulation.world().frame() < 90 && !simulation.stability().blow_up()) run(simulation, 1);
+        while (simulation.world().frame() < 60 && !simulation.stability().blow_up()) run(simulation, 1);
         EXPECT_FALSE(simulation.stability().blow_up()) << stiffness << " N/m, " << apart.x << ' ' << apart.y
                                                        << " apart: " << simulation.stability().blow_up()->what;
         EXPECT_EQ(simulation.world().bodies().count(), 2u);
@@ -171,12 +171,12 @@ TEST(BlowUpMonitor, JudgesSurfacesThatNeverSeparate) {
   scene.bodies[1].position += glm::dvec3(0.02, 0, 0.01);
   scene.contact_surface = softbody::ContactSurface::surfaces;
   Watched watched(scene);
-  for (int i = 0; i < 120; ++i) watched.look();
+  for (int i = 0; i < 60; ++i) watched.look();
 }
 
 /// Gas whose pressure changes suddenly makes bodies swing as fast as explicit steps can follow.
 TEST(BlowUpMonitor, AcceptsBodiesThatSwingFast) {
-  for (const double pressure : {0.0, 90e3, 111e3, 114e3, 116e3, 119e3, 125e3, 150e3}) {  // Pa
+  for (const double pressure : {0.0, 111e3, 116e3, 150e3}) {  // Pa
     softbody::Scene scene = touching_pair();
     softbody::Material& rubber = scene.materials[0];
     rubber[softbody::GasPressure::inside] = 113e3, rubber[softbody::GasPressure::outside] = 101'325;
@@ -185,7 +185,7 @@ TEST(BlowUpMonitor, AcceptsBodiesThatSwingFast) {
     run(simulation, 15);
     rubber[softbody::GasPressure::inside] = pressure;
     simulation.change_scene("Material", [&](softbody::Scene& s) { s.materials[0] = rubber; });
-    while (simulation.world().frame() < 60 && !simulation.stability().blow_up()) run(simulation, 1);
+    while (simulation.world().frame() < 45 && !simulation.stability().blow_up()) run(simulation, 1);
     EXPECT_FALSE(simulation.stability().blow_up()) << pressure << " Pa: " << simulation.stability().blow_up()->what;
   }
 }

@@ -279,7 +279,7 @@ TEST_F(ExporterTest, EndsAVideoWhenThePictureSizeChanges) {
 }
 
 TEST_F(ExporterTest, WritesAVideoWithTheRealFfmpeg) {
-  if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no ffmpeg";
+  if (std::system("command -v ffmpeg >/dev/null") != 0) GTEST_SKIP() << "no ffmpeg";
   width = 65;  // odd
   record("video", 5);
   EXPECT_FALSE(exporter.failed()) << exporter.message();

@@ -61,7 +61,7 @@ TEST(BlowUpMonitor, AcceptsAWholeSessionOfChanges) {
   for (const auto surface : {softbody::ContactSurface::vertices, softbody::ContactSurface::surfaces}) {
     session::Simulation simulation(touching_pair(), 1);
     simulation.change_scene("Contact", [&](softbody::Scene& s) { s.contact_surface = surface; });
-    for (int round = 0; round < 6; ++round) {
+    for (int round = 0; round < 3; ++round) {
       run(simulation, 50);
       session::BodyControls(simulation).drop();
       run(simulation, 10);

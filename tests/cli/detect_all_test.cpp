@@ -140,8 +140,8 @@ TEST_F(DetectAll, LeavesOutMethodsThatWouldTakeTooLong) {
   std::string text = "ply\nformat ascii 1.0\nelement vertex 350000\n";
   text += "property float x\nproperty float y\nproperty float z\nend_header\n";
   for (int i = 0; i < 350'000; ++i) text += std::to_string(i) + " 0 0\n";
-  const Words all{
-      folder.write("a.ply", text), "--tolerance", "1.5", "--method", "all", "--cell-size", "2", "--levels", "9"};
+  const Words all = with({folder.write("a.ply", text), "--method", "all", "--tolerance", "1.5"},
+                         {"--cell-size", "2", "--levels", "15", "--buckets", "1000003"});
   for (const json& document : detect(all)) {
     EXPECT_NE(document["reference"], "brute-force");
     if (document["method"] == "brute-force") {

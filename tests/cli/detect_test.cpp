@@ -19,23 +19,21 @@ constexpr const char* exact[]{"brute-force", "grid-hash", "bounding-box", "bound
                               "multi-level-sb-exact"};
 
 TEST_F(Detect, FindsTheSameAsADoubleLoopByExactMethodsWithAnyOptions) {
-  for (const unsigned seed : {1u, 2u, 3u}) {
-    const State state = random_state(seed);
-    const std::string obj = file("state.obj", state);
-    for (const char* tolerance : {"0.05", "0.12"}) {
-      const auto expected = oracle(0, state, {.tolerance = std::strtof(tolerance, nullptr)});
-      ASSERT_GT(expected.size(), 20u);
-      const auto self = std::ranges::count_if(expected, [](const ContactRow& r) { return r.body_a == r.body_b; });
-      for (const std::string method : exact) {
-        for (const Words& more : {Words{"--threads", "1"},
-                                  {"--threads", "2", "--levels", "9"},
-                                  {"--buckets", "1", "--levels", "0"},
-                                  {"--primes", "1001,1,1", "--cell-size", "0.011"}}) {
-          EXPECT_EQ(contacts(with({obj, "--tolerance", tolerance, "--method", method}, more)), expected)
-              << method << ", tolerance " << tolerance << ", seed " << seed << ", " << more[0];
-          EXPECT_EQ(figures["frames"][0]["contacts"], expected.size());
-          EXPECT_EQ(figures["frames"][0]["self_contacts"], self);
-        }
+  const State state = random_state(1);
+  const std::string obj = file("state.obj", state);
+  for (const char* tolerance : {"0.05", "0.12"}) {
+    const auto expected = oracle(0, state, {.tolerance = std::strtof(tolerance, nullptr)});
+    ASSERT_GT(expected.size(), 20u);
+    const auto self = std::ranges::count_if(expected, [](const ContactRow& r) { return r.body_a == r.body_b; });
+    for (const std::string method : exact) {
+      for (const Words& more : {Words{"--threads", "1"},
+                                {"--threads", "2", "--levels", "9"},
+                                {"--buckets", "1", "--levels", "0"},
+                                {"--primes", "1001,1,1", "--cell-size", "0.011"}}) {
+        EXPECT_EQ(contacts(with({obj, "--tolerance", tolerance, "--method", method}, more)), expected)
+            << method << ", tolerance " << tolerance << ", " << more[0];
+        EXPECT_EQ(figures["frames"][0]["contacts"], expected.size());
+        EXPECT_EQ(figures["frames"][0]["self_contacts"], self);
       }
     }
   }

@@ -56,12 +56,11 @@ TEST(List, PrintsAllTablesWithTheirNamesWithoutAWord) {
   std::string expected;
   for (const auto& [name, lines] : {std::pair("methods", lines_of(collide::method_table())),
                                     {"integrators", lines_of(softbody::integrators())},
-                                    {"contact-surfaces", lines_of(softbody::contact_surfaces)},
-                                    {"scenes", printed({"list", "scenes"})}}) {
+                                    {"contact-surfaces", lines_of(softbody::contact_surfaces)}}) {
     EXPECT_EQ(printed({"list", name}), lines);
     expected.append(name).append("\n").append(lines);
   }
-  EXPECT_EQ(printed({"list"}), expected);
+  EXPECT_EQ(printed({"list"}), expected + "scenes\n" + printed({"list", "scenes"}));
 }
 
 TEST(List, PrintsOnlyMethodsAndIntegratorsThatRun) {

@@ -12,23 +12,6 @@
 namespace cli::test {
 namespace THIS_FILE {
 
-/// Returns the folder of a quick report on four balls that fall into each other, which is made once. The key of the
-/// scene has characters that must be quoted.
-const std::filesystem::path& quick_report() {
-  static const TemporaryFolder folder;
-  static const auto out = folder.path() / "new" / "report";
-  static const Outcome o = [] {
-    const auto scene = folder.write("four, 'balls'.toml",
-                                    "[collision]\ntolerance = 0.1\n[ground]\n[[body]]\nposition = [0, 0.6, 0]\n"
-                                    "lattice = {size = [2, 2, 1], spacing = [1.02, 1.05, 1], jitter = 0.02}\n");
-    return run({"report", "detection", "--quick", "--scene", scene, "--out", out});
-  }();
-  EXPECT_EQ(o.status, 0) << o.err;
-  EXPECT_EQ(printed_files(o, out), file_names(out));
-  EXPECT_EQ(errors_of(o), "") << "progress is for terminals";
-  return out;
-}
-
 /// Returns the keys of all methods.
 std::set<std::string> all_methods() {
   std::set<std::string> keys;
@@ -36,11 +19,12 @@ std::set<std::string> all_methods() {
   return keys;
 }
 
-TEST(DetectionReport, HasEveryMethodWithAllItsSettingsInEveryStateAndGrowth) {
+/// Checks that the table has every method with all its settings in every state, and the growth.
+void check_table(const std::filesystem::path& report) {
   std::map<std::string, std::set<std::string>> settings;  // by method and frame
   std::set<std::string> frames, methods, grown;
   bool missed = false;  // something, by the literal method
-  for (Row row : read_csv(quick_report() / "detection.csv")) {
+  for (Row row : read_csv(report / "detection.csv")) {
     if (row["part"] == "growth") grown.insert(row["bodies"]);
     if (row["part"] != "sweep") continue;
     EXPECT_EQ(row["scene"], "four, 'balls'");
@@ -79,24 +63,40 @@ TEST(DetectionReport, HasEveryMethodWithAllItsSettingsInEveryStateAndGrowth) {
   }
 }
 
-TEST(DetectionReport, SaysHowItWasMadeAndShowsItsPlots) {
-  const std::string text = read_file(quick_report() / "report.md");
+/// Checks that the page says how it was made and shows its plots.
+void check_page(const std::filesystem::path& report) {
+  const std::string text = read_file(report / "report.md");
   EXPECT_NE(text.find("`sbcollide report detection --scene "), std::string::npos);
   EXPECT_NE(text.find("--quick --out DIR`"), std::string::npos);
   EXPECT_NE(text.find("1 thread,"), std::string::npos);
   EXPECT_EQ(text.find("nan"), std::string::npos);
   EXPECT_TRUE(std::regex_search(text, std::regex(R"(\n\| Brute force \| \|.*\| \| 2\.00 \|)")))
       << "pair tests are quadratic";
-  for (const std::string& name : file_names(quick_report())) {
-    EXPECT_GT(std::filesystem::file_size(quick_report() / name), 1000u) << name;
+  for (const std::string& name : file_names(report)) {
+    EXPECT_GT(std::filesystem::file_size(report / name), 1000u) << name;
     if (name.ends_with(".svg")) {
       EXPECT_NE(text.find("](<" + name + ">)"), std::string::npos) << name;
-      EXPECT_TRUE(read_file(quick_report() / name).find("</svg>") != std::string::npos) << name;
+      EXPECT_TRUE(read_file(report / name).find("</svg>") != std::string::npos) << name;
     }
     if (name.ends_with(".png")) {
-      EXPECT_TRUE(read_file(quick_report() / name).starts_with("\x89PNG")) << name;
+      EXPECT_TRUE(read_file(report / name).starts_with("\x89PNG")) << name;
     }
   }
+}
+
+/// Four balls fall into each other. The key of their scene has characters that must be quoted.
+TEST(DetectionReport, IsWholeIfQuick) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("four, 'balls'.toml",
+                                  "[collision]\ntolerance = 0.1\n[ground]\n[[body]]\nposition = [0, 0.6, 0]\n"
+                                  "lattice = {size = [2, 2, 1], spacing = [1.02, 1.05, 1], jitter = 0.02}\n");
+  const auto out = folder.path() / "new" / "report";
+  const Outcome o = run({"report", "detection", "--quick", "--scene", scene, "--out", out});
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(printed_files(o, out), file_names(out));
+  EXPECT_EQ(errors_of(o), "") << "progress is for terminals";
+  check_table(out);
+  check_page(out);
 }
 
 TEST(DetectionReport, HasThePapersScenesInTable1) {
