@@ -1,9 +1,10 @@
 #include "app/session/import.h"
 
+#include <strings.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <iterator>
