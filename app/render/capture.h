@@ -1,6 +1,7 @@
 #pragma once
 // Draws pictures of a world without a window.
 
+#include "app/render/halves.h"
 #include "app/render/scene_view.h"
 #include "engine/gl.h"
 #include "engine/headless.h"
@@ -13,15 +14,26 @@ class Capture {
   /// Throws engine::ContextError, engine::ResourceError or engine::ShaderError with one line that says what is missing.
   explicit Capture(glm::ivec2 size) : target_(size, 4), view_(engine::find_folder("shaders")) {}
 
-  /// Returns a picture of exactly that size, seen by the scene's own camera.
-  engine::Image draw(const softbody::BodiesInMotion& world) {
-    const glm::ivec2 size = target_.size();
+  /// Returns a picture of exactly that size, seen by the scene's own camera; of two worlds with the second one at the
+  /// right.
+  engine::Image draw(const softbody::BodiesInMotion& world, const softbody::BodiesInMotion* second = nullptr) {
+    const engine::Viewport whole{{0, 0}, target_.size()};
     target_.bind();
-    view_.draw(world, {}, view_.camera(world, size), {{0, 0}, size}, 1.0f, compare::DrawnMeshes(world));
+    if (second) {
+      const auto halves = side_by_side(whole, 0.5f);
+      draw(world, halves[0]);
+      draw(*second, halves[1]);
+    } else {
+      draw(world, whole);
+    }
     return target_.read();
   }
 
  private:
+  void draw(const softbody::BodiesInMotion& world, const engine::Viewport& part) {
+    view_.draw(world, {}, view_.camera(world, part.size), part, 1.0f, compare::DrawnMeshes(world));
+  }
+
   engine::HeadlessContext context_;  // first: the others need it
   engine::Framebuffer target_;
   SceneView view_;

@@ -70,7 +70,7 @@ const SceneView::UploadedMesh& SceneView::upload(const softbody::Mesh& mesh) {
   UploadedMesh uploaded;
   for (const softbody::Triangle& t : mesh.triangles)
     uploaded.indices.insert(uploaded.indices.end(), t.begin(), t.end());
-  uploaded.handle = renderer_.add_mesh(uploaded.indices, static_cast<std::uint32_t>(mesh.vertices.size()));
+  uploaded.handle = renderer_->add_mesh(uploaded.indices, static_cast<std::uint32_t>(mesh.vertices.size()));
   return meshes_.emplace(mesh.triangles, std::move(uploaded)).first->second;
 }
 
@@ -183,7 +183,7 @@ void SceneView::draw(const softbody::BodiesInMotion& world, const OverlayRequest
     std::ranges::copy(overlays.highlight->lines, std::back_inserter(frame_.lines));
     std::ranges::copy(overlays.highlight->points, std::back_inserter(frame_.points));
   }
-  renderer_.draw(camera, viewport, frame_);
+  renderer_->draw(camera, viewport, frame_);
 }
 
 double SceneView::radius(const softbody::MeshSource& source) {

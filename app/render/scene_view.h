@@ -3,7 +3,10 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "app/compare/surface_check.h"
 #include "app/compare/table_contents.h"
@@ -43,7 +46,12 @@ struct OverlayRequest : OverlayChoice {
 class SceneView {
  public:
   /// threads: prepare a picture. Requires a current context. Throws engine::ShaderError.
-  explicit SceneView(const std::filesystem::path& shaders, int threads = 1) : renderer_(shaders), workers_(threads) {}
+  explicit SceneView(const std::filesystem::path& shaders, int threads = 1)
+      : SceneView(std::make_shared<engine::render::Renderer>(shaders), threads) {}
+  /// Draws with a renderer that others may use, too.
+  SceneView(std::shared_ptr<engine::render::Renderer> renderer, int threads)
+      : renderer_(std::move(renderer)), workers_(threads) {}
+  const std::shared_ptr<engine::render::Renderer>& renderer() const { return renderer_; }
 
   void draw(const softbody::BodiesInMotion& world, const OverlayRequest& overlays, const engine::Camera& camera,
             const engine::Viewport& viewport, float pixel_scale, const compare::DrawnMeshes& at);
@@ -51,7 +59,7 @@ class SceneView {
   /// same.
   void redraw(const engine::Camera& camera, const engine::Viewport& viewport, float pixel_scale) {
     frame_.pixel_scale = pixel_scale;
-    renderer_.draw(camera, viewport, frame_);
+    renderer_->draw(camera, viewport, frame_);
   }
 
   /// Returns the scene's own camera for a picture of this size, with limits of zoom that suit the scene.
@@ -75,7 +83,7 @@ class SceneView {
   BoundingSphere bounds(const softbody::BodiesInMotion& world);
   double radius(const softbody::MeshSource& source);
 
-  engine::render::Renderer renderer_;
+  std::shared_ptr<engine::render::Renderer> renderer_;
   collide::Workers workers_;
   // By content: worlds come and go, but their meshes are few and mostly the same.
   std::map<std::vector<softbody::Triangle>, UploadedMesh> meshes_;

@@ -7,8 +7,8 @@
 
 namespace app::session {
 
-DetectionInspector::DetectionInspector(const Simulation& simulation)
-    : simulation_(simulation), exact_(collide::find_method(collide::default_method)->make()) {}
+DetectionInspector::DetectionInspector(const Simulation& simulation, Half half)
+    : simulation_(simulation), half_(half), exact_(collide::find_method(collide::default_method)->make()) {}
 
 const collide::Method& DetectionInspector::shown_method() const {
   return world().method().uses_hash ? world().method() : *collide::find_method(collide::paper_method);
@@ -91,7 +91,8 @@ std::vector<collide::DebugGeometry::Box> DetectionInspector::search_areas() cons
 const std::vector<softbody::SurfaceContactPoint>& DetectionInspector::surface_contacts() const {
   if (surface_contacts_.revision != simulation_.revision()) {
     surface_contacts_ = {.revision = simulation_.revision()};
-    if (const softbody::World* world = simulation_.simulated()) surface_contacts_.value = world->surface_contacts();
+    if (const softbody::World* world = simulation_.simulated(half_))
+      surface_contacts_.value = world->surface_contacts();
   }
   return surface_contacts_.value;
 }

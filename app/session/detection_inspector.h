@@ -10,7 +10,8 @@ namespace app::session {
 /// Works things out when they are first asked for, once for each revision() of the simulation.
 class DetectionInspector {
  public:
-  explicit DetectionInspector(const Simulation& simulation);
+  /// half: whose world is inspected; the first one while there is no second.
+  explicit DetectionInspector(const Simulation& simulation, Half half = Half::first);
 
   /// The method whose boxes, cells and buckets are shown: the driving one if it has a hash table, else the paper's.
   const collide::Method& shown_method() const;
@@ -44,9 +45,10 @@ class DetectionInspector {
     Value value{};
   };
 
-  const softbody::BodiesInMotion& world() const { return simulation_.world(); }
+  const softbody::BodiesInMotion& world() const { return simulation_.world(half_); }
 
   const Simulation& simulation_;
+  Half half_;
   std::unique_ptr<collide::Detector> exact_;  // shows its areas
   mutable collide::methods::PaperStructure paper_structure_ = collide::methods::make_paper_structure();
   std::optional<std::uint32_t> selected_bucket_;

@@ -1,7 +1,5 @@
 #include "app/session/session.h"
 
-#include <cassert>
-
 #include "app/base/heap.h"
 
 namespace app::session {
@@ -13,6 +11,7 @@ Session::Session(files::Opened opened, const std::filesystem::path& scene_folder
       bodies(simulation),
       settings(simulation),
       inspector(simulation),
+      inspector_beside(simulation, Half::second),
       import(simulation, scenes, bodies),
       exporter(simulation, comparison) {
   comparison.restart(world(), simulation.revision());
@@ -33,11 +32,12 @@ void Session::let_pass(double elapsed) {
 
 bool Session::stands_still() const {
   if (simulation.clock.paused) return !simulation.clock.owes_single_step();
-  return simulation.has_long_been_at_rest() && ghost_.at_rest();
+  return simulation.has_long_been_at_rest();
 }
 
 bool Session::awaits_answer() const {
-  return comparison.awaits_report(simulation.revision()) || surfaces.awaits_report(simulation.revision());
+  return comparison.awaits_report(simulation.revision()) || surfaces.awaits_report(simulation.revision()) ||
+         surfaces_beside.awaits_report(simulation.revision());
 }
 
 void Session::advance_one(double elapsed) {
@@ -58,7 +58,9 @@ void Session::exchange() {
   const bool late = simulation.history.frame_ms.median(15) > late_ms;
   const int rests = late || simulation.step_ms() > 500 * world().frame_time() ? 10 : 2;
   comparison.exchange(world(), simulation.revision(), simulation.world_number(), rests);
-  surfaces.exchange(world(), simulation.before_last_step().simulated(), simulation.revision(), rests);
+  look_at_surfaces(surfaces, Half::first, simulation.before_last_step(), rests);
+  if (const Beside* beside = simulation.beside())
+    look_at_surfaces(surfaces_beside, Half::second, beside->before_last_step(), rests);
   sweep_worker.update();
   // With its first report of another world the comparison has let go of the one before; all others did so earlier.
   if (has_left_world_ && comparison.report().id != 0) {
@@ -67,14 +69,15 @@ void Session::exchange() {
   }
 }
 
-double Session::stepped() {
-  if (simulated()) lead_ghost([this] { ghost_.step(*simulated()); });
-  return ghost_.step_ms() + run_ahead.stepped();
+/// Gives a half's surfaces to the oracle, and counts what it has seen in them.
+void Session::look_at_surfaces(SurfaceMonitor& monitor, Half half, const compare::WorldPositions& before, int rests) {
+  const std::uint64_t reports = monitor.reports();
+  monitor.exchange(simulation.world(half), before.simulated(), simulation.revision(), rests);
+  if (monitor.reports() != reports && monitor.report().failure.empty())
+    simulation.count(half, monitor.report().figures);
 }
 
-void Session::intervened() {
-  lead_ghost([this] { ghost_.restart(simulated()); });
-}
+double Session::stepped() { return run_ahead.stepped(); }
 
 void Session::detection_changed() {
   inspector.select_bucket(inspector.selected_bucket());  // the table may have fewer buckets
@@ -88,22 +91,7 @@ void Session::replaced(bool new_scene) {
   if (new_scene) inspector.select_bucket({});
   comparison.restart(world(), simulation.revision());
   surfaces.restart(simulation.revision());
-  intervened();
-}
-
-void Session::choose_ghost(const std::optional<softbody::IntegratorChoice>& choice) {
-  assert(simulated());
-  simulation.notice.clear();
-  lead_ghost([&] { ghost_.choose(*simulated(), choice, simulation.threads()); });
-}
-
-/// Carries out an action on the ghost. If it throws, a notice says why.
-void Session::lead_ghost(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::exception& error) {
-    simulation.notice.set(error.what());
-  }
+  surfaces_beside.restart(simulation.revision());
 }
 
 }  // namespace app::session

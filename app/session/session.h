@@ -5,7 +5,6 @@
 #include "app/session/detection_inspector.h"
 #include "app/session/exporter.h"
 #include "app/session/import.h"
-#include "app/session/live/ghost.h"
 #include "app/session/live/live_comparison.h"
 #include "app/session/live/surface_monitor.h"
 #include "app/session/live/sweep_worker.h"
@@ -29,10 +28,10 @@ class Session : private SimulationObserver {
   SceneControls scenes;
   BodyControls bodies;
   SettingControls settings;
-  DetectionInspector inspector;
+  DetectionInspector inspector, inspector_beside;  // of the world, and of the second one beside it
   // Beside the window, see Background: their answers come some frames late.
   LiveComparison comparison;
-  SurfaceMonitor surfaces;
+  SurfaceMonitor surfaces, surfaces_beside;
   SweepWorker sweep_worker;
   Import import;
   Exporter exporter;
@@ -56,24 +55,18 @@ class Session : private SimulationObserver {
   /// Returns true if those who look at the world may have an answer soon, though it stands still.
   bool awaits_answer() const;
 
-  /// Begins a second world that goes on from the present state by another integrator, or ends it (nothing). It begins
-  /// anew whenever hands or settings change the world that is shown, which must be simulated.
-  void choose_ghost(const std::optional<softbody::IntegratorChoice>& choice);
-  const Ghost& ghost() const { return ghost_; }
   /// Returns the latest sweep.
   const SweepState& sweep() const { return sweep_worker.state(); }
 
  private:
   double stepped() override;
-  void intervened() override;
   void detection_changed() override;
   void replaced(bool new_scene) override;
 
   void add_picture(double seconds);
   void exchange();
-  void lead_ghost(const std::function<void()>& action);
+  void look_at_surfaces(SurfaceMonitor& monitor, Half half, const compare::WorldPositions& before, int rests);
 
-  Ghost ghost_;
   bool has_left_world_ = false;  // whose memory is not yet given back
 };
 

@@ -18,9 +18,7 @@ void SettingControls::set_solid(std::size_t index, const softbody::Solid& solid)
 }
 
 void SettingControls::set_integrator(const softbody::IntegratorChoice& choice) {
-  const softbody::World* world = simulation_.simulated();
-  if (!world || choice == world->integrator_choice()) return;
-  simulation_.change_solver("Integrator", [&](softbody::World& changed) { changed.set_integrator(choice); });
+  if (simulation_.simulated()) simulation_.set_integrator(choice);
 }
 
 bool SettingControls::set_method(std::string_view key) {
@@ -29,7 +27,7 @@ bool SettingControls::set_method(std::string_view key) {
 
 void SettingControls::next_method(const compare::MethodSet& methods) {
   const auto all = collide::method_table().first(methods.size());
-  const auto here = std::ranges::find(all, simulation_.world().method().key, &collide::Method::key);
+  const auto here = std::ranges::find(all, simulation_.edited().method().key, &collide::Method::key);
   const auto first = static_cast<std::size_t>(here - all.begin());
   for (std::size_t i = 1; i < all.size(); ++i) {
     const std::size_t next = (first + i) % all.size();

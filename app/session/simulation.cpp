@@ -1,6 +1,7 @@
 #include "app/session/simulation.h"
 
 #include <algorithm>
+#include <cassert>
 #include <stdexcept>
 #include <utility>
 
@@ -24,15 +25,7 @@ ShownWorld bring_back(const decltype(KeptWorld::world)& kept, int threads) {
   return world;
 }
 
-/// Returns what is shown, with the scene that it was loaded from, under the name of the change that follows. `leaves`:
-/// it changes to another world. Without the hand that may hold a body: after an undo nobody would let go.
-KeptWorld keep(const ShownWorld& shown, const LoadedScene& loaded, std::string change, bool leaves = false) {
-  if (const auto* player = std::get_if<std::shared_ptr<Player>>(&shown))
-    return {KeptPlayer{*player, (*player)->scene()}, loaded, std::move(change), leaves};
-  softbody::Snapshot now = std::get<0>(shown)->snapshot();
-  now.grab.reset();
-  return {std::move(now), loaded, std::move(change), leaves};
-}
+compare::HowSimulated how(const World& world) { return {world.scene(), world.integrator_choice()}; }
 
 World& solver(const ShownWorld& shown) {
   if (shown.index() == 1) throw softbody::SceneError("no body can join or change: the motion is recorded");
@@ -61,28 +54,31 @@ void Simulation::advance_one(double elapsed, bool allowed) {
 
 SimulationClock::Step Simulation::step() {
   before_last_step_.copy(world());
-  const bool was_at_rest = world().all_at_rest();
+  const bool was_at_rest = all_at_rest();
   const bool stepped = std::visit([this](const auto& shown) { return step(*shown); }, shown_);
   if (!stepped) clock.paused = true;
-  if (!stepped || !was_at_rest || !world().all_at_rest()) ++revision_;
+  if (!stepped || !was_at_rest || !all_at_rest()) ++revision_;
   rest_steps_ = std::exchange(last_revision_, revision_) == revision_ ? rest_steps_ + 1 : 0;
   const softbody::StepReport& report = world().last_step();
-  step_ms_ = report.total_ms + observer_.stepped();
+  step_ms_ = report.total_ms + observer_.stepped() + (beside_ ? beside_->world().last_step().total_ms : 0);
   history.detect_ms.push(world().frame(), static_cast<float>(report.detect_ms));
   history.solve_ms.push(world().frame(), static_cast<float>(report.solve_ms));
   history.contacts.push(world().frame(), static_cast<float>(world().detection().contacts.size()));
   return {report.seconds, step_ms_};
 }
 
-/// Takes a step, which may fail, and monitors its stability.
+/// Takes a step, which may fail, and monitors its stability. Of two worlds, one that has blown up stays as it is.
 bool Simulation::step(World& world) {
-  if (!clock.paused) stability_.dismiss_blow_up();
+  if (!clock.paused && !beside_) stability_.dismiss_blow_up();
   const bool had_blown_up = stability_.blow_up().has_value();
-  stability_.before_step(world);
-  const bool stepped = attempt([&] { world.step(); });
-  if (world.grabbed()) observer_.intervened();  // another hand would do otherwise
-  stability_.after_step(world, pause_on_blow_up);
-  if (stability_.blow_up() && !had_blown_up) clock.paused = true;
+  bool stepped = true;
+  if (!beside_ || !had_blown_up) {
+    if (stability_.before_step(world)) lead_beside([this](Beside& b) { b.keep(stability_.past().snapshots()); });
+    stepped = attempt([&] { world.step(); });
+    stability_.after_step(world, pause_on_blow_up);
+    if (stability_.blow_up() && !had_blown_up && !beside_) clock.paused = true;
+  }
+  lead_beside([&world](Beside& b) { b.step(world); });
   return stepped;
 }
 
@@ -107,11 +103,11 @@ bool Simulation::step(Player& player) {
 bool Simulation::has_long_been_at_rest() const {
   if (last_revision_ != revision_ || rest_steps_ < TimeSeries::capacity) return false;
   const auto is_past = [this](const softbody::Caption& caption) { return caption.frame <= world().frame(); };
-  return world().all_at_rest() && (!as_scripted_ || std::ranges::all_of(world().scene().captions, is_past));
+  return all_at_rest() && (!as_scripted_ || std::ranges::all_of(world().scene().captions, is_past));
 }
 
 float Simulation::between() const {
-  return world().all_at_rest() ? 1.0f : static_cast<float>(clock.fraction(world().frame_time()));
+  return all_at_rest() ? 1.0f : static_cast<float>(clock.fraction(world().frame_time()));
 }
 
 std::string Simulation::caption() const {
@@ -140,8 +136,51 @@ bool Simulation::attempt(const std::function<void()>& action) {
   }
   clock.paused = true;
   ++revision_;
-  observer_.intervened();
   return false;
+}
+
+/// Does something with the second world, if there is one, which ends if this throws.
+void Simulation::lead_beside(const std::function<void(Beside&)>& action) {
+  if (!beside_) return;
+  try {
+    action(*beside_);
+  } catch (const std::exception& error) {
+    beside_.reset();
+    notice.set(std::string("the second half has ended: ") + error.what());
+  }
+}
+
+void Simulation::set_beside(const compare::HowSimulated& second) {
+  notice.clear();
+  attempt([&] {
+    const World& first = solver(shown_);
+    const compare::Difference difference(how(first), second);
+    if (beside_)
+      beside_->differ(first, difference);
+    else
+      beside_.emplace(make_window_world({}, {}, threads_), first, difference);
+  });
+  ++revision_;
+}
+
+void Simulation::toggle_beside() {
+  if (!beside_) return set_beside(compare::usual_second(world(), solver(shown_).integrator_choice()));
+  beside_.reset();
+  edits = Half::first;
+  ++revision_;
+}
+
+/// Returns what is shown, with the scene that it was loaded from, under the name of the change that follows. `leaves`:
+/// it changes to another world. Without the hand that may hold a body: after an undo nobody would let go.
+KeptWorld Simulation::keep(std::string change, bool leaves) const {
+  if (player()) {
+    const auto& shown = std::get<std::shared_ptr<Player>>(shown_);
+    return {KeptPlayer{shown, shown->scene()}, loaded, std::move(change), leaves};
+  }
+  KeptWorld now{simulated()->snapshot(), loaded, std::move(change), leaves};
+  std::get<softbody::Snapshot>(now.world).grab.reset();
+  if (beside_) (now.beside = beside_->keep())->world.grab.reset();
+  return now;
 }
 
 /// Returns what `change` returns: whether it changed anything. False if it throws.
@@ -152,7 +191,6 @@ bool Simulation::intervene(const std::function<bool()>& change) {
   bool changed = false;
   if (!attempt([&] { changed = change(); }) || !changed) return false;
   ++revision_;
-  observer_.intervened();
   if (&method != &world().method() || settings != world().collision()) observer_.detection_changed();
   return true;
 }
@@ -160,26 +198,39 @@ bool Simulation::intervene(const std::function<bool()>& change) {
 /// `joins`: undo() takes the change together with the one before it.
 bool Simulation::carry_out(const std::string& name, bool joins, const std::function<bool()>& change) {
   std::optional<KeptWorld> before;
-  if (!joins) before = keep(shown_, loaded, name);
+  if (!joins) before = keep(name);
   if (!intervene(change)) return false;
+  lead_beside([this](Beside& b) { b.follow(*simulated()); });
   if (before) kept_.push(std::move(*before));
-  if (before_pull_)
-    before_pull_ = keep(shown_, loaded, before_pull_->change);  // a pull that goes on is undone up to here
+  if (before_pull_) before_pull_ = keep(before_pull_->change);  // a pull that goes on is undone up to here
   return true;
 }
 
 bool Simulation::change_scene(const std::string& name, const std::function<void(softbody::Scene&)>& change) {
-  softbody::Scene scene = world().scene();
+  softbody::Scene scene = edited().scene();
   change(scene);
-  if (scene == world().scene()) return true;
+  if (scene == edited().scene()) return true;
   return carry_out(name, kept_.ends_with(name), [&] {
-    std::visit([&](auto& shown) { shown->apply(scene); }, shown_);
+    if (&edited() != &world()) {
+      beside_->differ(*simulated(), {how(*simulated()), {scene, beside_->world().integrator_choice()}});
+      scene = compare::Difference::shared(scene, world().scene());
+    }
+    if (scene != world().scene()) std::visit([&](auto& shown) { shown->apply(scene); }, shown_);
     return true;
   });
 }
 
-bool Simulation::change_solver(const std::string& name, const std::function<void(World&)>& change) {
-  return carry_out(name, kept_.ends_with(name), [&] { return change(solver(shown_)), true; });
+bool Simulation::set_integrator(const softbody::IntegratorChoice& choice) {
+  assert(simulated());
+  if (choice == simulated(edits)->integrator_choice()) return true;
+  const std::string name = "Integrator";
+  return carry_out(name, kept_.ends_with(name), [&] {
+    if (&edited() == &world())
+      solver(shown_).set_integrator(choice);
+    else
+      beside_->differ(*simulated(), {how(*simulated()), {beside_->world().scene(), choice}});
+    return true;
+  });
 }
 
 bool Simulation::change_bodies(const std::string& name, const std::function<bool(World&)>& change) {
@@ -192,7 +243,7 @@ bool Simulation::change_bodies(const std::string& name, const std::function<bool
 
 void Simulation::grab(const softbody::Grab& grab) {
   as_scripted_ = false;
-  KeptWorld before = keep(shown_, loaded, "pull of a body");
+  KeptWorld before = keep("pull of a body");
   if (intervene([&] { return solver(shown_).grab(grab), true; })) before_pull_ = std::move(before);
 }
 
@@ -234,11 +285,13 @@ void Simulation::leave_for(ShownWorld next) {
   notice.clear();
   stability_ = {};
   if (simulated()) stability_.restart(*simulated());
+  if (player()) beside_.reset();
+  lead_beside([this](Beside& b) { b.restart(*simulated()); });
   replace(true);
 }
 
 void Simulation::enter(ShownWorld world, LoadedScene scene, std::string name) {
-  kept_.push(keep(shown_, loaded, std::move(name), true));
+  kept_.push(keep(std::move(name), true));
   loaded = std::move(scene);
   leave_for(std::move(world));
 }
@@ -257,7 +310,7 @@ void Simulation::reset() {
 void Simulation::go(Way way) {
   if (kept_.empty(way)) return notice.tell(way == Way::back ? "Nothing to undo" : "Nothing to redo");
   KeptWorld there = kept_.next(way);
-  KeptWorld here = keep(shown_, loaded, there.change, there.leaves);
+  KeptWorld here = keep(there.change, there.leaves);
   const auto arrive = [&] {
     kept_.turn(way, std::move(here));
     loaded = std::move(there.loaded);
@@ -280,11 +333,13 @@ void Simulation::go(Way way) {
     });
     after_going_back();
   }
+  lead_beside([&](Beside& b) { there.beside ? b.go_to(*there.beside, *simulated()) : b.restart(*simulated()); });
   if (!notice.is_error()) notice.tell((way == Way::back ? "Undone: " : "Redone: ") + there.change);
 }
 
 void Simulation::rewind_to(int frame) {
-  if (simulated()) stability_.keep_present(*simulated());
+  if (simulated() && stability_.keep_present(*simulated()))
+    lead_beside([this](Beside& b) { b.keep(stability_.past().snapshots()); });
   const auto& past = stability_.past();
   if (simulated() && past.snapshots().empty()) return;
   notice.clear();
@@ -296,6 +351,7 @@ void Simulation::rewind_to(int frame) {
     world.restore(past.snapshots()[past.at(frame)]);
     if (integrator != world.integrator_choice()) world.set_integrator(integrator);
     world.apply(in_use);
+    lead_beside([&world](Beside& b) { b.rewind(world); });
   });
   clock.paused = true;
   after_going_back();

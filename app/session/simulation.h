@@ -9,6 +9,7 @@
 
 #include "app/base/time_series.h"
 #include "app/compare/drawn_positions.h"
+#include "app/session/beside.h"
 #include "app/session/notice.h"
 #include "app/session/player.h"
 #include "app/session/simulation_clock.h"
@@ -24,9 +25,7 @@ class SimulationObserver {
   virtual ~SimulationObserver() = default;
   /// Returns how long (ms) the observer worked beside the step.
   virtual double stepped() { return 0; }
-  /// The user changed bodies or settings: the world goes on from another state than the one that a step left.
-  virtual void intervened() {}
-  /// The method or its settings are others. After intervened().
+  /// The method or its settings are others.
   virtual void detection_changed() {}
   /// The world is another one, or went back, or its bodies have other ids. `new_scene`: it begins at its start.
   virtual void replaced([[maybe_unused]] bool new_scene) {}
@@ -56,7 +55,8 @@ class Simulation {
   LoadedScene loaded;
   StepHistory history;
   bool pause_on_blow_up = true;
-  bool loop = true;  // what is played begins again after its last frame, and else pauses there
+  Half edits = Half::first;  // whose settings are changed, if there are two worlds
+  bool loop = true;          // what is played begins again after its last frame, and else pauses there
 
   /// scene_name: what the scene is found by; empty: its key. `observer`, if any, must outlive this. Throws SceneError.
   Simulation(files::Opened opened, int threads, std::string scene_name = "", SimulationObserver* observer = nullptr);
@@ -66,9 +66,28 @@ class Simulation {
   const softbody::BodiesInMotion& world() const {
     return std::visit([](const auto& shown) -> const softbody::BodiesInMotion& { return *shown; }, shown_);
   }
+  /// The same, of a half; of the first while there is no second.
+  const softbody::BodiesInMotion& world(Half half) const {
+    return beside_ && half == Half::second ? beside_->world() : world();
+  }
   const softbody::World* simulated() const { return shown_.index() == 0 ? std::get<0>(shown_).get() : nullptr; }
+  const softbody::World* simulated(Half half) const {
+    return beside_ && half == Half::second ? &beside_->world() : simulated();
+  }
   const Player* player() const { return shown_.index() == 1 ? std::get<1>(shown_).get() : nullptr; }
   int threads() const { return threads_; }
+  /// Returns the second world, if there is one: only beside one that is simulated.
+  const Beside* beside() const { return beside_ ? &*beside_ : nullptr; }
+  /// Lets a second world go on from the present state, or differ so from now on.
+  void set_beside(const compare::HowSimulated& second);
+  /// Ends the second world, or begins one with compare::usual_second().
+  void toggle_beside();
+  /// Counts what the oracle saw in a half, if there are two.
+  void count(Half half, const collide::oracle::SurfaceFigures& seen) {
+    if (beside_) beside_->add(half, seen);
+  }
+  /// Returns the world whose settings are changed.
+  const softbody::BodiesInMotion& edited() const { return world(edits); }
 
   // Time. The world moves in whole frames.
   /// Takes the steps that are due, now that `elapsed` seconds of real time have passed; none if the world
@@ -82,11 +101,16 @@ class Simulation {
   /// How far a picture is on the way from before_last_step() to the present, 0 .. 1: below 1 only in slow motion, which
   /// would jerk otherwise.
   float between() const;
-  compare::DrawnMeshes drawn() const { return {world(), before_last_step_, between()}; }
+  compare::DrawnMeshes drawn(Half half = Half::first) const { return drawn(half, between()); }
+  compare::DrawnMeshes drawn(Half half, float between) const {
+    return {world(half), beside_ && half == Half::second ? beside_->before_last_step() : before_last_step_, between};
+  }
   /// The scene's sentence for this moment. Empty if there is none, or the user changed bodies.
   std::string caption() const;
   /// Changes whenever positions or contacts may have changed: not with steps of a world at rest.
   std::uint64_t revision() const { return revision_; }
+  /// Returns true if no step moves a body.
+  bool all_at_rest() const { return world().all_at_rest() && (!beside_ || beside_->at_rest()); }
   /// Returns true if steps would change nothing but the number of the frame: all bodies have been at rest for as long
   /// as curves last, and no caption is still to come.
   bool has_long_been_at_rest() const;
@@ -95,10 +119,11 @@ class Simulation {
 
   // Changes by the user. They clear notice(); what fails sets it, and errors that no input explains pause. undo() takes
   // them back under their name: those of a setting that follow each other with the same name as one.
-  /// Changes the scene in use by `change`. Returns false if the scene is refused; the world is then as before.
+  /// Changes the scene in use by `change`; that of the second world if this is edited(), where all that is not of a
+  /// Difference acts on both. Returns false if the scene is refused; the world is then as before.
   bool change_scene(const std::string& name, const std::function<void(softbody::Scene&)>& change);
-  /// Changes how the world is simulated. An error if none is.
-  bool change_solver(const std::string& name, const std::function<void(softbody::World&)>& change);
+  /// Sets the integrator of edited(), which must be simulated.
+  bool set_integrator(const softbody::IntegratorChoice& choice);
   /// Changes bodies. `change` returns whether it changed anything.
   bool change_bodies(const std::string& name, const std::function<bool(softbody::World&)>& change);
   /// A pull of a body is one change, from grab() to release(), if pull_to() is called at all. Each step counts a held
@@ -126,6 +151,8 @@ class Simulation {
  private:
   bool attempt(const std::function<void()>& action);
   bool intervene(const std::function<bool()>& change);
+  void lead_beside(const std::function<void(Beside&)>& action);
+  KeptWorld keep(std::string change, bool leaves = false) const;
   bool carry_out(const std::string& name, bool joins, const std::function<bool()>& change);
   void replace(bool new_scene);
   void leave_for(ShownWorld next);
@@ -139,6 +166,7 @@ class Simulation {
   SimulationObserver& observer_;
   int threads_;
   ShownWorld shown_;
+  std::optional<Beside> beside_;
   UndoHistory kept_;
   std::optional<KeptWorld> before_pull_;  // until something is pulled
   bool as_scripted_ = true;               // no body was touched by the user

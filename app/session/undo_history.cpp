@@ -36,8 +36,10 @@ void UndoHistory::forget(Way kept) {
 
 std::size_t UndoHistory::bytes() const {
   std::size_t sum = 0;
-  for (const KeptWorld& kept : steps_)
+  for (const KeptWorld& kept : steps_) {
     sum += kept.world.index() == 0 ? std::get<0>(kept.world).bytes() : std::get<1>(kept.world).player->bytes();
+    if (kept.beside) sum += kept.beside->world.bytes();
+  }
   return sum;
 }
 

@@ -2,10 +2,12 @@
 // The worlds that undo and redo go to, within a bound of memory.
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "app/session/beside.h"
 #include "app/session/player.h"
 #include "app/session/scene_file.h"
 #include "softbody/world/snapshot.h"
@@ -29,6 +31,7 @@ struct KeptWorld {
   LoadedScene loaded;
   std::string change;   // e.g. "drop of 20 bodies"
   bool leaves = false;  // the change leaves the world for another one
+  std::optional<Beside::Kept> beside{};
 };
 
 enum class Way { back, forward };  // undo, redo

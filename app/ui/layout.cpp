@@ -73,6 +73,10 @@ Layout compute_layout(const Session& session, const UiState& ui, float scale) {
   if (layout.lower) scene.max.y = layout.lower->min.y;
   layout.time_line = {{scene.min.x, scene.max.y - line}, scene.max};
   scene.max.y -= line;
+  if (session.simulation.beside()) {
+    layout.beside = {{scene.min.x, scene.max.y - beside_height(scale)}, scene.max};
+    scene.max.y = layout.beside->min.y;
+  }
   if (has_sidebar(session, ui) && width_of(scene) >= (sidebar_width + min_scene_width) * scale) {
     layout.sidebar = {{scene.max.x - sidebar_width * scale, scene.min.y}, scene.max};
     scene.max.x = layout.sidebar->min.x;

@@ -18,6 +18,7 @@ struct Layout {
   std::optional<ScreenRect> sidebar;    // at the right edge
   std::optional<ScreenRect> lower;      // at the lower edge, for UiState::lower
   std::optional<ScreenRect> time_line;  // between the scene and `lower`
+  std::optional<ScreenRect> beside;     // between the scene and the time line, if there are two worlds
   std::optional<ScreenRect> tour;       // instead of sidebar, `lower` and time line
   ScreenRect scene;                     // the rest; all of the window if the panel covers the scene
   std::string no_room_message;          // names a part that is switched on and has no room; else empty

@@ -22,13 +22,14 @@ void tell(Session& session, std::string text) {
 
 void next_method(Session& session) {
   session.settings.next_method(session.comparison.choice.methods);
-  tell(session, "Method: " + session.world().method().name);
+  tell(session, "Method: " + session.simulation.edited().method().name);
 }
 
 void next_contact_surface(Session& session) {
   session.settings.next_contact_surface();
   for (const softbody::ContactSurfaceInfo& info : softbody::contact_surfaces)
-    if (info.value == session.world().scene().contact_surface) tell(session, "Contact: " + std::string(info.name));
+    if (info.value == session.simulation.edited().scene().contact_surface)
+      tell(session, "Contact: " + std::string(info.name));
 }
 
 constexpr std::string_view redo_text = "Redo it (also Ctrl+Shift+Z)";
@@ -68,6 +69,8 @@ constexpr std::array shortcut_table{
              }},
     Shortcut{GLFW_KEY_LEFT, 0, "Left", "Tour: previous page", [](Session&, UiState& ui) { ui.tour.back(); }},
     Shortcut{GLFW_KEY_RIGHT, 0, "Right", "Tour: next page", [](Session&, UiState& ui) { ui.tour.next(); }},
+    Shortcut{GLFW_KEY_A, 0, "A", "A second world beside this one",
+             [](Session& s, UiState&) { s.simulation.toggle_beside(); }, false, 0, true},
     Shortcut{GLFW_KEY_V, 0, "V", "Compare the methods",
              [](Session&, UiState& ui) { ui.toggle(LowerView::comparison); }},
     Shortcut{GLFW_KEY_E, 0, "E", "Error against run time", [](Session&, UiState& ui) { ui.toggle(LowerView::sweep); }},

@@ -19,6 +19,7 @@ Requests UserInterface::draw(const Session& session, const UiState& ui, float sc
     draw_compare(widgets, session, ui, *layout_.lower);
   else if (layout_.lower)
     sweep_view_.draw(widgets, session, *layout_.lower);
+  if (layout_.beside) draw_beside(widgets, session, ui, *layout_.beside, layout_.scene);
   if (layout_.time_line) draw_time_line(widgets, session, *layout_.time_line);
   if (layout_.sidebar) draw_sidebar(widgets, session, ui, *layout_.sidebar);
   show_field_problem(widgets);

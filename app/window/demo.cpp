@@ -181,8 +181,9 @@ class Demo {
     const ScenePicture scene = scene_picture(session_, ui_, camera_, pixel_scale());
     bool moving = false;
     double drawing_ms = time_ms([&] { moving = draw_scene(scene, viewport); });
-    ui::draw_labels(scene_labels(session_, ui_.tour, scene), camera_, viewport.size, interface_.scene_area(),
-                    graphics_->gui.scale());
+    for (const HalfPicture& half : halves(scene, viewport))
+      ui::draw_labels(scene_labels(session_, ui_.tour, scene, half.half), half.camera, half.viewport.size,
+                      area_of(half.viewport), graphics_->gui.scale());
     ui_.view = render::SceneView::view(camera_, viewport.size);
     graphics_->gui.end_frame();
     const InterfaceKey before = std::exchange(shown_, interface_key(session_));
@@ -230,7 +231,8 @@ class Demo {
     camera_.advance(elapsed);
     if (camera_ == std::exchange(drawn_->camera, camera_)) return;
     graphics_->canvas.update(viewport.size, true, false, [&](const engine::Viewport& whole) {
-      graphics_->view.redraw(camera_, whole, pixel_scale(whole, viewport));
+      for (const HalfPicture& half : halves(*drawn_, whole))
+        view_of(half).redraw(half.camera, half.viewport, pixel_scale(whole, viewport));
     });
     present(viewport);
   }
@@ -269,8 +271,13 @@ class Demo {
   }
 
   void draw_world(const ScenePicture& scene, const engine::Viewport& whole) {
-    graphics_->view.draw(session_.world(), overlay_request(session_, ui_.tour, scene), scene.camera, whole, scene.scale,
-                         drawn_meshes(session_, scene));
+    for (const HalfPicture& half : halves(scene, whole))
+      view_of(half).draw(session_.simulation.world(half.half), overlay_request(session_, ui_.tour, scene, half.half),
+                         half.camera, half.viewport, scene.scale, session_.simulation.drawn(half.half, scene.between));
+  }
+
+  render::SceneView& view_of(const HalfPicture& half) const {
+    return graphics_->views[static_cast<std::size_t>(half.half)];
   }
 
   /// Returns the size that the window would have on a screen of ordinary density.
@@ -292,6 +299,14 @@ class Demo {
     return {{lo.x, graphics_->window.framebuffer_size().y - hi.y}, glm::max(hi - lo, 0)};
   }
 
+  /// Returns a part of the window in ImGui units. `part`: pixels from the lower left corner.
+  ui::ScreenRect area_of(const engine::Viewport& part) const {
+    const ImVec2 ratio = ImGui::GetIO().DisplayFramebufferScale;
+    const glm::vec2 low(part.origin), size(part.size);
+    const float top = static_cast<float>(graphics_->window.framebuffer_size().y) - low.y - size.y;
+    return {{low.x / ratio.x, top / ratio.y}, {(low.x + size.x) / ratio.x, (top + size.y) / ratio.y}};
+  }
+
   /// Begins with the scene's own camera, and moves it by the mouse.
   void move_by_mouse(const engine::Viewport& viewport) {
     if (shown_scene_ != session_.world().scene().key) {
@@ -305,7 +320,7 @@ class Demo {
   }
 
   void reset_camera(glm::ivec2 size) {
-    camera_ = graphics_->view.camera(session_.world(), size);
+    camera_ = graphics_->views[0].camera(session_.world(), size);
     fitted_ = size;
     orbit_before_tour_.reset();
   }

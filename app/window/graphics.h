@@ -1,6 +1,8 @@
 #pragma once
 // The window and everything that draws in it.
 
+#include <array>
+
 #include "app/render/canvas.h"
 #include "app/render/scene_view.h"
 #include "app/ui/widgets/dock.h"
@@ -15,7 +17,9 @@ namespace app::window {
 struct Graphics {
   /// threads: prepare a picture.
   Graphics(glm::ivec2 size, int threads)
-      : window("Multi-Level SB Collide", size), view(engine::find_folder("shaders"), threads) {}
+      : window("Multi-Level SB Collide", size),
+        views{render::SceneView(engine::find_folder("shaders"), threads),
+              render::SceneView(views[0].renderer(), threads)} {}
 
   /// Clears the whole window to dock_colour().
   void clear() const {
@@ -27,7 +31,7 @@ struct Graphics {
 
   engine::Window window;  // first: the others need its context
   engine::Gui gui{window};
-  render::SceneView view;
+  std::array<render::SceneView, 2> views;  // by session::Half
   render::Canvas canvas{engine::uses_software_renderer()};
 };
 

@@ -45,23 +45,28 @@ MouseInput read_mouse(glm::vec2 origin, bool over_scene) {
 }
 
 engine::Ray SceneMouse::ray(const engine::Camera& camera, glm::ivec2 size) const {
-  return camera.pick_ray(at_.value_or(0.5f * glm::vec2(size)), size);
+  return under_.value_or(camera.pick_ray(0.5f * glm::vec2(size), size));
 }
 
 void SceneMouse::update(const MouseInput& in, Session& session, ui::UiState& ui, engine::Camera& camera,
                         glm::ivec2 size) {
-  at_.reset();
-  if (in.over_scene) at_ = in.at;
-  drag(in, session, camera, size);
+  const std::vector<HalfPicture> parts = halves(scene_picture(session, ui, camera, 1), {{0, 0}, size});
+  const float line = static_cast<float>(parts.back().viewport.origin.x);
+  const bool at_right = held_in_ ? *held_in_ == session::Half::second : in.at.x >= line;
+  const HalfPicture& part = at_right ? parts.back() : parts.front();
+  const glm::vec2 at(in.at.x - static_cast<float>(part.viewport.origin.x), in.at.y);
+  const Aim aim{part.half, part.camera, part.camera.pick_ray(at, part.viewport.size)};
+  under_.reset();
+  if (in.over_scene) under_ = aim.ray;
+  drag(in, aim, session, camera, size);
   const auto before = std::exchange(down_, in.down);
-  if (in.down[0] && !before[0] && in.over_scene) press(in, session, ui, camera, size);
+  if (in.down[0] && !before[0] && in.over_scene) press(in, aim, session, ui, camera, size);
   if (!in.down[0]) release(session);
   last_at_ = in.at;
   orbited_ = {};
   const auto something_under = [&] {
-    const engine::Ray under = camera.pick_ray(in.at, size);
-    return render::pick(under, session.world(), session.simulation.drawn().shown) ||
-           pick_movable(under, session.world().scene());
+    return render::pick(aim.ray, session.simulation.world(aim.half), session.simulation.drawn(aim.half).shown) ||
+           pick_movable(aim.ray, session.world().scene());
   };
   can_drag_ =
       drag_ == Drag::body || drag_ == Drag::solid || (drag_ == Drag::none && in.over_scene && something_under());
@@ -74,12 +79,13 @@ void SceneMouse::orbit_between_frames(glm::vec2 at, engine::Camera& camera, glm:
   last_at_ = at;
 }
 
-void SceneMouse::press(const MouseInput& in, Session& session, ui::UiState& ui, engine::Camera& camera,
+void SceneMouse::press(const MouseInput& in, const Aim& aim, Session& session, ui::UiState& ui, engine::Camera& camera,
                        glm::ivec2 size) {
   drag_length_ = 0;
   drag_ = Drag::orbit;
-  const engine::Ray ray = camera.pick_ray(in.at, size);
-  const auto under = render::pick(ray, session.world(), session.simulation.drawn().shown);
+  held_in_ = aim.half;
+  const engine::Ray& ray = aim.ray;
+  const auto under = render::pick(ray, session.simulation.world(aim.half), session.simulation.drawn(aim.half).shown);
   pressed_on_body_ = under.has_value();
   if (!under) {
     if (const auto solid = pick_movable(ray, session.world().scene())) {
@@ -105,15 +111,14 @@ void SceneMouse::press(const MouseInput& in, Session& session, ui::UiState& ui, 
 
 // A button goes down or up at the end of a frame. With the buttons of the last frame, the way to a press is no drag,
 // and the way to a release is one.
-void SceneMouse::drag(const MouseInput& in, Session& session, engine::Camera& camera, glm::ivec2 size) {
+void SceneMouse::drag(const MouseInput& in, const Aim& aim, Session& session, engine::Camera& camera, glm::ivec2 size) {
   drag_length_ += glm::length(in.moved);
   if (drag_length_ >= max_click_length) {  // a click moves nothing
-    const engine::Ray ray = camera.pick_ray(in.at, size);
     const auto held = grabbed(session.simulation);
-    if (drag_ == Drag::body && held) session.simulation.pull_to(on_facing_plane(ray, camera, held->target));
+    if (drag_ == Drag::body && held) session.simulation.pull_to(on_facing_plane(aim.ray, aim.camera, held->target));
     // In another world the solids may be others.
     if (drag_ == Drag::solid && session.simulation.world_number() == held_solid_->world_number) {
-      const glm::dvec3 way = on_facing_plane(ray, camera, held_solid_->point) - held_solid_->point;
+      const glm::dvec3 way = on_facing_plane(aim.ray, aim.camera, held_solid_->point) - held_solid_->point;
       session.settings.set_solid(held_solid_->index, session::moved(held_solid_->solid, way));
     }
   }
@@ -125,6 +130,7 @@ void SceneMouse::drag(const MouseInput& in, Session& session, engine::Camera& ca
 
 void SceneMouse::release(Session& session) {
   session.simulation.release();
+  held_in_.reset();
   const bool on_scenery = drag_ == Drag::solid || (drag_ == Drag::orbit && !pressed_on_body_);
   if (on_scenery && drag_length_ < max_click_length) session.bodies.select(std::nullopt);
   drag_ = Drag::none;

@@ -3,9 +3,10 @@
 // background moves the camera.
 
 #include <array>
+#include <optional>
+
 #include "app/render/pick.h"
-#include "app/session/session.h"
-#include "app/ui/state/ui_state.h"
+#include "app/window/scene_picture.h"
 #include "engine/camera.h"
 
 namespace app::window {
@@ -40,6 +41,12 @@ class SceneMouse {
   engine::Ray ray(const engine::Camera& camera, glm::ivec2 size) const;
 
  private:
+  /// What the mouse points at: a ray from a camera into the world of a half.
+  struct Aim {
+    session::Half half;
+    engine::Camera camera;
+    engine::Ray ray;
+  };
   enum class Drag { none, body, solid, orbit };
   struct HeldSolid {
     std::size_t index;           // in the scene
@@ -48,16 +55,18 @@ class SceneMouse {
     std::uint64_t world_number;  // of the Simulation
   };
 
-  void press(const MouseInput& input, Session& session, ui::UiState& ui, engine::Camera& camera, glm::ivec2 size);
-  void drag(const MouseInput& input, Session& session, engine::Camera& camera, glm::ivec2 size);
+  void press(const MouseInput& input, const Aim& aim, Session& session, ui::UiState& ui, engine::Camera& camera,
+             glm::ivec2 size);
+  void drag(const MouseInput& input, const Aim& aim, Session& session, engine::Camera& camera, glm::ivec2 size);
   void release(Session& session);
 
   Drag drag_ = Drag::none;
   std::array<bool, 3> down_{};  // as in the last frame
   bool can_drag_ = false, pressed_on_body_ = false;
   std::optional<HeldSolid> held_solid_;
-  float drag_length_ = 0;  // pixels, since the left button went down
-  std::optional<glm::vec2> at_;
+  float drag_length_ = 0;                 // pixels, since the left button went down
+  std::optional<session::Half> held_in_;  // the half in which the left button went down, until it goes up
+  std::optional<engine::Ray> under_;
   glm::vec2 last_at_{0.0f}, orbited_{0.0f};  // pixels; the second is the way of orbit_between_frames() since update()
 };
 

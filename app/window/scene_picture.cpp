@@ -3,13 +3,19 @@
 #include <algorithm>
 #include <iterator>
 
+#include "app/render/halves.h"
 #include "app/render/miss_marks.h"
 
 namespace app::window {
 namespace {
 
-const std::vector<collide::Contact>* missed_in(const ScenePicture& picture, const Session& session) {
-  return picture.misses_of ? session.comparison.missed_by(*picture.misses_of) : nullptr;
+using session::Half;
+
+/// Returns the missed contacts that a half shows; of two halves each what its own method misses.
+const std::vector<collide::Contact>* missed_in(const ScenePicture& picture, const Session& session, Half half) {
+  if (!picture.misses_of) return nullptr;
+  if (const session::Beside* beside = session.simulation.beside()) return &beside->figures(half).missed();
+  return session.comparison.missed_by(*picture.misses_of);
 }
 
 }  // namespace
@@ -29,8 +35,10 @@ ScenePicture scene_picture(const Session& session, const ui::UiState& ui, const 
     picture.misses_of = compare::method_index(collide::paper_method);
   if (picture.misses_of) picture.misses = session.comparison.reports();
   if (picture.shown.true_surfaces) picture.surfaces = session.surfaces.reports();
-  if (!ui.tour.open() && session.ghost().world() && !session.ghost().blown_up())
-    picture.ghost = session.ghost().revision();
+  if (session.simulation.beside() && !ui.tour.open()) {
+    picture.ghost = ui.beside_as_ghost && session.simulation.beside()->stopped().empty();
+    if (!ui.beside_as_ghost) picture.line = ui.line;
+  }
   // What is found out about the present state is drawn with the bodies in it.
   const bool of_present = render::shows(picture.shown, render::OverlayBasis::present) || picture.bucket;
   picture.between = of_present ? 1.0f : session.simulation.between();
@@ -39,37 +47,47 @@ ScenePicture scene_picture(const Session& session, const ui::UiState& ui, const 
   return picture;
 }
 
-render::OverlayRequest overlay_request(const Session& session, const ui::Tour& tour, const ScenePicture& picture) {
+std::vector<HalfPicture> halves(const ScenePicture& picture, const engine::Viewport& whole) {
+  if (!picture.line) return {{Half::first, whole, picture.camera}};
+  std::vector<HalfPicture> parts;
+  for (const engine::Viewport& part : render::side_by_side(whole, *picture.line)) {
+    parts.push_back({parts.empty() ? Half::first : Half::second, part, picture.camera});
+    render::SceneView::refit(parts.back().camera, whole.size, part.size);
+  }
+  return parts;
+}
+
+render::OverlayRequest overlay_request(const Session& session, const ui::Tour& tour, const ScenePicture& picture,
+                                       Half half) {
+  const session::DetectionInspector& inspector = half == Half::first ? session.inspector : session.inspector_beside;
+  const session::SurfaceMonitor& surfaces = half == Half::first ? session.surfaces : session.surfaces_beside;
   render::OverlayRequest request;
   static_cast<render::OverlayChoice&>(request) = picture;
-  request.missed = missed_in(picture, session);
+  request.missed = missed_in(picture, session, half);
   request.shown.missed = request.missed != nullptr;
-  if (picture.bucket) request.bucket = session.inspector.bucket();
+  if (picture.bucket) request.bucket = inspector.bucket();
   if (render::shows(request.shown, render::OverlayBasis::table) || request.bucket)
-    request.debug = &session.inspector.shown_geometry();
-  if (request.shown.areas) request.areas = session.inspector.search_areas();
-  if (request.shown.surface_contacts) request.surface_contacts = session.inspector.surface_contacts();
-  if (const softbody::World* world = session.simulated(); world && request.shown.contacts)
+    request.debug = &inspector.shown_geometry();
+  if (request.shown.areas) request.areas = inspector.search_areas();
+  if (request.shown.surface_contacts) request.surface_contacts = inspector.surface_contacts();
+  if (const softbody::World* world = session.simulation.simulated(half); world && request.shown.contacts)
     request.solid_contacts = softbody::solid_contacts(*world);
-  if (picture.surfaces) request.marks = session.surfaces.report().marks;
+  if (picture.surfaces) request.marks = surfaces.report().marks;
   request.highlight = tour.highlight();
   if (picture.ghost) {
-    request.ghost = session.ghost().world();
-    request.ghost_positions = session.ghost().drawn_positions(picture.between);
+    request.ghost = &session.simulation.beside()->world();
+    request.ghost_positions = session.simulation.drawn(Half::second, picture.between).shown;
   }
   return request;
 }
 
-compare::DrawnMeshes drawn_meshes(const Session& session, const ScenePicture& picture) {
-  return {session.world(), session.simulation.before_last_step(), picture.between};
-}
-
-std::vector<render::SceneLabel> scene_labels(const Session& session, const ui::Tour& tour,
-                                             const ScenePicture& picture) {
+std::vector<render::SceneLabel> scene_labels(const Session& session, const ui::Tour& tour, const ScenePicture& picture,
+                                             Half half) {
   std::vector<render::SceneLabel> labels;
   if (const render::Highlight* highlight = tour.highlight()) labels = highlight->labels;
-  if (const auto* missed = missed_in(picture, session))
-    std::ranges::copy(render::miss_marks(session.world(), *missed, drawn_meshes(session, picture).shown),
+  if (const auto* missed = missed_in(picture, session, half))
+    std::ranges::copy(render::miss_marks(session.simulation.world(half), *missed,
+                                         session.simulation.drawn(half, picture.between).shown),
                       std::back_inserter(labels));
   return labels;
 }

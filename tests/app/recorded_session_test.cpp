@@ -145,12 +145,12 @@ TEST_F(RecordedSession, TakesBackASettingAndStaysAtItsFrame) {
   EXPECT_EQ(session.world().method().key, "grid-hash");
 }
 
-TEST_F(RecordedSession, EndsTheGhostOfTheSceneBefore) {
+TEST_F(RecordedSession, EndsTheSecondWorldOfTheSceneBefore) {
   Session other(touching_pair(), {}, 1);
-  other.choose_ghost(softbody::IntegratorChoice{});
-  ASSERT_TRUE(other.ghost().world());
+  other.simulation.toggle_beside();
+  ASSERT_TRUE(other.simulation.beside());
   other.scenes.enter(session::show_in_window(opened(balls), 1), opened(balls).scene, "balls");
-  EXPECT_FALSE(other.ghost().world());
+  EXPECT_FALSE(other.simulation.beside());
   other.advance(tick);
   EXPECT_EQ(other.world().frame(), 1);
 }

@@ -37,9 +37,9 @@ TEST_F(ScenePictureTest, ChangesWithAllThatItShows) {
       [&] { ui.overlays.missed = true; },
       [&] { session.comparison.choice.misses_of = compare::method_index("octree"); },
       [&] { session.simulation.grab({.body = 0}); },
-      [&] {
-        session.choose_ghost(softbody::IntegratorChoice{"velocity-verlet", {}});
-      },
+      [&] { session.simulation.toggle_beside(); },
+      [&] { ui.line = 0.4f; },
+      [&] { ui.beside_as_ghost = true; },
       [&] { ui.tour.start(session, ui.overlays), ui.tour.update(session); },
       [&] { camera.set_orbit({.distance = 7}); }};
   for (std::size_t i = 0; i < changes.size(); ++i) {

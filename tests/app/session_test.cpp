@@ -128,15 +128,5 @@ TEST(Session, TellsTheComparisonOfChanges) {
   EXPECT_EQ(session.comparison.report().id, 0u);
 }
 
-TEST(Session, ChangesItsGhostsRevisionWhileThatMoves) {
-  Session session(touching_pair(), {}, 1);
-  const std::uint64_t none = session.ghost().revision();
-  session.choose_ghost(softbody::IntegratorChoice{"rk4", 8});
-  const std::uint64_t begun = session.ghost().revision();
-  EXPECT_NE(begun, none);
-  session.advance(tick);
-  EXPECT_NE(session.ghost().revision(), begun);
-}
-
 }  // namespace THIS_FILE
 }  // namespace app

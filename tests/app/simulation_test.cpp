@@ -10,9 +10,7 @@ namespace app {
 namespace THIS_FILE {
 
 struct Observer : session::SimulationObserver {
-  int interventions = 0;
   double stepped() override { return 1e6; }  // ms, longer than any step
-  void intervened() override { ++interventions; }
 };
 
 class SimulationTest : public testing::Test {
@@ -77,11 +75,6 @@ TEST_F(SimulationTest, InterpolatesSlowMotionBetweenTwoSteps) {
 TEST_F(SimulationTest, CountsTheTimeOfItsObserverAsPartOfAStep) {
   run(simulation, 1);
   EXPECT_GE(simulation.step_ms(), 1e6);
-}
-
-TEST_F(SimulationTest, TellsItsObserverThatASettingChanged) {
-  set_gravity(3);
-  EXPECT_EQ(observer.interventions, 1);
 }
 
 TEST_F(SimulationTest, HasTheCaptionOfTheFrame) {

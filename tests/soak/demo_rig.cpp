@@ -31,8 +31,10 @@ void DemoRig::frame(bool draw) {
   const app::window::ScenePicture picture = app::window::scene_picture(session, ui, camera_, 1);
   if (draw)
     canvas_.update(input.display_size, true, session.exporter.wants_shown_picture(), [&](const auto& whole) {
-      view_.draw(session.world(), app::window::overlay_request(session, ui.tour, picture), camera_, whole, 1,
-                 app::window::drawn_meshes(session, picture));
+      for (const app::window::HalfPicture& half : app::window::halves(picture, whole))
+        view_.draw(session.simulation.world(half.half),
+                   app::window::overlay_request(session, ui.tour, picture, half.half), half.camera, half.viewport, 1,
+                   session.simulation.drawn(half.half, picture.between));
     });
   target_.bind();
   gui_.end_frame();

@@ -33,21 +33,17 @@ StepMargin margin_of(const softbody::World& world) {
           .share = last.seconds / world.frame_time()};
 }
 
-/// Returns true if the world is to be measured and kept in its present frame.
-bool is_looked_at(const softbody::World& world) {
-  constexpr std::size_t most = StabilityMonitor::most_frames, vertices = StabilityMonitor::vertices_a_frame;
-  return std::size_t(world.frame()) % std::min(most, 1 + world.bodies().vertex_count() / vertices) == 0;
-}
-
 }  // namespace
 
-void StabilityMonitor::before_step(const softbody::World& world) {
-  if (recovery_checks_ == 0 && is_looked_at(world)) rewind_.keep(world);
+bool StabilityMonitor::before_step(const softbody::World& world) {
+  if (recovery_checks_ > 0 || !looks_at(world)) return false;
+  rewind_.keep(world);
+  return true;
 }
 
 void StabilityMonitor::after_step(const softbody::World& world, bool monitored) {
   margin_ = margin_of(world);
-  if (!is_looked_at(world)) return;
+  if (!looks_at(world)) return;
   const auto bodies = softbody::measure_bodies(world);
   record(world, bodies);
   if (!monitored) return blow_up_monitor_.restart();
@@ -99,9 +95,11 @@ void StabilityMonitor::went_back(const softbody::World& world) {
   record(world, softbody::measure_bodies(world));
 }
 
-void StabilityMonitor::keep_present(const softbody::World& world) {
+bool StabilityMonitor::keep_present(const softbody::World& world) {
   const bool past = !rewind_.snapshots().empty() && world.frame() <= rewind_.snapshots().back().frame;
-  if (recovery_checks_ == 0 && !past) rewind_.keep(world);
+  if (recovery_checks_ > 0 || past) return false;
+  rewind_.keep(world);
+  return true;
 }
 
 }  // namespace app::session

@@ -2,6 +2,8 @@
 // Monitors the stability of a simulated world: keeps its past, reports a blow-up, compares its step with the stability
 // bound, and records its energies.
 
+#include <algorithm>
+
 #include "app/base/time_series.h"
 #include "app/compare/blow_up_monitor.h"
 #include "app/session/stability/rewind.h"
@@ -38,8 +40,14 @@ class StabilityMonitor {
   /// So many checks without a blow-up have to follow one before another is reported.
   static constexpr std::size_t recovery = 60;
 
-  /// Call these around each step of the world. monitored: report a blow_up().
-  void before_step(const softbody::World& world);
+  /// Returns true if the world is to be measured and kept in its present frame.
+  static bool looks_at(const softbody::World& world) {
+    return std::size_t(world.frame()) % std::min(most_frames, 1 + world.bodies().vertex_count() / vertices_a_frame) ==
+           0;
+  }
+  /// Call these around each step of the world. monitored: report a blow_up(). before_step() returns true if it has kept
+  /// the world in past().
+  bool before_step(const softbody::World& world);
   void after_step(const softbody::World& world, bool monitored);
   /// Removes the blow_up() once the user continues. Another one is reported only after the world was good for a while.
   void dismiss_blow_up() { blow_up_.reset(); }
@@ -47,8 +55,8 @@ class StabilityMonitor {
   void restart(const softbody::World& world);
   /// Call this after the world has gone back to a snapshot of past(). Forgets what came later, and measures the world.
   void went_back(const softbody::World& world);
-  /// Keeps the present as a snapshot, unless it has blown up or is already in past().
-  void keep_present(const softbody::World& world);
+  /// Keeps the present as a snapshot, unless it has blown up or is already in past(). Returns true if it has.
+  bool keep_present(const softbody::World& world);
 
   const Rewind& past() const { return rewind_; }
   /// Returns the last frame of past() that was found good. Precondition: past() is not empty.

@@ -75,6 +75,10 @@ void draw_overlays(Widgets& w, const Session& session, const UiState& ui) {
     if (!row.needs_solver || session.simulated())
       flag(row.label, ui.overlays.*row.shown, fmt::format("{} ({})", row.tooltip, row.shortcut),
            [&row](UiState& state) { state.overlays.*row.shown = !(state.overlays.*row.shown); });
+  if (session.simulated())
+    flag("Beside", session.simulation.beside(),
+         "Simulates a second world beside this one, with other settings: what they cost and what they miss (A).",
+         [](Session& s) { s.simulation.toggle_beside(); });
   flag("Hash table", ui.hash_table, "Shows the hash table: each square is a bucket (T).",
        [](Session& s, UiState& state) { state.toggle_hash_table(s); });
   flag("Error vs run time###Error against run time", ui.lower == LowerView::sweep,

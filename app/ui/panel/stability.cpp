@@ -1,4 +1,4 @@
-// The panel's section on stability: integrator, ghost, and the curves of energies, volumes, strain and speed.
+// The panel's section on stability: integrator, and the curves of energies, volumes, strain and speed.
 // The status light of the step is here, too.
 
 #include <algorithm>
@@ -22,56 +22,37 @@ std::string step_text(const session::StepMargin& margin, const softbody::BodiesI
 }
 
 /// Draws two rows: the list of integrators, and the substeps if they are fixed. Returns true if the choice changed.
-/// `name` begins the widgets' labels ("" or "Ghost "). `proposed`: the substeps when the user begins to fix them.
-bool draw_integrator_choice(Widgets& w, const char* name, softbody::IntegratorChoice& choice, int proposed) {
+/// `proposed`: the substeps when the user begins to fix them.
+bool draw_integrator_choice(Widgets& w, softbody::IntegratorChoice& choice, int proposed) {
   const softbody::IntegratorChoice before = choice;
   const softbody::Integrator& now = *softbody::find_integrator(choice.key);
   w.row_label("Integrator", w.px(label_column));
-  if (w.begin_combo(fmt::format("{}Integrator", name), now.name, now.summary)) {
+  if (w.begin_combo("Integrator", now.name, now.summary)) {
     for (const softbody::Integrator& i : softbody::integrators())
       if (w.combo_item(i.name, &i == &now, i.summary)) choice.key = i.key;
     ImGui::EndCombo();
   }
   const bool fixed = choice.substeps.has_value();
-  if (w.checkbox(fmt::format("Fixed substeps###{}Fixed substeps", name), fixed,
+  if (w.checkbox("Fixed substeps", fixed,
                  "Takes a fixed number of steps per frame. If they are too few, explicit integrators blow up."))
     choice.substeps = fixed ? std::nullopt : std::optional(std::max(1, proposed));
   const Disabled off(!choice.substeps);
   w.row_label("Substeps", w.px(label_column));
   int substeps = choice.substeps.value_or(std::max(1, proposed));
-  if (w.slider(fmt::format("{}Substeps", name), substeps, 1, std::max(100, substeps), "%d per frame",
+  if (w.slider("Substeps", substeps, 1, std::max(100, substeps), "%d per frame",
                "Steps of the integrator in each frame. Fewer are faster but less stable."))
     choice.substeps = substeps;
   return choice != before;
 }
 
-/// Draws the ghost's switch, its integrator, and its distance from the world that is shown.
-void draw_ghost(Widgets& w, const Session& session) {
-  if (w.checkbox("Ghost world", session.ghost().world(),
-                 "Simulates the same bodies with another integrator, and draws them translucent. A change of the world "
-                 "restarts the ghost."))
-    w.ask([](Session& s) {
-      const bool on = !s.ghost().world();
-      s.choose_ghost(on ? std::optional(softbody::IntegratorChoice{"velocity-verlet", {}}) : std::nullopt);
-    });
-  if (!session.ghost().world()) return;
-  softbody::IntegratorChoice choice = session.ghost().world()->integrator_choice();
-  const int used = session.ghost().world()->last_step().substeps;
-  if (draw_integrator_choice(w, "Ghost ", choice, used)) w.ask([choice](Session& s) { s.choose_ghost(choice); });
-  w.curve("Ghost distance", ghost_distance_text(session), session.ghost().distances(),
-          {0, axis_end(session.ghost().distances().max(), 0.01f)}, render::ghost_colour,
-          {"Root mean square distance between the vertices of the two worlds, over the radius of the body.", "radii"});
-}
-
 /// Draws the choice of integrator and substeps, and the integrator in use if it is chosen automatically.
 void draw_integrator(Widgets& w, const Session& session) {
-  const softbody::World& world = *session.simulated();
+  const softbody::World& world = *session.simulation.simulated(session.simulation.edits);
   const softbody::StepReport& last = world.last_step();
   softbody::IntegratorChoice choice = world.integrator_choice();
   const int needed = std::max(session.simulation.stability().margin().needed, last.substeps);
   const int proposed = std::min(needed, softbody::max_fixed_substeps);
-  if (draw_integrator_choice(w, "", choice, proposed))
-    w.ask([choice](Session& s) { s.settings.set_integrator(choice); });
+  if (draw_integrator_choice(w, choice, proposed)) w.ask([choice](Session& s) { s.settings.set_integrator(choice); });
   const bool chosen = !last.integrator->automatic;  // not before the first step
   const std::string why = world.integrator_choice().integrator().automatic
                               ? "Chosen automatically: " + std::string(last.why) + "."
@@ -147,7 +128,6 @@ void draw_step_light(Widgets& w, const Session& session) {
 
 void draw_stability(Widgets& w, const Session& session, const UiState&) {
   draw_integrator(w, session);
-  draw_ghost(w, session);
   if (w.checkbox("Pause when a body explodes", session.simulation.pause_on_blow_up,
                  "Pauses in the first frame in which a body has more energy or speed than possible, and names it."))
     w.ask([](Session& s) { s.simulation.pause_on_blow_up = !s.simulation.pause_on_blow_up; });

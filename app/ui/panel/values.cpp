@@ -19,7 +19,7 @@ constexpr std::array<std::uint32_t, 10> bucket_presets{1, 101, 499, 997, 1001, 1
 
 /// True if surface contact keeps the bodies apart, not the detector's contacts.
 bool uses_surface_contact(const Session& session) {
-  return session.world().scene().contact_surface == softbody::ContactSurface::surfaces;
+  return session.simulation.edited().scene().contact_surface == softbody::ContactSurface::surfaces;
 }
 
 /// Draws the label of a setting of the hash function. If bucket count and primes do not suit each other, the label has
@@ -39,11 +39,11 @@ struct ValueWidgets {
   const Session& session;
   bool needed;                                                        // by what is shown, besides the method
   float usual = session.simulation.loaded.scene.collision.tolerance;  // m: tells how large the bodies are
-  const collide::Settings& settings = session.world().collision();
+  const collide::Settings& settings = session.simulation.edited().collision();
 
   bool uses(const softbody::Key& key) const {
     using namespace softbody::scene_key;
-    const collide::Method& method = session.world().method();
+    const collide::Method& method = session.simulation.edited().method();
     if (&key == &levels) return needed || method.uses_levels;
     return needed || method.uses_hash || (&key != &buckets && &key != &primes && &key != &cell_size);
   }
@@ -79,7 +79,7 @@ struct ValueWidgets {
   }
 
   bool draw(const softbody::Key&, const std::string&) const {
-    const collide::Method& method = session.world().method();
+    const collide::Method& method = session.simulation.edited().method();
     w.row_label("Method", w.px(label_column));
     draw_method_mark(w, method, ImGui::GetFrameHeight());
     ImGui::SameLine();
@@ -197,7 +197,7 @@ void draw_values(Widgets& w, const Session& session, const UiState& ui, bool of_
   const bool needed = structure_shown || session.inspector.selected_bucket() || session.comparison.choice.on ||
                       session.comparison.choice.with_paper || session.comparison.choice.with_misses;
   const ValueWidgets widgets{w, session, needed};
-  softbody::for_each_value(session.world().scene(), [&](const softbody::Key& key, auto value) {
+  softbody::for_each_value(session.simulation.edited().scene(), [&](const softbody::Key& key, auto value) {
     if (!key.slider.text || softbody::is_of_detection(key) != of_detection) return;
     const Disabled off(!widgets.uses(key));
     if (widgets.draw(key, value))

@@ -34,6 +34,9 @@ struct UiState : Remembered {
   bool coverage_explained = false;  // below the coverage light
   bool popup_open = false;          // a list to choose from, in the last frame
 
+  bool beside_as_ghost = false;  // the second world is drawn over the first, not beside it
+  float line = 0.5f;             // the share of the width where the line between two worlds lies
+
   float render_scale = 1;       // of the scene's picture, see Canvas
   double picture_interval = 0;  // s from picture to picture, on purpose; infinity: drawn when something changes
   softbody::View view;          // the camera, as a scene file describes it

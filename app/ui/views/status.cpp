@@ -13,16 +13,6 @@
 namespace app::ui {
 namespace {
 
-/// Returns "Auto (Semi-implicit Euler)" or "Runge-Kutta 4, 8 substeps".
-std::string integrator_text(const softbody::World& world) {
-  std::string text(world.integrator_choice().integrator().name);
-  if (world.integrator_choice().integrator().automatic)
-    text.append(" (").append(world.last_step().integrator->name).append(")");
-  if (const auto substeps = world.integrator_choice().substeps)
-    text.append(", ").append(std::to_string(*substeps)).append(*substeps == 1 ? " substep" : " substeps");
-  return text;
-}
-
 constexpr double hint_seconds = 20, fade_seconds = 2;
 
 std::string missed_text(const Session& session) {
@@ -47,13 +37,6 @@ void draw_legend_line(Widgets& w, const render::LegendLine& line) {
   ImGui::Dummy({width, height});
   ImGui::SameLine();
   ImGui::TextDisabled("%s", line.end.c_str());
-}
-
-void draw_ghost_legend(Widgets& w, const Session& session) {
-  ImGui::Text("Opaque: %s", integrator_text(*session.simulated()).c_str());
-  w.register_item("Legend");
-  draw_legend_line(w, {"Ghost: " + integrator_text(*session.ghost().world()), render::ghost_colour});
-  ImGui::Text("RMS distance: %s", ghost_distance_text(session).c_str());
 }
 
 void draw_bucket_legend(Widgets& w, const Session& session) {
@@ -145,19 +128,13 @@ float draw_notices(Widgets& w, const Session& session, const std::string& no_roo
   return end;
 }
 
-std::string ghost_distance_text(const Session& session) {
-  if (session.ghost().blown_up()) return "has blown up";
-  return fmt::format("{:.3g} R", session.ghost().distances().latest());
-}
-
 bool has_legend(const Session& session, const render::Overlays& shown) {
-  return session.ghost().world() || session.inspector.bucket() ||
-         std::ranges::any_of(render::overlay_table,
-                             [&](const render::OverlayRow& row) { return row.legend && shown.*row.shown; });
+  return session.inspector.bucket() || std::ranges::any_of(render::overlay_table, [&](const render::OverlayRow& row) {
+           return row.legend && shown.*row.shown;
+         });
 }
 
 void draw_legend(Widgets& w, const Session& session, const render::Overlays& shown, bool names_method) {
-  if (session.ghost().world()) draw_ghost_legend(w, session);
   const bool table = render::shows(shown, render::OverlayBasis::table);
   const render::LegendFacts facts{session.world(), table ? &session.inspector.shown_geometry() : nullptr,
                                   session.comparison.missed(),

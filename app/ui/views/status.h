@@ -48,8 +48,6 @@ float draw_notices(Widgets& widgets, const Session& session, const std::string& 
                    const ScreenRect& area);
 /// True if an overlay that is shown needs a legend.
 bool has_legend(const Session& session, const render::Overlays& shown);
-/// Returns the distance between the ghost, which must be there, and the world that is shown: "0.01 R".
-std::string ghost_distance_text(const Session& session);
 /// Draws the legend of the overlays into the current window. `names_method`: it also names the method whose boxes and
 /// cells are shown.
 void draw_legend(Widgets& widgets, const Session& session, const render::Overlays& shown, bool names_method);
