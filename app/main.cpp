@@ -31,12 +31,15 @@ void run(const app::cli::Options& options) {
       break;
   }
 #if SBCOLLIDE_GRAPHICS
-  app::window::run_demo({.opened = app::cli::open(options),
+  app::files::Opened opened = app::cli::open(options);
+  const auto beside = app::cli::second_world(options, opened.scene);
+  app::window::run_demo({.opened = std::move(opened),
                          .scene_name = options.play.empty() ? options.scene : options.play.front(),
                          .scene_given = options.scene_given || !options.play.empty(),
                          .scene_folder = app::files::scene_folder(),
                          .meshes = options.meshes,
                          .integrator = options.integrator,
+                         .beside = beside,
                          .threads = options.threads,
                          .size = options.size});
 #else

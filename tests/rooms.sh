@@ -47,7 +47,7 @@ app/ui/widgets: app/base app/compare app/render app/ui/state
 app/ui/views: app/base app/compare app/session app/render app/ui/state app/ui/widgets softbody engine
 app/ui/panel: app/base app/session app/render app/ui/state app/ui/widgets app/ui/views collide softbody
 app/ui: app/session app/ui/state app/ui/widgets app/ui/views app/ui/panel
-app/window: app/base app/files app/session app/render app/ui softbody engine
+app/window: app/base app/files app/compare app/session app/render app/ui softbody engine
 app: app/base app/files app/cli app/report app/window
 "
 

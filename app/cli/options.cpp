@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/base/parse_numbers.h"
+#include "app/base/text.h"
 #include "app/files/inputs.h"
 #include "app/files/playback.h"
 #include "softbody/scene/scene_keys.h"
@@ -66,6 +67,33 @@ softbody::View read_view(const std::string& text) {
                      ": must be X,Y,Z,DISTANCE,AZIMUTH,ELEVATION: where to look at and how far from in metres, -360 to "
                      "360 and -89 to 89 degrees, e.g. 0,0.8,0,8,30,18");
   return {.target = {(*v)[0], (*v)[1], (*v)[2]}, .distance = (*v)[3], .azimuth = (*v)[4], .elevation = (*v)[5]};
+}
+
+const std::vector<std::string>& beside_keys() {
+  static const std::vector<std::string> keys{"method",    "levels",          "cell-size", "buckets",
+                                             "tolerance", "contact-surface", "integrator"};
+  return keys;
+}
+
+/// Returns "--levels=3" and so on for "levels=3,...", each key once. A cell size may have commas in it.
+std::vector<std::string> beside_arguments(const std::string& text) {
+  std::vector<std::string> arguments, given;
+  for (const std::string_view item : split(text, ',')) {
+    const auto equals = item.find('=');
+    if (equals == std::string_view::npos && !given.empty() && given.back() == "cell-size") {
+      arguments.back().append(",").append(item);
+      continue;
+    }
+    const std::string key(item.substr(0, equals));
+    if (std::ranges::count(beside_keys(), key) == 0)
+      throw UsageError("'" + key + "' is none of: " + joined(beside_keys(), ", "));
+    if (std::ranges::count(given, key) > 0) throw UsageError(key + ": is given twice");
+    if (equals == std::string_view::npos || equals + 1 == item.size())
+      throw UsageError(key + ": its value is missing; write e.g. method=multi-level-sb,cell-size=0.3");
+    given.push_back(key);
+    arguments.push_back(fmt::format("--{}", item));
+  }
+  return arguments;
 }
 
 std::array<std::uint32_t, 3> read_primes(const std::string& text) {
@@ -129,8 +157,10 @@ void add_common_options(CLI::App& command, Options& options) {
   add(command, "--threads", "N", 1, 256, options.threads, "threads (default: all cores)");
 }
 
-void add_scene_options(CLI::App& command, Options& options) {
+void add_scene_options(CLI::App& command, Options& options, std::string& beside) {
   add(command, "--scene", "S", options.scene, "scene: a key of `list scenes` or a .toml file");
+  add(command, "--beside", "KEY=VALUE,...", beside,
+      "a second world beside the first that differs in these: " + joined(beside_keys(), ", "));
   add_common_options(command, options);
   add(command, "--contact-surface", "K", options.contact_surface,
       "what keeps bodies apart: a key of `list contact-surfaces`");
@@ -147,9 +177,10 @@ void add_scene_options(CLI::App& command, Options& options) {
       ->type_name("X,Y,Z,DISTANCE,AZIMUTH,ELEVATION");
 }
 
-CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::string& captures) {
+CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& beside, std::string& size,
+                       std::string& captures) {
   CLI::App* simulate = cli.add_subcommand("simulate", "run a scene without a window");
-  add_scene_options(*simulate, options);
+  add_scene_options(*simulate, options, beside);
   add(*simulate, "--frames", "N", 1, 10'000'000, options.frames, "frames to run");
   add(*simulate, "--dt", "SECONDS", options.frame_time, "length of a frame in seconds (default 1/60)");
   add(*simulate, "--capture", "N,N,...", captures, "frames to write as pictures, e.g. 100,400,600,800");
@@ -305,8 +336,28 @@ void check_play(const CLI::App& cli, const Options& options) {
   if (options.command != Command::demo) throw UsageError("--play: only the window takes it; `detect` reads files, too");
   for (const char* other : {"--scene", "--mesh"})
     if (cli.count(other) > 0) throw UsageError(std::string(other) + ": leave it out, or --play: there is one of them");
-  for (const char* other : {"--integrator", "--substeps", "--contact-surface"})
+  for (const char* other : {"--integrator", "--substeps", "--contact-surface", "--beside"})
     if (cli.count(other) > 0) throw UsageError(std::string(other) + ": leave it out: --play simulates nothing");
+}
+
+/// Returns the options with those of a second world.
+Options read_beside(const std::string& text, const Options& first) try {
+  Options second;
+  second.integrator = first.integrator;
+  std::string none;
+  CLI::App parser;
+  add_scene_options(parser, second, none);
+  std::vector<std::string> arguments = beside_arguments(text);
+  std::ranges::reverse(arguments);  // as CLI11 wants them
+  try {
+    parser.parse(arguments);
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(reason(error));
+  }
+  check(second);
+  return second;
+} catch (const UsageError& error) {
+  throw UsageError("--beside " + text + ": " + error.what());
 }
 
 /// Throws UsageError unless a scene file may have this length: a saved scene must be readable again.
@@ -354,7 +405,7 @@ int frames_per_picture(double frame_time) {
 std::optional<Options> parse_options(int argc, const char* const* argv) {
   Options options;
   options.threads = std::max(1, int(std::thread::hardware_concurrency()));
-  std::string size, captures;
+  std::string size, captures, beside;
 
   CLI::App cli{
       "Soft spheres fall on a solid sphere while a detector finds their collisions and self-collisions.\n"
@@ -362,7 +413,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
       "sbcollide"};
   cli.set_version_flag("--version", SBCOLLIDE_VERSION);
   cli.require_subcommand(0, 1);
-  add_scene_options(cli, options);
+  add_scene_options(cli, options, beside);
   add(cli, "--size", "WxH", size, "size of the window or the pictures in pixels");
   cli.add_option("--mesh", options.meshes, "OBJ or PLY files whose bodies join the scene in the window")
       ->type_name("FILE")
@@ -372,7 +423,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
       "OBJ or PLY files: recorded frames that the window plays; nothing is simulated");
   add_bodies_option(cli, options.bodies_by);
 
-  const CLI::App* simulate = add_simulate(cli, options, size, captures);
+  const CLI::App* simulate = add_simulate(cli, options, beside, size, captures);
   const CLI::App* detect = add_detect(cli, options);
   const CLI::App* report = add_report(cli, options);
   CLI::App* list = cli.add_subcommand("list", "print keys and names, a line each");
@@ -407,18 +458,15 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   options.out_given = simulate->count("--out") > 0;
   if (simulate->count("--capture")) parse_captures(captures, options);
   check(options);
+  if (!beside.empty()) options.beside.push_back(read_beside(beside, options));
   options.report.cores = options.threads;
   return options;
 }
 
-files::Opened open(const Options& options) {
-  if (options.scene.ends_with(".obj") || options.scene.ends_with(".ply"))
-    throw UsageError("--scene " + options.scene + ": a mesh, not a scene; `sbcollide --mesh` opens it in the window");
-  files::Opened opened = options.play.empty()
-                             ? softbody::find_scene(options.scene, files::scene_folder())
-                             : files::open_recording({options.play.begin(), options.play.end()}, options.bodies_by);
-  softbody::Scene& scene = opened.scene;
-  const bool may_be_saved = options.play.empty();
+namespace {
+
+/// Applies the options to a scene. may_be_saved: as a scene file, whose limits then hold.
+void apply(const Options& options, softbody::Scene& scene, bool may_be_saved) {
   scene.method = chosen_method(options.detection, scene.method).key;
   if (const auto tolerance = options.detection.tolerance; tolerance && may_be_saved)
     require_length(fmt::format("--tolerance {:.9g}", *tolerance), *tolerance, softbody::scene_key::tolerance);
@@ -429,7 +477,29 @@ files::Opened open(const Options& options) {
   if (options.self_collision) scene.collision.self_collision = *options.self_collision;
   if (options.view) scene.view = *options.view;
   if (options.contact_surface) scene.contact_surface = softbody::find_contact_surface(*options.contact_surface)->value;
+}
+
+}  // namespace
+
+files::Opened open(const Options& options) {
+  if (options.scene.ends_with(".obj") || options.scene.ends_with(".ply"))
+    throw UsageError("--scene " + options.scene + ": a mesh, not a scene; `sbcollide --mesh` opens it in the window");
+  files::Opened opened = options.play.empty()
+                             ? softbody::find_scene(options.scene, files::scene_folder())
+                             : files::open_recording({options.play.begin(), options.play.end()}, options.bodies_by);
+  apply(options, opened.scene, options.play.empty());
   return opened;
+}
+
+std::optional<compare::HowSimulated> second_world(const Options& options, const softbody::Scene& first) {
+  if (options.beside.empty()) return std::nullopt;
+  compare::HowSimulated second{first, options.beside.front().integrator};
+  try {
+    apply(options.beside.front(), second.scene, true);
+  } catch (const UsageError& error) {
+    throw UsageError(std::string("--beside: ") + error.what());
+  }
+  return second;
 }
 
 }  // namespace app::cli

@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/base/usage_error.h"
+#include "app/compare/difference.h"
 #include "app/files/body_file.h"
 #include "app/files/recording.h"
 #include "app/report/report.h"
@@ -54,6 +55,7 @@ struct Options {
   DetectOptions detect;
   report::ReportOptions report;
   softbody::IntegratorChoice integrator;
+  std::vector<Options> beside;  // none, or one: what the second world does otherwise; other members do not count
   int threads = 1;
   double frame_time = 1.0 / 60.0;   // s
   std::optional<glm::ivec2> size;   // pixels, of pictures and the window; otherwise the window has its last one
@@ -94,5 +96,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv);
 /// Returns the scene that the options name, or the recording in their files, with their settings. Throws UsageError,
 /// SceneError or MeshFileError.
 files::Opened open(const Options& options);
+
+/// Returns how the second world is simulated beside this first one; nothing if none is asked for. Throws UsageError.
+std::optional<compare::HowSimulated> second_world(const Options& options, const softbody::Scene& first);
 
 }  // namespace app::cli

@@ -177,12 +177,12 @@ class Pictures {
     for (const int frame : options.captures) files::require_no_input(picture_file(frame));
     if (options.animation) animation_.emplace(*options.animation);
   }
-  void take(const softbody::World& world) {
+  void take(const softbody::World& world, const softbody::World* second) {
     const int frame = world.frame();
     const bool captured = std::binary_search(options_.captures.begin(), options_.captures.end(), frame);
     const bool animated = animation_ && (frame - 1) % stride_ == 0;
     if (!captured && !animated) return;
-    engine::Image picture = capture_->draw(world);
+    engine::Image picture = capture_->draw(world, second);
     if (captured) files::write_file(picture_file(frame), engine::encode_png(picture));
     if (animated) animation_->add(std::move(picture), start_of(frame));
   }
@@ -212,7 +212,7 @@ class Pictures {
       if (requested)
         throw UsageError(std::string(option) + ": this build has no graphics; configure with -DSBCOLLIDE_GRAPHICS=ON");
   }
-  void take(const softbody::World&) {}
+  void take(const softbody::World&, const softbody::World*) {}
   void finish() {}
 };
 #endif
@@ -287,6 +287,66 @@ void print_overlaps(const softbody::World& world) {
   std::fprintf(stderr, "%s\n", text.c_str());
 }
 
+/// A world that runs, with the figures of its frames and what is wrong with it.
+class Run {
+ public:
+  /// name: begins the lines of warnings.
+  Run(const Options& options, compare::HowSimulated how, const char* name)
+      : options_(options),
+        name_(name),
+        world_(std::move(how.scene),
+               {.threads = options.threads, .frame_time = options.frame_time, .integrator = how.integrator}),
+        oracle_(options.oracle ? options.threads : 1),
+        blow_up_(monitor_.check(world_, softbody::measure_bodies(world_))) {
+    if (options.oracle) oracle_.crossings(world_);  // keeps the start positions of the first frame
+  }
+
+  void step() {
+    world_.step();
+    const std::vector<softbody::BodyMeasures> bodies = softbody::measure_bodies(world_);
+    if (!blow_up_ && (blow_up_ = monitor_.check(world_, bodies)))
+      warn(warnings_, fmt::format("{}frame {}: {}; see --integrator and --substeps", name_, blow_up_->frame,
+                                  blow_up_->what));
+    // A table has about twenty lines for any number of frames.
+    const int stride = options_.json || options_.json_lines ? 1 : std::max(1, options_.frames / 20);
+    if (world_.frame() % stride != 0 && world_.frame() != options_.frames) return;
+    const collide::Result& found = world_.detection();
+    FrameRow& row = rows_.emplace_back(FrameRow{.frame = world_.frame(),
+                                                .step = world_.last_step(),
+                                                .bodies = found.contacts.size() - found.self_contacts,
+                                                .self = found.self_contacts,
+                                                .solid = softbody::solid_contacts(world_).size(),
+                                                .measures = softbody::measure(world_, bodies)});
+    if (options_.oracle)
+      row.oracle =
+          collide::oracle::figures_of(world_.simulated().positions, oracle_.overlaps(world_), oracle_.crossings(world_));
+  }
+
+  const softbody::World& world() const { return world_; }
+  std::vector<std::string>& warnings() { return warnings_; }
+  const std::vector<FrameRow>& rows() const { return rows_; }
+  void forget_rows() { rows_.clear(); }
+  /// Returns the document of the run after its last frame; without frames, its other fields.
+  Json document() const { return document_json(world_, all_warnings(), rows_); }
+  void print() const { print_table(world_, all_warnings(), rows_); }
+
+ private:
+  std::vector<std::string> all_warnings() const {
+    std::vector<std::string> all = warnings_;
+    std::ranges::copy(world_warnings(world_), std::back_inserter(all));
+    return all;
+  }
+
+  const Options& options_;
+  const char* name_;
+  softbody::World world_;
+  compare::WorldOracle oracle_;
+  compare::BlowUpMonitor monitor_;
+  std::optional<compare::BlowUp> blow_up_;
+  std::vector<std::string> warnings_;
+  std::vector<FrameRow> rows_;
+};
+
 }  // namespace
 
 void simulate(const Options& options) {
@@ -294,55 +354,42 @@ void simulate(const Options& options) {
   files::protect_input(softbody::scene_path(options.scene, files::scene_folder()));
   files::protect_input(softbody::presets_path(files::scene_folder()));
   files::protect_inputs(scene);
-  softbody::World world(
-      std::move(scene),
-      {.threads = options.threads, .frame_time = options.frame_time, .integrator = options.integrator});
+  const auto beside = second_world(options, scene);
+  Run first(options, {std::move(scene), options.integrator}, "");
+  std::optional<Run> second;
+  if (beside) second.emplace(options, *beside, "beside: ");
   Pictures pictures(options);
-  std::vector<std::string> warnings;  // of the run
-  ObjSequence obj_sequence(options, warnings);
+  ObjSequence obj_sequence(options, first.warnings());
   if (options.out_given) files::prepare_folder(options.out);
-  print_remarks(world.scene());
-  print_overlaps(world);
+  print_remarks(first.world().scene());
+  print_overlaps(first.world());
   // Where the lines of frames go to a terminal, they show the progress themselves.
   const bool progress = !options.json_lines || !isatty(STDOUT_FILENO);
-  compare::WorldOracle oracle(options.oracle ? options.threads : 1);
-  if (options.oracle) oracle.crossings(world);  // keeps the start positions of the first frame
-  // A table has about twenty lines for any number of frames.
-  const int stride = options.json || options.json_lines ? 1 : std::max(1, options.frames / 20);
-  std::vector<FrameRow> rows;
-  compare::BlowUpMonitor monitor;
-  std::optional<compare::BlowUp> blow_up = monitor.check(world, softbody::measure_bodies(world));
-  while (world.frame() < options.frames) {
-    world.step();
-    pictures.take(world);
-    obj_sequence.take(world);
-    const std::vector<softbody::BodyMeasures> bodies = softbody::measure_bodies(world);
-    if (!blow_up && (blow_up = monitor.check(world, bodies)))
-      warn(warnings, fmt::format("frame {}: {}; see --integrator and --substeps", blow_up->frame, blow_up->what));
-    if (world.frame() % stride == 0 || world.frame() == options.frames) {
-      const collide::Result& found = world.detection();
-      FrameRow row{.frame = world.frame(),
-                   .step = world.last_step(),
-                   .bodies = found.contacts.size() - found.self_contacts,
-                   .self = found.self_contacts,
-                   .solid = softbody::solid_contacts(world).size(),
-                   .measures = softbody::measure(world, bodies)};
-      if (options.oracle)
-        row.oracle =
-            collide::oracle::figures_of(world.simulated().positions, oracle.overlaps(world), oracle.crossings(world));
-      if (options.json_lines)
-        print_line(to_json(row));
-      else
-        rows.push_back(std::move(row));
+  while (first.world().frame() < options.frames) {
+    first.step();
+    if (second) second->step();
+    pictures.take(first.world(), second ? &second->world() : nullptr);
+    obj_sequence.take(first.world());
+    if (options.json_lines) {
+      Json line = to_json(first.rows().back());
+      if (second) line["beside"] = to_json(second->rows().back());
+      print_line(line);
+      first.forget_rows();
+      if (second) second->forget_rows();
     }
-    if (progress && world.frame() % 10 == 0)
-      show_progress(fmt::format("frame {} of {}", world.frame(), options.frames));
+    if (progress && first.world().frame() % 10 == 0)
+      show_progress(fmt::format("frame {} of {}", first.world().frame(), options.frames));
   }
   pictures.finish();
   if (progress) clear_progress();
-  std::ranges::copy(world_warnings(world), std::back_inserter(warnings));
-  if (!options.json_lines && !options.json) return print_table(world, warnings, rows);
-  print_line(document_json(world, warnings, rows));
+  if (options.json_lines || options.json) {
+    Json document = first.document();
+    if (second) document["beside"] = second->document();
+    return print_line(document);
+  }
+  first.print();
+  if (second) std::cout << "\nbeside it:\n";
+  if (second) second->print();
 }
 
 }  // namespace app::cli

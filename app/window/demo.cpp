@@ -75,6 +75,7 @@ class Demo {
         session_owner_(open_session(options, *graphics_)),
         session_(*session_owner_) {
     session_.settings.set_integrator(options.integrator);
+    if (options.beside) session_.simulation.set_beside(*options.beside);
     apply(preferences_.is_new() ? first_preferences(window_size()) : preferences_.stored(), session_, ui_);
     ui_.story = ui_.story_at_start && !options.scene_given;
     store_preferences();

@@ -6,6 +6,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "app/compare/difference.h"
 #include "app/files/recording.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/scene/scene.h"
@@ -19,6 +20,7 @@ struct DemoOptions {
   std::filesystem::path scene_folder;  // of the other scenes that the panel offers
   std::vector<std::string> meshes;     // mesh files that are imported as if dropped on the window
   softbody::IntegratorChoice integrator;
+  std::optional<compare::HowSimulated> beside;  // the second world
   int threads = 1;
   std::optional<glm::ivec2> size;  // of the window, screen coordinates; else it has its last one
 };

@@ -27,6 +27,22 @@ TEST(Capture, WritesEachFrameUnderItsNameAndChangesNothingElse) {
   EXPECT_EQ(document["state_hash"], simulate(plain)["state_hash"]);
 }
 
+TEST(Capture, ShowsTwoWorldsSideBySide) {
+  const TemporaryFolder folder;
+  const Words plain{"--scene", "drop", "--frames", "60", "--capture", "60", "--out", folder.path()};
+  const std::filesystem::path file = folder.path() / "frame_0060.png";
+  simulate(with(plain, {"--size", "100x90"}));
+  const engine::Image alone = tests::load_png(file);
+  simulate(with(plain, {"--size", "201x90", "--beside", "levels=2"}));
+  const engine::Image both = tests::load_png(file);
+  ASSERT_EQ(both.width, 201);
+  const std::size_t channels = alone.rgba.size() / std::size_t(alone.width * alone.height);
+  for (int y = 0; y < 90; ++y)
+    for (std::size_t i = 0; i < 100 * channels; ++i)
+      ASSERT_NEAR(both.rgba[std::size_t(y * 201 + 101) * channels + i], alone.rgba[std::size_t(y * 100) * channels + i], 2)
+          << y;
+}
+
 TEST(Capture, WritesToTheWorkingDirectoryAndReplacesOldPictures) {
   const TemporaryFolder folder;
   folder.write("frame_0002.png", "an old one");

@@ -24,6 +24,7 @@ TEST(Play, RefusesBadFilesAndWhatDoesNotGoWithThem) {
            {with(play, {"--integrator", "xpbd"}), {"--integrator", "--play simulates nothing"}},
            {with(play, {"--substeps", "3"}), {"--substeps", "--play simulates nothing"}},
            {with(play, {"--contact-surface", "surface"}), {"--contact-surface", "--play"}},
+           {with(play, {"--beside", "levels=3"}), {"--beside", "--play"}},
            {with(play, {"simulate", "--frames", "2"}), {"--play", "window"}},
            {with(play, {"--bodies", "parts"}), {"--bodies parts", "components"}},
            {{"--bodies", "one"}, {"--bodies", "--play"}},

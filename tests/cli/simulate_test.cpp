@@ -45,6 +45,24 @@ position = [0, 0.55, 0]
 position = [0.1, 1.7, 0]
 )";
 
+/// Two worlds side by side are two runs.
+TEST(Simulate, RunsASecondWorldBesideTheFirst) {
+  const Words plain{"--scene", "drop", "--frames", "40", "--levels", "2"};
+  const json both = simulate(with(plain, {"--beside", "method=multi-level-sb,cell-size=0.3,0.2,0.3,integrator=rk4"}));
+  const json first = simulate(plain), second = simulate(with(plain, {"--method", "multi-level-sb", "--cell-size",
+                                                                     "0.3,0.2,0.3", "--integrator", "rk4"}));
+  EXPECT_EQ(both["state_hash"], first["state_hash"]);
+  EXPECT_EQ(keys(both["beside"]), keys(second));
+  for (const char* key : {"method", "integrator", "state_hash"}) EXPECT_EQ(both["beside"][key], second[key]) << key;
+  EXPECT_EQ(both["beside"]["frames"].size(), 40u);
+  const Outcome lines = run({"simulate", "--scene", "drop", "--frames", "2", "--json-lines", "--oracle", "--beside",
+                             "method=grid-hash"});
+  ASSERT_EQ(lines.status, 0) << lines.err;
+  const json line = json::parse(lines.out.substr(0, lines.out.find('\n')));
+  EXPECT_EQ(line["beside"]["frame"], 1);
+  EXPECT_TRUE(line["beside"].contains("oracle"));
+}
+
 TEST(Simulate, PrintsOneDocumentOfTheContractsForm) {
   const json d = simulate({"--scene", "drop", "--frames", "010"});
   EXPECT_EQ(keys(d), (Keys{"scene", "method", "integrator", "plan", "warnings", "frames", "state_hash"}));
