@@ -16,6 +16,16 @@
 
 namespace app::session {
 
+/// What changes without input, and needs a picture of the interface when it does: pictures of equal values show the
+/// same, apart from how far something has got. Numbers change with what they stand for.
+struct News {
+  std::uint64_t world = 0, comparison = 0, surfaces = 0;
+  std::string notice, exported;
+  bool finishing = false, sweeping = false;  // a recording; a sweep
+
+  bool operator==(const News&) const = default;
+};
+
 /// Holds the parts together: tells those who look at the world what happens to it.
 class Session : private SimulationObserver {
  public:
@@ -55,6 +65,7 @@ class Session : private SimulationObserver {
   void let_pass(double elapsed);
   /// Returns true if those who look at the world may have an answer soon, though it stands still.
   bool awaits_answer() const;
+  News news() const;
 
   /// Begins a second world that goes on from the present state by another integrator, or ends it (nothing). It begins
   /// anew whenever hands or settings change the world that is shown, which must be simulated.

@@ -10,8 +10,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <tuple>
-#include <type_traits>
 #include <utility>
 
 #include "app/base/timings.h"
@@ -59,14 +57,6 @@ std::unique_ptr<Session> open_session(const DemoOptions& options, Graphics& grap
   return opening.get();
 }
 
-/// Returns what the interface shows that may change without input, apart from the contents of Activity.
-auto interface_key(const Session& session) {
-  return std::tuple(session.simulation.revision(), session.comparison.reports(), session.surfaces.reports(),
-                    session.simulation.notice.text(), session.exporter.message(), session.exporter.finishing(),
-                    session.sweep().running);
-}
-using InterfaceKey = std::invoke_result_t<decltype(interface_key), const Session&>;
-
 class Demo {
  public:
   explicit Demo(const DemoOptions& options)
@@ -106,8 +96,7 @@ class Demo {
     const double moving = interrupted ? std::min(elapsed, 1.0 / 60) : elapsed;
     seconds_ += elapsed - moving;
     if (interrupted) session_.let_pass(elapsed - moving);
-    if (schedule_.due(now()) || interface_key(session_) != shown_ || graphics_->window.context_lost())
-      return frame(moving);
+    if (schedule_.due(now()) || session_.news() != shown_ || graphics_->window.context_lost()) return frame(moving);
     seconds_ += moving;
     session_.let_pass(moving);
     store_preferences();
@@ -185,7 +174,7 @@ class Demo {
                     graphics_->gui.scale());
     ui_.view = render::SceneView::view(camera_, viewport.size);
     graphics_->gui.end_frame();
-    const InterfaceKey before = std::exchange(shown_, interface_key(session_));
+    const session::News before = std::exchange(shown_, session_.news());
     const bool has_news = before != shown_;
     session_.exporter.frame([this](bool with_panel, const std::optional<glm::uvec2>& size) {
       return size ? picture_of(glm::ivec2(*size)) : picture(with_panel);
@@ -391,7 +380,7 @@ class Demo {
   glm::ivec2 fitted_{0};               // the viewport's size that camera_ is fitted to
   std::string shown_scene_;            // that camera_ was set up for
   std::optional<ScenePicture> drawn_;  // what the canvas shows
-  InterfaceKey shown_{};               // by the last frame
+  session::News shown_;                // by the interface, in the last frame
   bool hidden_ = false, quits_ = false;
   bool waited_ = false;  // for events, on purpose, before the present frame
   FrameTimer timer_;
