@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <vector>
 
 namespace app {
@@ -23,6 +24,22 @@ struct Count {
   }
   int from, count = from;
 };
+
+struct Echo;
+/// Asks a Background something, where it is freed.
+struct Ask {
+  void operator()(Background<Echo>* background) const;
+};
+/// Publishes and answers what asks when it is freed, as the question does.
+struct Echo {
+  using Question = std::unique_ptr<Background<Echo>, Ask>;
+  using Answer = Question;
+  std::optional<Answer> advance(const Question& question, Background<Echo>& background) {
+    background.publish(Answer(question.get()));
+    return Answer(question.get());
+  }
+};
+void Ask::operator()(Background<Echo>* background) const { background->has_work(); }
 
 class BackgroundTest : public testing::TestWithParam<Runs> {
  protected:
@@ -97,6 +114,12 @@ TEST_P(BackgroundTest, CanBeDestroyedWhileItWorks) {
     for (int seen = 0; seen < counts;)
       if (const auto answer = other.take()) seen = answer->count;
   }
+}
+
+TEST_P(BackgroundTest, FreesQuestionsAndAnswersWhereOthersDoNotWaitForIt) {
+  Background<Echo> echo(GetParam());
+  for (int i = 0; i < 3; ++i) echo.offer(Echo::Question(&echo));
+  EXPECT_EQ(echo.wait()->get(), &echo);
 }
 
 TEST(Background, DoesOnePartInAnEmptySliceAndAllInALongOne) {
