@@ -6,6 +6,8 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <exception>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -175,5 +177,30 @@ class Background {
   Task task_;
   std::thread thread_;  // none: it works in slices
 };
+
+/// Calls a function. Answers with what it throws; null: nothing. A task for Background.
+struct Call {
+  using Question = std::function<void()>;
+  using Answer = std::exception_ptr;
+  std::optional<Answer> advance(const Question& call, const Background<Call>&) {
+    try {
+      call();
+      return nullptr;
+    } catch (...) {
+      return std::current_exception();
+    }
+  }
+};
+
+/// Calls `action` beside the window, and `meanwhile` after each `interval` until `action` ends. Throws what either
+/// throws, but not before `action` ends.
+inline void call_beside(std::function<void()> action, std::chrono::milliseconds interval,
+                        const std::function<void()>& meanwhile, Runs runs = usual_runs) {
+  Background<Call> task(runs);
+  task.offer(std::move(action));
+  std::optional<std::exception_ptr> thrown;
+  while (!(thrown = task.wait(Background<Call>::Clock::now() + interval))) meanwhile();
+  if (*thrown) std::rethrow_exception(*thrown);
+}
 
 }  // namespace app

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <future>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -12,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "app/base/background.h"
 #include "app/base/timings.h"
 #include "app/ui/shortcuts.h"
 #include "app/ui/user_interface.h"
@@ -31,15 +31,15 @@ namespace {
 /// Returns the session that the options ask for. A large mesh takes long to bring into equilibrium: the window shows
 /// the time meanwhile, and closing it ends the program. Throws softbody::SceneError if the scene cannot be simulated.
 std::unique_ptr<Session> open_session(const DemoOptions& options, Graphics& graphics) {
-  std::future<std::unique_ptr<Session>> opening = std::async(std::launch::async, [&] {
-    return std::make_unique<Session>(options.opened, options.scene_folder, options.threads, options.scene_name);
-  });
-  std::future_status status = opening.wait_for(std::chrono::milliseconds(300));
-  for (const double began = now(); status != std::future_status::ready;) {
-    status = opening.wait_for(std::chrono::milliseconds(30));
+  std::unique_ptr<Session> session;
+  const auto open = [&] {
+    session = std::make_unique<Session>(options.opened, options.scene_folder, options.threads, options.scene_name);
+  };
+  const auto show_time = [&, began = now()] {
+    if (now() - began < 0.3) return;
     graphics.window.poll();
     if (!graphics.window.is_open()) std::quick_exit(EXIT_SUCCESS);  // there is nothing to lose yet
-    if (graphics.window.minimised()) continue;
+    if (graphics.window.minimised()) return;
     const std::string text =
         "Opening " + options.scene_name + ": " + std::to_string(static_cast<int>(now() - began)) + " s so far";
     graphics.gui.begin_frame();
@@ -51,10 +51,11 @@ std::unique_ptr<Session> open_session(const DemoOptions& options, Graphics& grap
     graphics.clear();
     graphics.gui.draw();
     graphics.window.present();
-  }
+  };
+  call_beside(open, std::chrono::milliseconds(30), show_time);
   while (graphics.window.has_pending_input())
     graphics.window.take_input();  // the remaining input is not for the session either
-  return opening.get();
+  return session;
 }
 
 class Demo {
@@ -199,14 +200,12 @@ class Demo {
             .next_change = has_news ? 0 : ui::seconds_to_hint_change(seconds_)};
   }
 
-  /// Runs long steps in a thread of their own. Meanwhile the camera can move; clicks and keys wait for the next frame.
+  /// Takes long steps beside the window. Meanwhile the camera can move; clicks and keys wait for the next frame.
   void advance(double elapsed) {
     if (session_.simulation.step_ms() < long_step_ms) return session_.advance(elapsed, waited_);
     present(scene_viewport());
-    std::future<void> done = std::async(std::launch::async, [&] { session_.advance(elapsed, waited_); });
-    for (double last = now(); done.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready;)
-      move_camera_only(now() - std::exchange(last, now()));
-    done.get();
+    call_beside([&] { session_.advance(elapsed, waited_); }, std::chrono::milliseconds(10),
+                [&, last = now()]() mutable { move_camera_only(now() - std::exchange(last, now())); });
   }
 
   /// Moves the camera and draws the last frame's bodies again. Uses nothing that a step writes.

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 namespace app {
@@ -120,6 +122,21 @@ TEST_P(BackgroundTest, FreesQuestionsAndAnswersWhereOthersDoNotWaitForIt) {
   Background<Echo> echo(GetParam());
   for (int i = 0; i < 3; ++i) echo.offer(Echo::Question(&echo));
   EXPECT_EQ(echo.wait()->get(), &echo);
+}
+
+TEST_P(BackgroundTest, CallsAFunctionBesideTheWindow) {
+  int called = 0;
+  std::atomic<int> meanwhile = 0;
+  const bool has_thread = GetParam() == Runs::on_thread;
+  const auto call = [&] {
+    while (has_thread && meanwhile == 0) continue;
+    if (++called == 2) throw std::runtime_error("the second call");
+  };
+  const auto count_meanwhile = [&] { ++meanwhile; };
+  call_beside(call, {}, count_meanwhile, GetParam());
+  EXPECT_EQ(called, 1);
+  EXPECT_EQ(meanwhile > 0, has_thread);
+  EXPECT_THROW(call_beside(call, {}, count_meanwhile, GetParam()), std::runtime_error);
 }
 
 TEST(Background, DoesOnePartInAnEmptySliceAndAllInALongOne) {
