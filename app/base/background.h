@@ -6,6 +6,8 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <exception>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -87,29 +89,24 @@ class Background {
   /// Returns the latest answer, once; nothing if there is no new one. Call it once for each picture: without a thread
   /// it does the next parts until `slice` is spent, at least one.
   std::optional<Answer> take(Clock::duration slice = std::chrono::milliseconds(3)) {
-    std::unique_lock lock(mutex_);
-    if (!thread_.joinable()) {
-      const Clock::time_point end = Clock::now() + slice;
-      for (bool in_time = true; in_time && !is_idle(); in_time = Clock::now() < end) do_part(lock);
-    }
+    do_parts(Clock::now() + slice);
+    const std::scoped_lock lock(mutex_);
     return std::exchange(latest_, std::nullopt);
   }
 
-  /// Returns the same, but waits until all questions are answered.
-  std::optional<Answer> wait() {
+  /// Returns the same, but waits until all questions are answered, or until `end`.
+  std::optional<Answer> wait(Clock::time_point end = Clock::time_point::max()) {
+    do_parts(end);
     std::unique_lock lock(mutex_);
-    while (!is_idle())
-      if (thread_.joinable())
-        wake_.wait(lock);
-      else
-        do_part(lock);
+    wake_.wait_until(lock, end, [this] { return is_idle(); });
     return std::exchange(latest_, std::nullopt);
   }
 
   /// Makes this the latest answer. Tasks show so how far they have got.
   void publish(Answer so_far) {
+    std::optional<Answer> latest(std::move(so_far));
     const std::scoped_lock lock(mutex_);
-    latest_ = std::move(so_far);
+    latest_.swap(latest);
   }
   /// Returns true if take() has returned what was published.
   bool was_taken() const {
@@ -132,30 +129,39 @@ class Background {
     while (true) {
       wake_.wait(lock, [this] { return ending_ || !is_idle(); });
       if (ending_) return;
-      [[maybe_unused]] const Clock::duration took = do_part(lock);
-      if (is_idle()) wake_.notify_all();
+      lock.unlock();
+      [[maybe_unused]] const Clock::duration took = do_part();
+      lock.lock();
       if constexpr (requires { Task::rests; })
         if (question_) wake_.wait_for(lock, Task::rests * took, [this] { return cancelled_; });
     }
   }
 
-  /// Does the next part, without the lock. Returns how long it took.
-  Clock::duration do_part(std::unique_lock<std::mutex>& lock) {
-    if (!question_) {
+  /// Does the next parts until `end`, at least one, if there is no thread for them.
+  void do_parts(Clock::time_point end) {
+    if (thread_.joinable()) return;
+    for (bool in_time = true; in_time && !is_idle(); in_time = Clock::now() < end) do_part();
+  }
+
+  /// Does the next part. Returns how long it took. Questions and answers may be large: nothing waits until they are
+  /// freed.
+  Clock::duration do_part() {
+    if (const std::scoped_lock lock(mutex_); !question_) {
       question_.emplace(std::move(waiting_.front()));
       waiting_.pop_front();
       took_ = {};
     }
-    lock.unlock();
     const Clock::time_point start = Clock::now();
     std::optional<Answer> answer = task_.advance(*question_, *this);
     const Clock::time_point end = Clock::now();
-    lock.lock();
+    std::optional<Question> answered;
+    const std::scoped_lock lock(mutex_);
     answered_ = end;
     took_ += end - start;
     if (answer) {
-      latest_ = std::move(answer);
-      question_.reset();
+      latest_.swap(answer);
+      question_.swap(answered);
+      wake_.notify_all();
     }
     return end - start;
   }
@@ -171,5 +177,30 @@ class Background {
   Task task_;
   std::thread thread_;  // none: it works in slices
 };
+
+/// Calls a function. Answers with what it throws; null: nothing. A task for Background.
+struct Call {
+  using Question = std::function<void()>;
+  using Answer = std::exception_ptr;
+  std::optional<Answer> advance(const Question& call, const Background<Call>&) {
+    try {
+      call();
+      return nullptr;
+    } catch (...) {
+      return std::current_exception();
+    }
+  }
+};
+
+/// Calls `action` beside the window, and `meanwhile` after each `interval` until `action` ends. Throws what either
+/// throws, but not before `action` ends.
+inline void call_beside(std::function<void()> action, std::chrono::milliseconds interval,
+                        const std::function<void()>& meanwhile, Runs runs = usual_runs) {
+  Background<Call> task(runs);
+  task.offer(std::move(action));
+  std::optional<std::exception_ptr> thrown;
+  while (!(thrown = task.wait(Background<Call>::Clock::now() + interval))) meanwhile();
+  if (*thrown) std::rethrow_exception(*thrown);
+}
 
 }  // namespace app

@@ -40,6 +40,16 @@ bool Session::awaits_answer() const {
          surfaces_beside.awaits_report(simulation.revision());
 }
 
+News Session::news() const {
+  return {.world = simulation.revision(),
+          .comparison = comparison.reports(),
+          .surfaces = surfaces.reports(),
+          .notice = simulation.notice.text(),
+          .exported = exporter.message(),
+          .finishing = exporter.finishing(),
+          .sweeping = sweep().running};
+}
+
 void Session::advance_one(double elapsed) {
   add_picture(elapsed);
   run_ahead.before_advance();

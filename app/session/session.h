@@ -15,6 +15,16 @@
 
 namespace app::session {
 
+/// What changes without input, and needs a picture of the interface when it does: pictures of equal values show the
+/// same, apart from how far something has got. Numbers change with what they stand for.
+struct News {
+  std::uint64_t world = 0, comparison = 0, surfaces = 0;
+  std::string notice, exported;
+  bool finishing = false, sweeping = false;  // a recording; a sweep
+
+  bool operator==(const News&) const = default;
+};
+
 /// Holds the parts together: tells those who look at the world what happens to it.
 class Session : private SimulationObserver {
  public:
@@ -54,6 +64,7 @@ class Session : private SimulationObserver {
   void let_pass(double elapsed);
   /// Returns true if those who look at the world may have an answer soon, though it stands still.
   bool awaits_answer() const;
+  News news() const;
 
   /// Returns the latest sweep.
   const SweepState& sweep() const { return sweep_worker.state(); }

@@ -4,16 +4,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <future>
 #include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <tuple>
-#include <type_traits>
 #include <utility>
 
+#include "app/base/background.h"
 #include "app/base/timings.h"
 #include "app/ui/shortcuts.h"
 #include "app/ui/user_interface.h"
@@ -33,15 +31,15 @@ namespace {
 /// Returns the session that the options ask for. A large mesh takes long to bring into equilibrium: the window shows
 /// the time meanwhile, and closing it ends the program. Throws softbody::SceneError if the scene cannot be simulated.
 std::unique_ptr<Session> open_session(const DemoOptions& options, Graphics& graphics) {
-  std::future<std::unique_ptr<Session>> opening = std::async(std::launch::async, [&] {
-    return std::make_unique<Session>(options.opened, options.scene_folder, options.threads, options.scene_name);
-  });
-  std::future_status status = opening.wait_for(std::chrono::milliseconds(300));
-  for (const double began = now(); status != std::future_status::ready;) {
-    status = opening.wait_for(std::chrono::milliseconds(30));
+  std::unique_ptr<Session> session;
+  const auto open = [&] {
+    session = std::make_unique<Session>(options.opened, options.scene_folder, options.threads, options.scene_name);
+  };
+  const auto show_time = [&, began = now()] {
+    if (now() - began < 0.3) return;
     graphics.window.poll();
     if (!graphics.window.is_open()) std::quick_exit(EXIT_SUCCESS);  // there is nothing to lose yet
-    if (graphics.window.minimised()) continue;
+    if (graphics.window.minimised()) return;
     const std::string text =
         "Opening " + options.scene_name + ": " + std::to_string(static_cast<int>(now() - began)) + " s so far";
     graphics.gui.begin_frame();
@@ -53,19 +51,12 @@ std::unique_ptr<Session> open_session(const DemoOptions& options, Graphics& grap
     graphics.clear();
     graphics.gui.draw();
     graphics.window.present();
-  }
+  };
+  call_beside(open, std::chrono::milliseconds(30), show_time);
   while (graphics.window.has_pending_input())
     graphics.window.take_input();  // the remaining input is not for the session either
-  return opening.get();
+  return session;
 }
-
-/// Returns what the interface shows that may change without input, apart from the contents of Activity.
-auto interface_key(const Session& session) {
-  return std::tuple(session.simulation.revision(), session.comparison.reports(), session.surfaces.reports(),
-                    session.simulation.notice.text(), session.exporter.message(), session.exporter.finishing(),
-                    session.sweep().running);
-}
-using InterfaceKey = std::invoke_result_t<decltype(interface_key), const Session&>;
 
 class Demo {
  public:
@@ -107,8 +98,7 @@ class Demo {
     const double moving = interrupted ? std::min(elapsed, 1.0 / 60) : elapsed;
     seconds_ += elapsed - moving;
     if (interrupted) session_.let_pass(elapsed - moving);
-    if (schedule_.due(now()) || interface_key(session_) != shown_ || graphics_->window.context_lost())
-      return frame(moving);
+    if (schedule_.due(now()) || session_.news() != shown_ || graphics_->window.context_lost()) return frame(moving);
     seconds_ += moving;
     session_.let_pass(moving);
     store_preferences();
@@ -187,7 +177,7 @@ class Demo {
                       area_of(half.viewport), graphics_->gui.scale());
     ui_.view = render::SceneView::view(camera_, viewport.size);
     graphics_->gui.end_frame();
-    const InterfaceKey before = std::exchange(shown_, interface_key(session_));
+    const session::News before = std::exchange(shown_, session_.news());
     const bool has_news = before != shown_;
     session_.exporter.frame([this](bool with_panel, const std::optional<glm::uvec2>& size) {
       return size ? picture_of(glm::ivec2(*size)) : picture(with_panel);
@@ -212,14 +202,12 @@ class Demo {
             .next_change = has_news ? 0 : ui::seconds_to_hint_change(seconds_)};
   }
 
-  /// Runs long steps in a thread of their own. Meanwhile the camera can move; clicks and keys wait for the next frame.
+  /// Takes long steps beside the window. Meanwhile the camera can move; clicks and keys wait for the next frame.
   void advance(double elapsed) {
     if (session_.simulation.step_ms() < long_step_ms) return session_.advance(elapsed, waited_);
     present(scene_viewport());
-    std::future<void> done = std::async(std::launch::async, [&] { session_.advance(elapsed, waited_); });
-    for (double last = now(); done.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready;)
-      move_camera_only(now() - std::exchange(last, now()));
-    done.get();
+    call_beside([&] { session_.advance(elapsed, waited_); }, std::chrono::milliseconds(10),
+                [&, last = now()]() mutable { move_camera_only(now() - std::exchange(last, now())); });
   }
 
   /// Moves the camera and draws the last frame's bodies again. Uses nothing that a step writes.
@@ -407,7 +395,7 @@ class Demo {
   glm::ivec2 fitted_{0};               // the viewport's size that camera_ is fitted to
   std::string shown_scene_;            // that camera_ was set up for
   std::optional<ScenePicture> drawn_;  // what the canvas shows
-  InterfaceKey shown_{};               // by the last frame
+  session::News shown_;                // by the interface, in the last frame
   bool hidden_ = false, quits_ = false;
   bool waited_ = false;  // for events, on purpose, before the present frame
   FrameTimer timer_;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <memory>
+#include <stdexcept>
 #include <vector>
 
 namespace app {
@@ -23,6 +26,22 @@ struct Count {
   }
   int from, count = from;
 };
+
+struct Echo;
+/// Asks a Background something, where it is freed.
+struct Ask {
+  void operator()(Background<Echo>* background) const;
+};
+/// Publishes and answers what asks when it is freed, as the question does.
+struct Echo {
+  using Question = std::unique_ptr<Background<Echo>, Ask>;
+  using Answer = Question;
+  std::optional<Answer> advance(const Question& question, Background<Echo>& background) {
+    background.publish(Answer(question.get()));
+    return Answer(question.get());
+  }
+};
+void Ask::operator()(Background<Echo>* background) const { background->has_work(); }
 
 class BackgroundTest : public testing::TestWithParam<Runs> {
  protected:
@@ -97,6 +116,27 @@ TEST_P(BackgroundTest, CanBeDestroyedWhileItWorks) {
     for (int seen = 0; seen < counts;)
       if (const auto answer = other.take()) seen = answer->count;
   }
+}
+
+TEST_P(BackgroundTest, FreesQuestionsAndAnswersWhereOthersDoNotWaitForIt) {
+  Background<Echo> echo(GetParam());
+  for (int i = 0; i < 3; ++i) echo.offer(Echo::Question(&echo));
+  EXPECT_EQ(echo.wait()->get(), &echo);
+}
+
+TEST_P(BackgroundTest, CallsAFunctionBesideTheWindow) {
+  int called = 0;
+  std::atomic<int> meanwhile = 0;
+  const bool has_thread = GetParam() == Runs::on_thread;
+  const auto call = [&] {
+    while (has_thread && meanwhile == 0) continue;
+    if (++called == 2) throw std::runtime_error("the second call");
+  };
+  const auto count_meanwhile = [&] { ++meanwhile; };
+  call_beside(call, {}, count_meanwhile, GetParam());
+  EXPECT_EQ(called, 1);
+  EXPECT_EQ(meanwhile > 0, has_thread);
+  EXPECT_THROW(call_beside(call, {}, count_meanwhile, GetParam()), std::runtime_error);
 }
 
 TEST(Background, DoesOnePartInAnEmptySliceAndAllInALongOne) {

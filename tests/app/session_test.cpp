@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <vector>
+
 #include "tests/app/scenes.h"
 
 namespace app {
@@ -82,6 +85,28 @@ TEST(Session, AgesItsNoticeWhileItWaits) {
   for (int i = 0; i < 3; ++i) session.let_pass(0.25);
   EXPECT_TRUE(session.simulation.notice.text().empty()) << "after 20 s";
   EXPECT_EQ(session.world().frame(), 0);
+}
+
+TEST(Session, HasNewsWhenSomethingComesWithoutInput) {
+  Session session(touching_pair(), {}, 1);
+  session.simulation.clock.paused = true;
+  ASSERT_TRUE(wait_until([&] { return session.let_pass(0), !session.awaits_answer(); }));
+  const session::News before = session.news();
+  session.let_pass(1);
+  EXPECT_TRUE(before == session.news()) << "nothing has come";
+  const std::vector<std::function<bool()>> comes{
+      [&] { return session.simulation.clock.single_step(), session.advance(tick), true; },
+      [&] { return session.let_pass(0), session.comparison.reports() > before.comparison; },
+      [&] { return session.surfaces.on = true, session.let_pass(0), session.surfaces.reports() > 0; },
+      [&] { return session.simulation.notice.tell("something"), true; },
+      [&] { return session.let_pass(1), session.simulation.notice.text().empty(); },
+      [&] { return session.sweep_worker.start(session.world(), compare::usual_methods()), true; },
+      [&] { return session.sweep_worker.cancel(), session.let_pass(0), !session.sweep().running; }};
+  for (std::size_t i = 0; i < comes.size(); ++i) {
+    const session::News last = session.news();
+    ASSERT_TRUE(wait_until(comes[i]));
+    EXPECT_FALSE(last == session.news()) << i;
+  }
 }
 
 TEST(Session, KeepsTheSelectedBucketInsideTheTable) {
