@@ -55,8 +55,8 @@ TEST(Simulate, RunsASecondWorldBesideTheFirst) {
   EXPECT_EQ(keys(both["beside"]), keys(second));
   for (const char* key : {"method", "integrator", "state_hash"}) EXPECT_EQ(both["beside"][key], second[key]) << key;
   EXPECT_EQ(both["beside"]["frames"].size(), 40u);
-  const Outcome lines = run({"simulate", "--scene", "drop", "--frames", "2", "--json-lines", "--oracle", "--beside",
-                             "method=grid-hash"});
+  const Outcome lines =
+      run({"simulate", "--scene", "drop", "--frames", "2", "--json-lines", "--oracle", "--beside", "method=grid-hash"});
   ASSERT_EQ(lines.status, 0) << lines.err;
   const json line = json::parse(lines.out.substr(0, lines.out.find('\n')));
   EXPECT_EQ(line["beside"]["frame"], 1);
