@@ -177,8 +177,7 @@ void add_scene_options(CLI::App& command, Options& options, std::string& beside)
       ->type_name("X,Y,Z,DISTANCE,AZIMUTH,ELEVATION");
 }
 
-CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& beside, std::string& size,
-                       std::string& captures) {
+CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& beside, std::string& size, std::string& captures) {
   CLI::App* simulate = cli.add_subcommand("simulate", "run a scene without a window");
   add_scene_options(*simulate, options, beside);
   add(*simulate, "--frames", "N", 1, 10'000'000, options.frames, "frames to run");

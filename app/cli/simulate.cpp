@@ -305,8 +305,8 @@ class Run {
     world_.step();
     const std::vector<softbody::BodyMeasures> bodies = softbody::measure_bodies(world_);
     if (!blow_up_ && (blow_up_ = monitor_.check(world_, bodies)))
-      warn(warnings_, fmt::format("{}frame {}: {}; see --integrator and --substeps", name_, blow_up_->frame,
-                                  blow_up_->what));
+      warn(warnings_,
+           fmt::format("{}frame {}: {}; see --integrator and --substeps", name_, blow_up_->frame, blow_up_->what));
     // A table has about twenty lines for any number of frames.
     const int stride = options_.json || options_.json_lines ? 1 : std::max(1, options_.frames / 20);
     if (world_.frame() % stride != 0 && world_.frame() != options_.frames) return;
@@ -318,8 +318,8 @@ class Run {
                                                 .solid = softbody::solid_contacts(world_).size(),
                                                 .measures = softbody::measure(world_, bodies)});
     if (options_.oracle)
-      row.oracle =
-          collide::oracle::figures_of(world_.simulated().positions, oracle_.overlaps(world_), oracle_.crossings(world_));
+      row.oracle = collide::oracle::figures_of(world_.simulated().positions, oracle_.overlaps(world_),
+                                               oracle_.crossings(world_));
   }
 
   const softbody::World& world() const { return world_; }

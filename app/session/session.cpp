@@ -37,13 +37,14 @@ bool Session::stands_still() const {
 
 bool Session::awaits_answer() const {
   return comparison.awaits_report(simulation.revision()) || surfaces.awaits_report(simulation.revision()) ||
-         surfaces_beside.awaits_report(simulation.revision());
+         surfaces_beside.awaits_report(simulation.revision()) || price.awaits_price();
 }
 
 News Session::news() const {
   return {.world = simulation.revision(),
           .comparison = comparison.reports(),
           .surfaces = surfaces.reports(),
+          .price = price.price(),
           .notice = simulation.notice.text(),
           .exported = exporter.message(),
           .finishing = exporter.finishing(),
@@ -71,6 +72,7 @@ void Session::exchange() {
   look_at_surfaces(surfaces, Half::first, simulation.before_last_step(), rests);
   if (const Beside* beside = simulation.beside())
     look_at_surfaces(surfaces_beside, Half::second, beside->before_last_step(), rests);
+  if (simulated()) price.exchange(*simulated());
   sweep_worker.update();
   // With its first report of another world the comparison has let go of the one before; all others did so earlier.
   if (has_left_world_ && comparison.report().id != 0) {

@@ -6,6 +6,7 @@
 #include "app/session/exporter.h"
 #include "app/session/import.h"
 #include "app/session/live/live_comparison.h"
+#include "app/session/live/price_monitor.h"
 #include "app/session/live/surface_monitor.h"
 #include "app/session/live/sweep_worker.h"
 #include "app/session/run_ahead.h"
@@ -19,6 +20,7 @@ namespace app::session {
 /// same, apart from how far something has got. Numbers change with what they stand for.
 struct News {
   std::uint64_t world = 0, comparison = 0, surfaces = 0;
+  const compare::Price* price = nullptr;
   std::string notice, exported;
   bool finishing = false, sweeping = false;  // a recording; a sweep
 
@@ -42,6 +44,7 @@ class Session : private SimulationObserver {
   // Beside the window, see Background: their answers come some frames late.
   LiveComparison comparison;
   SurfaceMonitor surfaces, surfaces_beside;
+  PriceMonitor price;
   SweepWorker sweep_worker;
   Import import;
   Exporter exporter;

@@ -82,6 +82,11 @@ class Simulation {
   void set_beside(const compare::HowSimulated& second);
   /// Ends the second world, or begins one with compare::usual_second().
   void toggle_beside();
+  /// Returns why a half of two is no longer stepped: the sentence of its blow-up; else empty.
+  std::string stopped(Half half) const {
+    if (half == Half::second) return beside_->stopped();
+    return stability_.blow_up() ? stability_.blow_up()->what : "";
+  }
   /// Counts what the oracle saw in a half, if there are two.
   void count(Half half, const collide::oracle::SurfaceFigures& seen) {
     if (beside_) beside_->add(half, seen);

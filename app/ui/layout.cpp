@@ -43,7 +43,7 @@ float lower_height(const Session& session, LowerView view, const ScreenRect& sce
 
 }  // namespace
 
-Layout compute_layout(const Session& session, const UiState& ui, float scale) {
+Layout compute_layout(const Session& session, const UiState& ui, float scale, float beside_height) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   Layout layout;
   layout.scene = {{0, 0}, display};
@@ -74,7 +74,7 @@ Layout compute_layout(const Session& session, const UiState& ui, float scale) {
   layout.time_line = {{scene.min.x, scene.max.y - line}, scene.max};
   scene.max.y -= line;
   if (session.simulation.beside()) {
-    layout.beside = {{scene.min.x, scene.max.y - beside_height(scale)}, scene.max};
+    layout.beside = {{scene.min.x, scene.max.y - beside_height}, scene.max};
     scene.max.y = layout.beside->min.y;
   }
   if (has_sidebar(session, ui) && width_of(scene) >= (sidebar_width + min_scene_width) * scale) {

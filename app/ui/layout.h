@@ -24,7 +24,7 @@ struct Layout {
   std::string no_room_message;          // names a part that is switched on and has no room; else empty
 };
 
-/// Lays the parts out in ImGui's display.
-Layout compute_layout(const Session& session, const UiState& ui, float scale);
+/// Lays the parts out in ImGui's display. beside_height: of draw_beside() in the last frame.
+Layout compute_layout(const Session& session, const UiState& ui, float scale, float beside_height);
 
 }  // namespace app::ui

@@ -13,13 +13,13 @@ Requests UserInterface::draw(const Session& session, const UiState& ui, float sc
   if (recorder) *recorder = {};
   Requests requests;
   Widgets widgets(scale, input_, ui.sections, requests, recorder);
-  layout_ = compute_layout(session, ui, scale);
+  layout_ = compute_layout(session, ui, scale, beside_height_);
   if (layout_.panel) draw_panel(widgets, session, ui, *layout_.panel, layout_.panel_covers_scene);
   if (layout_.lower && ui.lower == LowerView::comparison)
     draw_compare(widgets, session, ui, *layout_.lower);
   else if (layout_.lower)
     sweep_view_.draw(widgets, session, *layout_.lower);
-  if (layout_.beside) draw_beside(widgets, session, ui, *layout_.beside, layout_.scene);
+  if (layout_.beside) beside_height_ = draw_beside(widgets, session, ui, *layout_.beside, layout_.scene);
   if (layout_.time_line) draw_time_line(widgets, session, *layout_.time_line);
   if (layout_.sidebar) draw_sidebar(widgets, session, ui, *layout_.sidebar);
   show_field_problem(widgets);

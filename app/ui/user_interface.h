@@ -28,6 +28,7 @@ class UserInterface {
   SweepView sweep_view_;
   FloatingBox lights_;
   StoryCard story_;
+  float beside_height_ = 0;
   InputState input_;
   std::string field_problem_;  // said last
 };

@@ -17,6 +17,7 @@ std::vector<WindowTask> carry_out(const Requests& requests, session::Session& se
   session.comparison.choice.on = ui.lower == LowerView::comparison;
   session.comparison.choice.with_paper = ui.marks_story();
   session.comparison.choice.with_misses = ui.overlays.missed;
+  session.price.on = ui.shows_story();
   session.surfaces_beside.on = session.simulation.beside() != nullptr;
   session.surfaces.on = ui.overlays.true_surfaces || session.surfaces_beside.on;
   return for_window;

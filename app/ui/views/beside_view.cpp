@@ -15,8 +15,6 @@ namespace {
 
 using session::Half;
 
-constexpr int lines = 3;  // of the strip, without the line of its titles
-
 std::string contacts_text(const compare::RunTotals& run) {
   if (run.true_contacts == 0) return "no contacts yet";
   if (run.missed == 0) return fmt::format("missed none of {} contacts", grouped(run.true_contacts));
@@ -26,12 +24,10 @@ std::string contacts_text(const compare::RunTotals& run) {
 
 std::string inside_text(const compare::RunTotals& run) {
   const auto vertices = [](std::size_t count, double depth) {
-    return fmt::format("{} {}, {:.2f} m deep", grouped(count), count == 1 ? "vertex" : "vertices", depth);
+    return count == 0 ? "none" : fmt::format("{}, {:.2f} m deep", grouped(count), depth);
   };
-  if (run.most_inside == 0) return "no vertex inside another body so far";
-  const std::string most = "at most " + vertices(run.most_inside, run.deepest);
-  if (run.inside == 0) return "inside other bodies: none now, " + most;
-  return "inside other bodies: " + vertices(run.inside, run.depth) + "; " + most;
+  return fmt::format("vertices inside other bodies: {}; at most {}", vertices(run.inside, run.depth),
+                     vertices(run.most_inside, run.deepest));
 }
 
 std::string cost_text(const compare::RunTotals& run) {
@@ -39,27 +35,25 @@ std::string cost_text(const compare::RunTotals& run) {
                          : fmt::format("detection {:.3g} ms a frame", run.detect_ms / run.frames);
 }
 
-void draw_text(Widgets& w, std::string_view label, const std::string& text, bool bad) {
+void draw_text(Widgets& w, const std::string& label, const std::string& text, bool bad) {
   if (bad) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::contact_missed_colour));
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextWrapped("%s", text.c_str());
   if (bad) ImGui::PopStyleColor();
-  w.register_item(label, text);
+  w.register_item(label);
 }
 
-void draw_half(Widgets& w, const Session& session, Half half) {
+void draw_half(Widgets& w, const Session& session, Half half, const std::string& side) {
   const session::Beside& beside = *session.simulation.beside();
   const compare::RunTotals& run = beside.figures(half).totals();
   const softbody::World& world = *session.simulation.simulated(half);
-  const bool second = half == Half::second;
-  const std::string side = second ? "Right" : "Left";
-  const std::string title = beside.difference().text({world.scene(), world.integrator_choice()});
-  if (ImGui::RadioButton(fmt::format("{}: {}###{} half", side, title, side).c_str(), session.simulation.edits == half))
+  if (ImGui::RadioButton(("###" + side + " half").c_str(), session.simulation.edits == half))
     w.ask([half](Session& s) { s.simulation.edits = half; });
   w.register_item(side + " half", "The panel shows and changes the settings of this half.");
+  ImGui::SameLine();
+  ImGui::TextWrapped("%s: %s", side.c_str(),
+                     beside.difference().text({world.scene(), world.integrator_choice()}).c_str());
   draw_text(w, side + " missed", contacts_text(run), run.missed > 0);
-  const std::string why = second                                     ? beside.stopped()
-                          : session.simulation.stability().blow_up() ? session.simulation.stability().blow_up()->what
-                                                                     : "";
+  const std::string why = session.simulation.stopped(half);
   draw_text(w, side + " inside", why.empty() ? inside_text(run) : "stopped: " + why, run.inside > 0 || !why.empty());
   draw_text(w, side + " cost", cost_text(run), false);
 }
@@ -85,36 +79,31 @@ void draw_line(Widgets& w, const UiState& ui, const ScreenRect& scene) {
 
 }  // namespace
 
-float beside_height(float scale) {
-  return ImGui::GetFrameHeightWithSpacing() + lines * ImGui::GetTextLineHeightWithSpacing() + 12 * scale;
-}
-
-void draw_beside(Widgets& w, const Session& session, const UiState& ui, const ScreenRect& area,
-                 const ScreenRect& scene) {
+float draw_beside(Widgets& w, const Session& session, const UiState& ui, const ScreenRect& area,
+                  const ScreenRect& scene) {
   if (!ui.beside_as_ghost) draw_line(w, ui, scene);
-  begin_dock("Beside", area, true);
+  begin_dock("Beside", area, false, ImGuiWindowFlags_NoScrollbar);
   w.keep_tooltips_off();
-  const float top = ImGui::GetCursorPosY(), width = area.max.x - area.min.x;
-  const float close = ImGui::GetFrameHeight(), ghost = w.px(76), gap = ImGui::GetStyle().ItemSpacing.x;
-  // Each half's figures stand below it; those of a narrow one would not fit.
-  const float line = std::clamp(ui.beside_as_ghost ? 0.5f : ui.line, 0.4f, 0.55f) * width;
-  const auto column = [&](Half half, float begin, float end) {
-    ImGui::SetCursorPos({begin, top});
-    ImGui::PushClipRect({area.min.x + begin, area.min.y}, {area.min.x + end, area.max.y}, true);
-    ImGui::BeginGroup();
-    draw_half(w, session, half);
-    ImGui::EndGroup();
-    ImGui::PopClipRect();
-  };
-  column(Half::first, ImGui::GetStyle().WindowPadding.x, line - gap);
-  column(Half::second, line + gap, width - ghost - close - 2 * gap);
-  ImGui::SetCursorPos({width - close - ghost - gap, top});
-  if (w.checkbox("Ghost", ui.beside_as_ghost, "Draws the second world translucent over the first, not beside it."))
-    w.ask([](UiState& state) { state.beside_as_ghost = !state.beside_as_ghost; });
-  ImGui::SetCursorPos({width - close - gap, top});
-  if (w.button("x###Close beside", "Ends the second world (A).", close))
-    w.ask([](Session& s) { s.simulation.toggle_beside(); });
+  // Each half's figures stand below it; those of a narrow one need room nevertheless.
+  const float line = ui.beside_as_ghost ? 0.5f : std::clamp(ui.line, 0.4f, 0.6f), buttons = w.px(100);
+  if (ImGui::BeginTable("Halves", 3)) {
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, line);
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1 - line);
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, buttons);
+    ImGui::TableNextColumn();
+    draw_half(w, session, Half::first, ui.beside_as_ghost ? "Solid" : "Left");
+    ImGui::TableNextColumn();
+    draw_half(w, session, Half::second, ui.beside_as_ghost ? "Ghost" : "Right");
+    ImGui::TableNextColumn();
+    if (w.button("Close###Close beside", "Ends the second world (A).", buttons))
+      w.ask([](Session& s) { s.simulation.toggle_beside(); });
+    if (w.checkbox("Ghost", ui.beside_as_ghost, "Draws the second world translucent over the first, not beside it."))
+      w.ask([](UiState& state) { state.beside_as_ghost = !state.beside_as_ghost; });
+    ImGui::EndTable();
+  }
+  const float height = ImGui::GetCursorPosY() + ImGui::GetStyle().WindowPadding.y;
   ImGui::End();
+  return height;
 }
 
 }  // namespace app::ui

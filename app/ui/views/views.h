@@ -9,12 +9,10 @@ namespace app::ui {
 /// contents must be known. Its close button deselects it.
 void draw_bucket(Widgets& widgets, const Session& session);
 
-/// Returns the height in ImGui units of draw_beside().
-float beside_height(float scale);
 /// Draws what the two halves have cost and missed over `area`, and the line between them over the scene. There must be
-/// a second world.
-void draw_beside(Widgets& widgets, const Session& session, const UiState& ui, const ScreenRect& area,
-                 const ScreenRect& scene);
+/// a second world. Returns the height in ImGui units that the area should have.
+float draw_beside(Widgets& widgets, const Session& session, const UiState& ui, const ScreenRect& area,
+                  const ScreenRect& scene);
 
 /// Returns the height in ImGui units that the comparison of so many methods needs in an area of this width.
 float compare_height(std::size_t methods, float width, float scale);
