@@ -141,9 +141,9 @@ void SceneView::draw(const softbody::BodiesInMotion& world, const OverlayRequest
                      const compare::DrawnMeshes& at) {
   frame_ = {};
   frame_.pixel_scale = pixel_scale;
-  // The colours of overlays have meanings, so the bodies are dimmed. Missed contacts have marks of their own.
+  // The colours of overlays have meanings, so the bodies are dimmed. What is missed has marks of its own.
   Overlays coloured = overlays.shown;
-  coloured.missed = false;
+  coloured.missed = coloured.true_surfaces = false;
   const bool dimmed = coloured.any() || overlays.bucket;
   positions_.clear();
   if (positions_.capacity() > 8 * at.shown.size()) {  // of a world that was left

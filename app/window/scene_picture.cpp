@@ -34,11 +34,12 @@ ScenePicture scene_picture(const Session& session, const ui::UiState& ui, const 
   else if (ui.marks_story())
     picture.misses_of = compare::method_index(collide::paper_method);
   if (picture.misses_of) picture.misses = session.comparison.reports();
-  if (picture.shown.true_surfaces) picture.surfaces = session.surfaces.reports();
   if (session.simulation.beside() && !ui.tour.open()) {
     picture.ghost = ui.beside_as_ghost && session.simulation.beside()->stopped().empty();
     if (!ui.beside_as_ghost) picture.line = ui.line;
+    picture.shown.true_surfaces = true;  // what misses cost
   }
+  if (picture.shown.true_surfaces) picture.surfaces = session.surfaces.reports() + session.surfaces_beside.reports();
   // What is found out about the present state is drawn with the bodies in it.
   const bool of_present = render::shows(picture.shown, render::OverlayBasis::present) || picture.bucket;
   picture.between = of_present ? 1.0f : session.simulation.between();
