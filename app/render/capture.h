@@ -17,7 +17,7 @@ class Capture {
   engine::Image draw(const softbody::BodiesInMotion& world) {
     const glm::ivec2 size = target_.size();
     target_.bind();
-    view_.draw(world, {}, view_.camera(world, size), {{0, 0}, size}, 1.0f, compare::DrawnMeshes(world));
+    view_.draw(world, {}, view_.camera(world, size), {{0, 0}, size}, 1.0f, DrawnMeshes(world));
     return target_.read();
   }
 

@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "app/base/time_series.h"
-#include "app/compare/drawn_positions.h"
+#include "app/compare/positions.h"
 #include "app/session/notice.h"
 #include "app/session/player.h"
 #include "app/session/simulation_clock.h"
@@ -82,7 +82,6 @@ class Simulation {
   /// How far a picture is on the way from before_last_step() to the present, 0 .. 1: below 1 only in slow motion, which
   /// would jerk otherwise.
   float between() const;
-  compare::DrawnMeshes drawn() const { return {world(), before_last_step_, between()}; }
   /// The scene's sentence for this moment. Empty if there is none, or the user changed bodies.
   std::string caption() const;
   /// Changes whenever positions or contacts may have changed: not with steps of a world at rest.

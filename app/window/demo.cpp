@@ -334,7 +334,7 @@ class Demo {
 
   void throw_body(glm::ivec2 size) {
     const engine::Ray ray = mouse_.ray(camera_, size);
-    const float distance = render::distance_to_scene(ray, session_.world(), session_.simulation.drawn().shown)
+    const float distance = render::distance_to_scene(ray, session_.world(), positions_under_mouse(session_))
                                .value_or(camera_.orbit().distance);
     session_.bodies.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.origin + distance * ray.direction));
   }

@@ -27,9 +27,13 @@ glm::dvec3 on_facing_plane(const engine::Ray& ray, const engine::Camera& camera,
 
 }  // namespace
 
+render::DrawnPositions positions_under_mouse(const Session& session) {
+  const session::Simulation& simulation = session.simulation;
+  return {simulation.world().positions(), simulation.before_last_step().shown(), simulation.between()};
+}
+
 void focus_on(softbody::BodyId body, const Session& session, engine::Camera& camera, glm::ivec2 size) {
-  const render::BoundingSphere sphere =
-      render::bounding_sphere(session.world(), body, session.simulation.drawn().shown);
+  const render::BoundingSphere sphere = render::bounding_sphere(session.world(), body, positions_under_mouse(session));
   camera.glide_to(sphere.centre, sphere.radius, size);
 }
 
@@ -60,7 +64,7 @@ void SceneMouse::update(const MouseInput& in, Session& session, ui::UiState& ui,
   orbited_ = {};
   const auto something_under = [&] {
     const engine::Ray under = camera.pick_ray(in.at, size);
-    return render::pick(under, session.world(), session.simulation.drawn().shown) ||
+    return render::pick(under, session.world(), positions_under_mouse(session)) ||
            pick_movable(under, session.world().scene());
   };
   can_drag_ =
@@ -79,7 +83,7 @@ void SceneMouse::press(const MouseInput& in, Session& session, ui::UiState& ui, 
   drag_length_ = 0;
   drag_ = Drag::orbit;
   const engine::Ray ray = camera.pick_ray(in.at, size);
-  const auto under = render::pick(ray, session.world(), session.simulation.drawn().shown);
+  const auto under = render::pick(ray, session.world(), positions_under_mouse(session));
   pressed_on_body_ = under.has_value();
   if (!under) {
     if (const auto solid = pick_movable(ray, session.world().scene())) {

@@ -55,12 +55,12 @@ render::OverlayRequest overlay_request(const Session& session, const ui::Tour& t
   request.highlight = tour.highlight();
   if (picture.ghost) {
     request.ghost = session.ghost().world();
-    request.ghost_positions = session.ghost().drawn_positions(picture.between);
+    request.ghost_positions = {request.ghost->positions(), session.ghost().before_last_step(), picture.between};
   }
   return request;
 }
 
-compare::DrawnMeshes drawn_meshes(const Session& session, const ScenePicture& picture) {
+render::DrawnMeshes drawn_meshes(const Session& session, const ScenePicture& picture) {
   return {session.world(), session.simulation.before_last_step(), picture.between};
 }
 

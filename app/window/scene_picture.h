@@ -29,7 +29,7 @@ ScenePicture scene_picture(const Session& session, const ui::UiState& ui, const 
 render::OverlayRequest overlay_request(const Session& session, const ui::Tour& tour, const ScenePicture& picture);
 
 /// Returns the positions at which bodies are in the picture. They are valid until the next step.
-compare::DrawnMeshes drawn_meshes(const Session& session, const ScenePicture& picture);
+render::DrawnMeshes drawn_meshes(const Session& session, const ScenePicture& picture);
 
 /// Returns the labels in the picture: those of the tour, and the marks of the missed contacts.
 std::vector<render::SceneLabel> scene_labels(const Session& session, const ui::Tour& tour, const ScenePicture& picture);

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "app/base/time_series.h"
-#include "app/compare/drawn_positions.h"
+#include "app/compare/positions.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/world/world.h"
 
@@ -23,11 +23,10 @@ class Ghost {
 
   /// Returns nullptr if there is no ghost.
   const softbody::World* world() const { return world_.get(); }
-  /// Returns positions `part` of the way from the frame before to the present one. Precondition, as of distance():
-  /// there is a ghost.
-  compare::DrawnPositions drawn_positions(float part) const { return {world_->positions(), before_, part}; }
+  /// Returns the positions before its last step.
+  const compare::Positions& before_last_step() const { return before_; }
   /// Returns the root mean square distance of all vertices to those of `of`, which has the same bodies; each distance
-  /// over the radius of its body.
+  /// over the radius of its body. Precondition: there is a ghost.
   double distance(const softbody::World& of) const;
   /// True if some vertex is not finite or very far away. Then the ghost is neither stepped nor drawn.
   bool blown_up() const { return blown_up_; }
