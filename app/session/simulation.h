@@ -24,6 +24,8 @@ class SimulationObserver {
   virtual ~SimulationObserver() = default;
   /// Returns how long (ms) the observer worked beside the step.
   virtual double stepped() { return 0; }
+  /// Returns true if steps of a world at rest change nothing for the observer.
+  virtual bool at_rest() const { return true; }
   /// The user changed bodies or settings: the world goes on from another state than the one that a step left.
   virtual void intervened() {}
   /// The method or its settings are others. After intervened().
@@ -71,9 +73,8 @@ class Simulation {
   int threads() const { return threads_; }
 
   // Time. The world moves in whole frames.
-  /// Takes the steps that are due, now that `elapsed` seconds of real time have passed; none if the world
-  /// `stands_still`.
-  void advance(double elapsed, bool stands_still = false);
+  /// Takes the steps that are due, now that `elapsed` seconds of real time have passed.
+  void advance(double elapsed);
   /// In place of advance() while frames are exported: takes one step if `allowed`, however long it takes.
   void advance_one(double elapsed, bool allowed);
   /// How long (ms) the last step took, the observer's work with it.
@@ -86,9 +87,11 @@ class Simulation {
   std::string caption() const;
   /// Changes whenever positions or contacts may have changed: not with steps of a world at rest.
   std::uint64_t revision() const { return revision_; }
-  /// Returns true if steps would change nothing but the number of the frame: all bodies have been at rest for as long
-  /// as curves last, and no caption is still to come.
-  bool has_long_been_at_rest() const;
+  /// Returns true if bodies move from picture to picture.
+  bool moves() const { return !clock.paused && !world().all_at_rest(); }
+  /// Returns true if advance() takes no step: the world is paused, or steps would change nothing but the number of the
+  /// frame. All bodies have then been at rest for as long as curves last, and no caption is still to come.
+  bool stands_still() const;
   /// Counts the worlds: changes whenever the world is replaced.
   std::uint64_t world_number() const { return world_number_; }
 

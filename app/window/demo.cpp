@@ -194,7 +194,8 @@ class Demo {
   /// frame to fit their contents.
   Activity activity(bool moving, bool has_news) const {
     return {.moving = moving || session_.exporter.recording() || ImGui::IsAnyMouseDown(),
-            .counting = !session_.stands_still() || (ui_.lower == ui::LowerView::sweep && session_.sweep().running),
+            .counting =
+                !session_.simulation.stands_still() || (ui_.lower == ui::LowerView::sweep && session_.sweep().running),
             .reporting = session_.import.busy() || session_.exporter.finishing(),
             .typing = graphics_->gui.wants_keyboard(),
             .next_change = has_news ? 0 : ui::seconds_to_hint_change(seconds_)};
@@ -343,7 +344,7 @@ class Demo {
   bool draw_scene(const ScenePicture& scene, const engine::Viewport& viewport) {
     if (viewport.size.x <= 0 || viewport.size.y <= 0) return false;
     const bool changed = drawn_ != scene;
-    const bool moving = changed || !(session_.simulation.clock.paused || session_.world().all_at_rest());
+    const bool moving = changed || session_.simulation.moves();
     const bool fine = !moving || session_.exporter.wants_shown_picture();
     graphics_->canvas.update(viewport.size, changed, fine, [&](const engine::Viewport& whole) {
       ScenePicture stretched = scene;
