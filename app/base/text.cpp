@@ -1,5 +1,7 @@
 #include "app/base/text.h"
 
+#include <new>
+
 #include <fmt/format.h>
 
 namespace app {
@@ -15,6 +17,10 @@ std::string grouped(std::uint64_t number) {
 
 std::string ratio(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? "-" : fmt::format("{:.3g}", static_cast<double>(part) / static_cast<double>(whole));
+}
+
+std::string failure_text(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) ? "not enough memory" : error.what();
 }
 
 std::string joined(const std::vector<std::string>& texts, std::string_view separator) {

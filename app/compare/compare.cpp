@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "app/base/text.h"
 #include "app/base/timings.h"
 
 namespace app::compare {
@@ -59,7 +60,7 @@ std::optional<CompareReport> Comparison::advance(const FrameSnapshot& snapshot,
     score(snapshot);
   } catch (const std::exception& error) {
     report_ = empty_report(snapshot);
-    report_->reference_note = std::string("the comparison failed: ") + error.what();
+    report_->reference_note = "the comparison failed: " + failure_text(error);
   }
   return std::exchange(report_, std::nullopt);
 }
@@ -92,7 +93,7 @@ void Comparison::detect(std::size_t method, const FrameSnapshot& snapshot) {
     entry.ms = time_ms([&] { entry.detector->detect(snapshot.view(), snapshot.settings, alone_, entry.result); });
     cost_model_.learn(method, entry.result.counters);
   } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report
-    entry.error = std::string("not run: ") + error.what();
+    entry.error = "not run: " + failure_text(error);
   }
 }
 

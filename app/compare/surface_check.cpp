@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "app/base/text.h"
+
 namespace app::compare {
 namespace {
 
@@ -53,7 +55,7 @@ std::optional<SurfaceReport> SurfaceCheck::advance(const StepSnapshot& step,
     report.missed_pairs = missed.pairs.size();
     report.marks = marks_of(step.at, overlaps, missed);
   } catch (const std::exception& error) {
-    report.failure = error.what();
+    report.failure = failure_text(error);
   }
   return report;
 }

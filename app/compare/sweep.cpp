@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "app/base/heap.h"
+#include "app/base/text.h"
 #include "app/compare/score.h"
 
 namespace app::compare {
@@ -79,7 +80,7 @@ bool Sweep::step() {
   } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report
     row.checked = false;
     row.times.ms.clear();
-    row.not_run = error.what();
+    row.not_run = failure_text(error);
   }
   return true;
 }
@@ -100,7 +101,7 @@ void Sweep::find_reference() {
     report_.true_contacts = truth_.size();
     report_.reference = c;
   } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report
-    report_.reference_note = error.what();
+    report_.reference_note = failure_text(error);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/base/timings.h"
@@ -79,6 +80,8 @@ class Sweep {
   /// Returns the share of the work that is done, from 0 to 1.
   double progress() const;
   const SweepReport& report() const { return report_; }
+  /// Ends the sweep. Returns its report without a copy, for which there may be too little memory.
+  SweepReport take_report() { return std::move(report_); }
 
  private:
   void find_reference();

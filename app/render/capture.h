@@ -31,7 +31,7 @@ class Capture {
 
  private:
   void draw(const softbody::BodiesInMotion& world, const engine::Viewport& part) {
-    view_.draw(world, {}, view_.camera(world, part.size), part, 1.0f, compare::DrawnMeshes(world));
+    view_.draw(world, {}, view_.camera(world, part.size), part, 1.0f, DrawnMeshes(world));
   }
 
   engine::HeadlessContext context_;  // first: the others need it

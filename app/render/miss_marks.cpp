@@ -23,7 +23,7 @@ struct Group {
 }  // namespace
 
 std::vector<SceneLabel> miss_marks(const softbody::BodiesInMotion& world, std::span<const collide::Contact> missed,
-                                   const compare::DrawnPositions& positions) {
+                                   const DrawnPositions& positions) {
   constexpr double reach = 4;  // of a group, mean edges
   std::map<std::pair<softbody::BodyId, softbody::BodyId>, std::vector<Group>> groups;
   for (const collide::Contact& contact : missed) {

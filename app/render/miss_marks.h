@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "app/compare/drawn_positions.h"
+#include "app/render/drawn_positions.h"
 #include "app/render/highlight.h"
 #include "softbody/world/bodies_in_motion.h"
 
@@ -16,6 +16,6 @@ inline constexpr std::size_t max_miss_marks = 200;  // more would cover the scen
 /// other. Larger groups come first; those beyond max_miss_marks are left out. `missed`: vertices of the world;
 /// `positions`: those that are drawn.
 std::vector<SceneLabel> miss_marks(const softbody::BodiesInMotion& world, std::span<const collide::Contact> missed,
-                                   const compare::DrawnPositions& positions);
+                                   const DrawnPositions& positions);
 
 }  // namespace app::render

@@ -70,7 +70,7 @@ std::optional<SolidPick> pick_solid(const engine::Ray& ray, const softbody::Scen
 }
 
 BoundingSphere bounding_sphere(const softbody::BodiesInMotion& world, softbody::BodyId body,
-                               const compare::DrawnPositions& positions) {
+                               const DrawnPositions& positions) {
   const collide::Index first = world.bodies().first[body], end = world.bodies().first[body + 1];
   glm::vec3 lo = positions[first], hi = lo;
   for (collide::Index i = first; i < end; ++i) {
@@ -87,7 +87,7 @@ BoundingSphere bounding_sphere(const softbody::BodiesInMotion& world, softbody::
 }
 
 std::optional<Pick> pick(const engine::Ray& ray, const softbody::BodiesInMotion& world,
-                         const compare::DrawnPositions& positions) {
+                         const DrawnPositions& positions) {
   std::optional<Pick> nearest;
   for (softbody::BodyId body = 0; body < world.bodies().count(); ++body) {
     if (!passes(ray, bounding_sphere(world, body, positions))) continue;
@@ -104,7 +104,7 @@ std::optional<Pick> pick(const engine::Ray& ray, const softbody::BodiesInMotion&
 }
 
 std::optional<float> distance_to_scene(const engine::Ray& ray, const softbody::BodiesInMotion& world,
-                                       const compare::DrawnPositions& positions) {
+                                       const DrawnPositions& positions) {
   constexpr double horizon = 1e3;  // m
   if (const auto body = pick(ray, world, positions)) return body->distance;
   const auto solid = pick_solid(ray, world.scene(), horizon);

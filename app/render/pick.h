@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "app/compare/drawn_positions.h"
+#include "app/render/drawn_positions.h"
 #include "engine/camera.h"
 #include "softbody/contact/solid_surface.h"
 #include "softbody/world/bodies_in_motion.h"
@@ -22,11 +22,11 @@ struct Pick {
 /// Returns the first triangle that the ray meets, from either side, of the bodies as they are drawn; nothing if it
 /// meets none, or a solid first.
 std::optional<Pick> pick(const engine::Ray& ray, const softbody::BodiesInMotion& world,
-                         const compare::DrawnPositions& positions);
+                         const DrawnPositions& positions);
 
 /// Returns the distance (m) at which the ray meets the first body or solid; nothing if there is none.
 std::optional<float> distance_to_scene(const engine::Ray& ray, const softbody::BodiesInMotion& world,
-                                       const compare::DrawnPositions& positions);
+                                       const DrawnPositions& positions);
 
 /// Where a ray enters a solid.
 struct SolidPick {
@@ -44,6 +44,6 @@ struct BoundingSphere {
 };
 /// Returns a sphere around a body as it is drawn.
 BoundingSphere bounding_sphere(const softbody::BodiesInMotion& world, softbody::BodyId body,
-                               const compare::DrawnPositions& positions);
+                               const DrawnPositions& positions);
 
 }  // namespace app::render

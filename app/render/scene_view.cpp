@@ -53,7 +53,7 @@ void add(const softbody::SolidPlane& p, engine::FrameData& frame) {
     frame.planes.push_back({glm::vec3(p.point), glm::vec3(p.normal)});
 }
 
-void append(const compare::DrawnPositions& from, std::vector<glm::vec3>& to) {
+void append(const DrawnPositions& from, std::vector<glm::vec3>& to) {
   for (std::size_t i = 0; i < from.size(); ++i) to.push_back(from[i]);
 }
 
@@ -96,7 +96,7 @@ std::vector<engine::MeshDraw> SceneView::gather_bodies(const softbody::BodiesInM
   return draws;
 }
 
-void SceneView::gather_ghost(const softbody::BodiesInMotion& ghost, const compare::DrawnPositions& positions) {
+void SceneView::gather_ghost(const softbody::BodiesInMotion& ghost, const DrawnPositions& positions) {
   assert(positions.size() == positions_.size());
   const auto first = static_cast<std::uint32_t>(positions_.size());
   append(positions, positions_);
@@ -138,7 +138,7 @@ void SceneView::apply(const Highlight& highlight) {
 
 void SceneView::draw(const softbody::BodiesInMotion& world, const OverlayRequest& overlays,
                      const engine::Camera& camera, const engine::Viewport& viewport, float pixel_scale,
-                     const compare::DrawnMeshes& at) {
+                     const DrawnMeshes& at) {
   frame_ = {};
   frame_.pixel_scale = pixel_scale;
   // The colours of overlays have meanings, so the bodies are dimmed. What is missed has marks of its own.

@@ -40,7 +40,7 @@ struct OverlayRequest : OverlayChoice {
   std::span<const compare::SurfaceMark> marks;                      // of the present world
   const Highlight* highlight = nullptr;                             // everything else is faded
   const softbody::BodiesInMotion* ghost = nullptr;  // another world with the same bodies, drawn translucent
-  compare::DrawnPositions ghost_positions;
+  DrawnPositions ghost_positions;
 };
 
 class SceneView {
@@ -54,7 +54,7 @@ class SceneView {
   const std::shared_ptr<engine::render::Renderer>& renderer() const { return renderer_; }
 
   void draw(const softbody::BodiesInMotion& world, const OverlayRequest& overlays, const engine::Camera& camera,
-            const engine::Viewport& viewport, float pixel_scale, const compare::DrawnMeshes& at);
+            const engine::Viewport& viewport, float pixel_scale, const DrawnMeshes& at);
   /// Draws the same data as the last draw() from another camera. The world is not read; labels and fading stay the
   /// same.
   void redraw(const engine::Camera& camera, const engine::Viewport& viewport, float pixel_scale) {
@@ -77,7 +77,7 @@ class SceneView {
 
   /// Returns the draws of the bodies whose vertices were gathered last and begin at `first`. Colours are not set yet.
   std::vector<engine::MeshDraw> gather_bodies(const softbody::BodiesInMotion& world, std::uint32_t first);
-  void gather_ghost(const softbody::BodiesInMotion& ghost, const compare::DrawnPositions& positions);
+  void gather_ghost(const softbody::BodiesInMotion& ghost, const DrawnPositions& positions);
   void apply(const Highlight& highlight);
   const UploadedMesh& upload(const softbody::Mesh& mesh);
   BoundingSphere bounds(const softbody::BodiesInMotion& world);

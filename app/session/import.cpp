@@ -110,7 +110,7 @@ std::optional<FileReader::Answer> FileReader::advance(const Question& question, 
   } catch (const Cancelled&) {
     return std::string();
   } catch (const std::exception& error) {
-    return std::string(error.what());
+    return failure_text(error);
   }
 }
 

@@ -21,18 +21,13 @@ void Session::advance(double elapsed, bool waited) {
   if (exporter.recording()) return advance_one(elapsed);
   if (!waited) add_picture(elapsed);
   run_ahead.before_advance();
-  simulation.advance(elapsed, stands_still());
+  simulation.advance(elapsed);
   exchange();
 }
 
 void Session::let_pass(double elapsed) {
   simulation.notice.age(elapsed);
   exchange();
-}
-
-bool Session::stands_still() const {
-  if (simulation.clock.paused) return !simulation.clock.owes_single_step();
-  return simulation.has_long_been_at_rest();
 }
 
 bool Session::awaits_answer() const {

@@ -60,9 +60,6 @@ class Session : private SimulationObserver {
   /// The same with one step, however long it takes; none if the exporter may not step.
   void advance_one(double elapsed);
 
-  /// Returns true if advance() would take no step: the world is paused, or has been at rest for so long that all curves
-  /// show it, and no caption is still to come.
-  bool stands_still() const;
   /// Lets time pass in which the world stands still and nothing is drawn.
   void let_pass(double elapsed);
   /// Returns true if those who look at the world may have an answer soon, though it stands still.

@@ -42,9 +42,9 @@ Simulation::Simulation(files::Opened opened, int threads, std::string scene_name
   before_last_step_.copy(world());
 }
 
-void Simulation::advance(double elapsed, bool stands_still) {
+void Simulation::advance(double elapsed) {
   notice.age(elapsed);
-  if (!stands_still) clock.advance(elapsed, world().frame_time(), [this] { return step(); });
+  if (!stands_still()) clock.advance(elapsed, world().frame_time(), [this] { return step(); });
 }
 
 void Simulation::advance_one(double elapsed, bool allowed) {
@@ -100,15 +100,14 @@ bool Simulation::step(Player& player) {
   return stepped;
 }
 
-bool Simulation::has_long_been_at_rest() const {
+bool Simulation::stands_still() const {
+  if (clock.paused) return !clock.owes_single_step();
   if (last_revision_ != revision_ || rest_steps_ < TimeSeries::capacity) return false;
   const auto is_past = [this](const softbody::Caption& caption) { return caption.frame <= world().frame(); };
   return all_at_rest() && (!as_scripted_ || std::ranges::all_of(world().scene().captions, is_past));
 }
 
-float Simulation::between() const {
-  return all_at_rest() ? 1.0f : static_cast<float>(clock.fraction(world().frame_time()));
-}
+float Simulation::between() const { return moves() ? static_cast<float>(clock.fraction(world().frame_time())) : 1.0f; }
 
 std::string Simulation::caption() const {
   std::string text;

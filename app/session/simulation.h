@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "app/base/time_series.h"
-#include "app/compare/drawn_positions.h"
+#include "app/compare/positions.h"
 #include "app/session/beside.h"
 #include "app/session/notice.h"
 #include "app/session/player.h"
@@ -95,9 +95,8 @@ class Simulation {
   const softbody::BodiesInMotion& edited() const { return world(edits); }
 
   // Time. The world moves in whole frames.
-  /// Takes the steps that are due, now that `elapsed` seconds of real time have passed; none if the world
-  /// `stands_still`.
-  void advance(double elapsed, bool stands_still = false);
+  /// Takes the steps that are due, now that `elapsed` seconds of real time have passed.
+  void advance(double elapsed);
   /// In place of advance() while frames are exported: takes one step if `allowed`, however long it takes.
   void advance_one(double elapsed, bool allowed);
   /// How long (ms) the last step took, the observer's work with it.
@@ -106,19 +105,20 @@ class Simulation {
   /// How far a picture is on the way from before_last_step() to the present, 0 .. 1: below 1 only in slow motion, which
   /// would jerk otherwise.
   float between() const;
-  compare::DrawnMeshes drawn(Half half = Half::first) const { return drawn(half, between()); }
-  compare::DrawnMeshes drawn(Half half, float between) const {
-    return {world(half), beside_ && half == Half::second ? beside_->before_last_step() : before_last_step_, between};
+  const compare::WorldPositions& before_last_step(Half half) const {
+    return beside_ && half == Half::second ? beside_->before_last_step() : before_last_step_;
   }
   /// The scene's sentence for this moment. Empty if there is none, or the user changed bodies.
   std::string caption() const;
   /// Changes whenever positions or contacts may have changed: not with steps of a world at rest.
   std::uint64_t revision() const { return revision_; }
-  /// Returns true if no step moves a body.
+  /// Returns true if no step moves a body of either half.
   bool all_at_rest() const { return world().all_at_rest() && (!beside_ || beside_->at_rest()); }
-  /// Returns true if steps would change nothing but the number of the frame: all bodies have been at rest for as long
-  /// as curves last, and no caption is still to come.
-  bool has_long_been_at_rest() const;
+  /// Returns true if bodies move from picture to picture.
+  bool moves() const { return !clock.paused && !all_at_rest(); }
+  /// Returns true if advance() takes no step: the world is paused, or steps would change nothing but the number of the
+  /// frame. All bodies have then been at rest for as long as curves last, and no caption is still to come.
+  bool stands_still() const;
   /// Counts the worlds: changes whenever the world is replaced.
   std::uint64_t world_number() const { return world_number_; }
 

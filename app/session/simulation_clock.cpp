@@ -54,7 +54,7 @@ void SimulationClock::restart() {
 }
 
 double SimulationClock::fraction(double frame_time) const {
-  return (slow_motion || speed < 1) && !paused ? std::clamp(owed_ / frame_time, 0.0, 1.0) : 1.0;
+  return slow_motion || speed < 1 ? std::clamp(owed_ / frame_time, 0.0, 1.0) : 1.0;
 }
 
 }  // namespace app::session

@@ -196,7 +196,8 @@ class Demo {
   /// frame to fit their contents.
   Activity activity(bool moving, bool has_news) const {
     return {.moving = moving || session_.exporter.recording() || ImGui::IsAnyMouseDown(),
-            .counting = !session_.stands_still() || (ui_.lower == ui::LowerView::sweep && session_.sweep().running),
+            .counting =
+                !session_.simulation.stands_still() || (ui_.lower == ui::LowerView::sweep && session_.sweep().running),
             .reporting = session_.import.busy() || session_.exporter.finishing(),
             .typing = graphics_->gui.wants_keyboard(),
             .next_change = has_news ? 0 : ui::seconds_to_hint_change(seconds_)};
@@ -262,7 +263,7 @@ class Demo {
   void draw_world(const ScenePicture& scene, const engine::Viewport& whole) {
     for (const HalfPicture& half : halves(scene, whole))
       view_of(half).draw(session_.simulation.world(half.half), overlay_request(session_, ui_.tour, scene, half.half),
-                         half.camera, half.viewport, scene.scale, session_.simulation.drawn(half.half, scene.between));
+                         half.camera, half.viewport, scene.scale, drawn_meshes(session_, scene.between, half.half));
   }
 
   render::SceneView& view_of(const HalfPicture& half) const {
@@ -350,7 +351,7 @@ class Demo {
 
   void throw_body(glm::ivec2 size) {
     const engine::Ray ray = mouse_.ray(camera_, size);
-    const float distance = render::distance_to_scene(ray, session_.world(), session_.simulation.drawn().shown)
+    const float distance = render::distance_to_scene(ray, session_.world(), positions_under_mouse(session_))
                                .value_or(camera_.orbit().distance);
     session_.bodies.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.origin + distance * ray.direction));
   }
@@ -359,7 +360,7 @@ class Demo {
   bool draw_scene(const ScenePicture& scene, const engine::Viewport& viewport) {
     if (viewport.size.x <= 0 || viewport.size.y <= 0) return false;
     const bool changed = drawn_ != scene;
-    const bool moving = changed || !(session_.simulation.clock.paused || session_.world().all_at_rest());
+    const bool moving = changed || session_.simulation.moves();
     const bool fine = !moving || session_.exporter.wants_shown_picture();
     graphics_->canvas.update(viewport.size, changed, fine, [&](const engine::Viewport& whole) {
       ScenePicture stretched = scene;

@@ -27,9 +27,12 @@ glm::dvec3 on_facing_plane(const engine::Ray& ray, const engine::Camera& camera,
 
 }  // namespace
 
+render::DrawnPositions positions_under_mouse(const Session& session, session::Half half) {
+  return drawn_meshes(session, session.simulation.between(), half).shown;
+}
+
 void focus_on(softbody::BodyId body, const Session& session, engine::Camera& camera, glm::ivec2 size) {
-  const render::BoundingSphere sphere =
-      render::bounding_sphere(session.world(), body, session.simulation.drawn().shown);
+  const render::BoundingSphere sphere = render::bounding_sphere(session.world(), body, positions_under_mouse(session));
   camera.glide_to(sphere.centre, sphere.radius, size);
 }
 
@@ -65,7 +68,7 @@ void SceneMouse::update(const MouseInput& in, Session& session, ui::UiState& ui,
   last_at_ = in.at;
   orbited_ = {};
   const auto something_under = [&] {
-    return render::pick(aim.ray, session.simulation.world(aim.half), session.simulation.drawn(aim.half).shown) ||
+    return render::pick(aim.ray, session.simulation.world(aim.half), positions_under_mouse(session, aim.half)) ||
            pick_movable(aim.ray, session.world().scene());
   };
   can_drag_ =
@@ -85,7 +88,7 @@ void SceneMouse::press(const MouseInput& in, const Aim& aim, Session& session, u
   drag_ = Drag::orbit;
   held_in_ = aim.half;
   const engine::Ray& ray = aim.ray;
-  const auto under = render::pick(ray, session.simulation.world(aim.half), session.simulation.drawn(aim.half).shown);
+  const auto under = render::pick(ray, session.simulation.world(aim.half), positions_under_mouse(session, aim.half));
   pressed_on_body_ = under.has_value();
   if (!under) {
     if (const auto solid = pick_movable(ray, session.world().scene())) {

@@ -21,6 +21,9 @@ struct MouseInput {
   bool over_scene = true;      // false: a window of the user interface has the mouse
 };
 
+/// Returns where bodies are for the mouse. It is valid until the next step.
+render::DrawnPositions positions_under_mouse(const Session& session, session::Half half = session::Half::first);
+
 /// Makes the camera glide to a body.
 void focus_on(softbody::BodyId body, const Session& session, engine::Camera& camera, glm::ivec2 size);
 

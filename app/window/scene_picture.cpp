@@ -77,9 +77,13 @@ render::OverlayRequest overlay_request(const Session& session, const ui::Tour& t
   request.highlight = tour.highlight();
   if (picture.ghost) {
     request.ghost = &session.simulation.beside()->world();
-    request.ghost_positions = session.simulation.drawn(Half::second, picture.between).shown;
+    request.ghost_positions = drawn_meshes(session, picture.between, Half::second).shown;
   }
   return request;
+}
+
+render::DrawnMeshes drawn_meshes(const Session& session, float between, Half half) {
+  return {session.simulation.world(half), session.simulation.before_last_step(half), between};
 }
 
 std::vector<render::SceneLabel> scene_labels(const Session& session, const ui::Tour& tour, const ScenePicture& picture,
@@ -87,9 +91,9 @@ std::vector<render::SceneLabel> scene_labels(const Session& session, const ui::T
   std::vector<render::SceneLabel> labels;
   if (const render::Highlight* highlight = tour.highlight()) labels = highlight->labels;
   if (const auto* missed = missed_in(picture, session, half))
-    std::ranges::copy(render::miss_marks(session.simulation.world(half), *missed,
-                                         session.simulation.drawn(half, picture.between).shown),
-                      std::back_inserter(labels));
+    std::ranges::copy(
+        render::miss_marks(session.simulation.world(half), *missed, drawn_meshes(session, picture.between, half).shown),
+        std::back_inserter(labels));
   return labels;
 }
 

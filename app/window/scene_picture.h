@@ -40,6 +40,10 @@ std::vector<HalfPicture> halves(const ScenePicture& picture, const engine::Viewp
 render::OverlayRequest overlay_request(const Session& session, const ui::Tour& tour, const ScenePicture& picture,
                                        session::Half half);
 
+/// Returns the positions at which the bodies of a half are, `between` the last step and the present; see
+/// Simulation::between(). They are valid until the next step.
+render::DrawnMeshes drawn_meshes(const Session& session, float between, session::Half half = session::Half::first);
+
 /// Returns the labels in a half: those of the tour, and the marks of the missed contacts.
 std::vector<render::SceneLabel> scene_labels(const Session& session, const ui::Tour& tour, const ScenePicture& picture,
                                              session::Half half);

@@ -65,7 +65,7 @@ TEST(PlaceTexts, KeepsTextsOffTheMiddleOfAllRings) {
 
 TEST(MissMarks, GroupMissedContactsByPairAndNearness) {
   const softbody::World world(touching_pair(), {});
-  const compare::DrawnPositions positions{.now = world.positions()};
+  const render::DrawnPositions positions{.now = world.positions()};
   const collide::Index second = world.bodies().first[1], end = world.bodies().vertex_count();
   const auto by_x = [&](collide::Index a, collide::Index b) { return positions[a].x < positions[b].x; };
   std::vector<collide::Index> left, right;

@@ -24,9 +24,9 @@ class SceneViewTest : public testing::Test {
     session_.simulation.change_scene("Cells", [](softbody::Scene& s) { s.collision.cell_size = glm::vec3(0.3f); });
   }
 
-  std::vector<std::uint8_t> picture(const render::OverlayRequest& request, compare::DrawnPositions positions = {}) {
+  std::vector<std::uint8_t> picture(const render::OverlayRequest& request, render::DrawnPositions positions = {}) {
     positions.now = session_.world().positions();
-    compare::DrawnMeshes at(session_.world());
+    render::DrawnMeshes at(session_.world());
     at.shown = at.simulated = positions;
     target_.bind();
     const engine::Camera camera = view_.camera(session_.world(), size);
@@ -130,7 +130,7 @@ TEST_F(SceneViewTest, OutlinesOpenBodies) {
   const softbody::World world(softbody::find_scene("cloth", engine::find_folder("assets") / "scenes"), {});
   const engine::Camera camera = view_.camera(world, size);
   target_.bind();
-  view_.draw(world, {}, camera, {{0, 0}, size}, 1.0f, compare::DrawnMeshes(world));
+  view_.draw(world, {}, camera, {{0, 0}, size}, 1.0f, render::DrawnMeshes(world));
   const engine::Image image = target_.read();
   const auto darkest_red = [&](const glm::vec3& point) {  // of the pixels near it
     const glm::ivec2 pixel(*camera.project(point, size));
@@ -147,7 +147,7 @@ class AddOverlaysTest : public testing::Test {
  protected:
   AddOverlaysTest() {
     for (std::size_t i = 0; i < world_.bodies().vertex_count(); ++i)
-      positions_.push_back(compare::DrawnPositions{.now = world_.positions()}[i]);
+      positions_.push_back(render::DrawnPositions{.now = world_.positions()}[i]);
     request_.shown.true_surfaces = true;
     frame_.positions = frame_.normals = positions_;
   }

@@ -22,23 +22,23 @@ softbody::Scene lone_body() {
 TEST(Session, StandsStillOnceAllHasBeenAtRestForAsLongAsCurvesLast) {
   Session session(lone_body(), {}, 1);
   int rested = 0;
-  for (int i = 0; i < 5000 && !session.stands_still(); ++i) {
+  for (int i = 0; i < 5000 && !session.simulation.stands_still(); ++i) {
     session.advance(tick);
     rested = session.world().all_at_rest() ? rested + 1 : 0;
   }
-  ASSERT_TRUE(session.stands_still());
+  ASSERT_TRUE(session.simulation.stands_still());
   EXPECT_NEAR(rested, int{TimeSeries::capacity}, 2);
   const int frame = session.world().frame();
   run(session, 10);
   EXPECT_EQ(session.world().frame(), frame) << "its time stands still";
   session.simulation.change_scene("Settings", [](softbody::Scene& s) { ++s.collision.levels; });
-  EXPECT_FALSE(session.stands_still()) << "curves show the change";
+  EXPECT_FALSE(session.simulation.stands_still()) << "curves show the change";
   session.advance(tick);
   EXPECT_EQ(session.world().frame(), frame + 1);
-  for (int i = 0; i < 5000 && !session.stands_still(); ++i) session.advance(tick);
-  ASSERT_TRUE(session.stands_still());
+  for (int i = 0; i < 5000 && !session.simulation.stands_still(); ++i) session.advance(tick);
+  ASSERT_TRUE(session.simulation.stands_still());
   session.bodies.drop();
-  EXPECT_FALSE(session.stands_still());
+  EXPECT_FALSE(session.simulation.stands_still());
 }
 
 TEST(Session, GoesOnAtRestUntilItsLastSentence) {
@@ -47,25 +47,25 @@ TEST(Session, GoesOnAtRestUntilItsLastSentence) {
   scene.captions.push_back({last, "the end"});
   Session session(std::move(scene), {}, 1);
   while (session.world().frame() < last) {
-    ASSERT_FALSE(session.stands_still());
+    ASSERT_FALSE(session.simulation.stands_still());
     session.advance(tick);
   }
   EXPECT_EQ(session.simulation.caption(), "the end");
   EXPECT_TRUE(session.world().all_at_rest());
-  EXPECT_TRUE(session.stands_still());
+  EXPECT_TRUE(session.simulation.stands_still());
 }
 
 TEST(Session, StandsStillWhilePausedButForASingleStep) {
   Session session(touching_pair(), {}, 1);
   session.advance(tick);
-  EXPECT_FALSE(session.stands_still());
+  EXPECT_FALSE(session.simulation.stands_still());
   session.simulation.clock.paused = true;
-  EXPECT_TRUE(session.stands_still());
+  EXPECT_TRUE(session.simulation.stands_still());
   session.simulation.clock.single_step();
-  EXPECT_FALSE(session.stands_still());
+  EXPECT_FALSE(session.simulation.stands_still());
   session.advance(tick);
   EXPECT_EQ(session.world().frame(), 2);
-  EXPECT_TRUE(session.stands_still());
+  EXPECT_TRUE(session.simulation.stands_still());
 }
 
 TEST(Session, TakesNoWaitForASlowPicture) {

@@ -2,10 +2,23 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <memory>
+#include <new>
 
 #include "softbody/world/world.h"
 #include "tests/app/scenes.h"
+
+namespace {
+thread_local std::size_t refused_bytes = 0;  // a block of so many bytes is not to be had; 0: all are
+}  // namespace
+
+void* operator new(std::size_t bytes) {
+  void* block = bytes > 0 && bytes == refused_bytes ? nullptr : std::malloc(bytes);
+  return block ? block : throw std::bad_alloc();
+}
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 
 namespace app {
 namespace THIS_FILE {
@@ -72,6 +85,21 @@ TEST(SweepWorker, KeepsItsResultsWhenCancelledAndCanStartAgain) {
     EXPECT_LT(state.progress, 1);
     for (const compare::SweepRow& row : state.report.rows) EXPECT_TRUE(row.checked);
   }
+}
+
+TEST(SweepWorker, KeepsItsResultsWhenThereIsTooLittleMemoryToCopyThem) {
+  const softbody::World world(touching_pair(), {});
+  session::SweepWorker worker(compare::SweepLimits{.repetitions = 1'000'000}, Runs::in_slices);
+  worker.start(world, compare::all_methods());
+  wait_for(worker, [](const session::SweepState& state) { return state.progress > 2e-6; });
+  const session::SweepState& state = worker.state();
+  refused_bytes = state.report.rows.size() * sizeof(compare::SweepRow);
+  while (state.running) worker.update();
+  refused_bytes = 0;
+  EXPECT_EQ(state.stop_reason, "failed: not enough memory");
+  EXPECT_LT(state.progress, 1);
+  EXPECT_FALSE(state.report.rows.empty());
+  for (const compare::SweepRow& row : state.report.rows) EXPECT_TRUE(row.checked);
 }
 
 TEST(SweepWorker, CanBeDestroyedWhileItRuns) {

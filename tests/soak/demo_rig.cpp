@@ -34,7 +34,7 @@ void DemoRig::frame(bool draw) {
       for (const app::window::HalfPicture& half : app::window::halves(picture, whole))
         view_.draw(session.simulation.world(half.half),
                    app::window::overlay_request(session, ui.tour, picture, half.half), half.camera, half.viewport, 1,
-                   session.simulation.drawn(half.half, picture.between));
+                   app::window::drawn_meshes(session, picture.between, half.half));
     });
   target_.bind();
   gui_.end_frame();

@@ -1,5 +1,7 @@
 #include "app/session/export/recording.h"
 
+#include "app/base/text.h"
+
 namespace app::session {
 
 std::optional<RecordingProgress> RecordingTask::advance(const Question& frame, const Background<RecordingTask>&) {
@@ -13,7 +15,7 @@ std::optional<RecordingProgress> RecordingTask::advance(const Question& frame, c
       progress_.ended = true;
     }
   } catch (const std::exception& failure) {
-    progress_.error = failure.what();
+    progress_.error = failure_text(failure);
     progress_.ended = true;
   }
   progress_.name = writer_->name();

@@ -2,27 +2,31 @@
 
 #include <utility>
 
+#include "app/base/text.h"
+
 namespace app::session {
 
 std::optional<SweepState> SweepTask::advance(const Question& question, Background<SweepTask>& background) {
   SweepState state = question.state;
   try {
     if (!sweep_) sweep_.emplace(question.frame.view(), question.configurations, limits_, alone_);
-    const bool goes_on = !background.cancelled() && sweep_->step();
-    // A step may take microseconds, and a copy of the report takes as long.
-    if (goes_on && !background.was_taken()) return std::nullopt;
-    state.progress = sweep_->progress();
-    state.report = sweep_->report();
-    if (goes_on) {
+    if (!background.cancelled() && sweep_->step()) {
+      if (!background.was_taken()) return std::nullopt;  // a step may take microseconds, and a copy takes as long
+      state.progress = sweep_->progress();
+      state.report = sweep_->report();
       background.publish(std::move(state));
       return std::nullopt;
     }
-    if (state.progress < 1) state.stop_reason = "cancelled";
-  } catch (const std::exception& error) {  // too little memory must not end the demo
-    state.stop_reason = error.what();
+    if (sweep_->progress() < 1) state.stop_reason = "cancelled";
+  } catch (const std::exception& error) {
+    state.stop_reason = "failed: " + failure_text(error);
   }
   state.running = false;
-  sweep_.reset();
+  if (sweep_) {
+    state.progress = sweep_->progress();
+    state.report = sweep_->take_report();
+    sweep_.reset();
+  }
   return state;
 }
 
@@ -35,7 +39,7 @@ void SweepWorker::start(const softbody::BodiesInMotion& world, const compare::Me
     sweep_.offer({state_, std::move(frame), compare::sweep_configurations(world, methods)});
   } catch (const std::exception& error) {  // too little memory for the copy
     state_.running = false;
-    state_.stop_reason = error.what();
+    state_.stop_reason = "failed: " + failure_text(error);
   }
 }
 

@@ -7,7 +7,7 @@
 
 #include "app/compare/positions.h"
 
-namespace app::compare {
+namespace app::render {
 
 /// The positions at the fraction `part` of the way from `before`, before the last step, to `now`. Vertices that
 /// `before` lacks are drawn at `now`. Owns nothing.
@@ -29,7 +29,7 @@ struct DrawnMeshes {
   DrawnPositions shown, simulated;
 
   /// From `before` to the present of the world, both of which must outlive this.
-  DrawnMeshes(const softbody::BodiesInMotion& world, const WorldPositions& before, float part)
+  DrawnMeshes(const softbody::BodiesInMotion& world, const compare::WorldPositions& before, float part)
       : shown{world.positions(), before.shown(), part},
         simulated{world.simulated().positions, before.simulated(), part} {}
   /// At the present of the world.
@@ -37,4 +37,4 @@ struct DrawnMeshes {
       : shown{.now = world.positions()}, simulated{.now = world.simulated().positions} {}
 };
 
-}  // namespace app::compare
+}  // namespace app::render
