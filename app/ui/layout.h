@@ -14,16 +14,18 @@ inline constexpr float min_scene_width = 240;  // design pixels
 
 struct Layout {
   bool panel_covers_scene = false;      // the window is too narrow for both
+  bool cards = false;                   // the strip shows all that it has, not only messages
   std::optional<ScreenRect> panel;      // at the left edge
+  std::optional<ScreenRect> strip;      // at the upper edge
   std::optional<ScreenRect> sidebar;    // at the right edge
   std::optional<ScreenRect> lower;      // at the lower edge, for UiState::lower
   std::optional<ScreenRect> time_line;  // between the scene and `lower`
   std::optional<ScreenRect> tour;       // instead of sidebar, `lower` and time line
-  ScreenRect scene;                     // the rest; all of the window if the panel covers the scene
+  ScreenRect scene;                     // the rest; all below the strip if the panel covers the scene
   std::string no_room_message;          // names a part that is switched on and has no room; else empty
 };
 
-/// Lays the parts out in ImGui's display.
-Layout compute_layout(const Session& session, const UiState& ui, float scale);
+/// Lays the parts out in ImGui's display. strip_height: that its contents need, ImGui units.
+Layout compute_layout(const Session& session, const UiState& ui, float scale, float strip_height);
 
 }  // namespace app::ui

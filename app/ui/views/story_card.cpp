@@ -1,7 +1,5 @@
 #include "app/ui/views/story_card.h"
 
-#include <algorithm>
-
 #include <fmt/core.h>
 
 #include "app/render/palette.h"
@@ -85,24 +83,21 @@ std::string StoryCard::sentence(const Session& session) const {
          "a face of the grid.";
 }
 
-float StoryCard::draw(Widgets& w, const Session& session, const ScreenRect& area) {
+void StoryCard::draw(Widgets& w, const Session& session) {
   follow(session);
-  box_.begin(w, "Story", area, box_width(w, area), true);
-  if (w.closable_heading("Contacts found in the same frame###story",
-                         "Puts this card away (W or Esc). W brings it back."))
-    w.ask([](UiState& ui) { ui.set_story(false); });
   draw_method(w, session.comparison, compare::method_index(collide::paper_method), " (the paper's)");
   if (const auto exact = exact_method(session)) draw_method(w, session.comparison, *exact, "");
-  // The sentence has the same height whatever its length, so that the button does not move.
-  const float top = ImGui::GetCursorPosY(), lines = 2 * ImGui::GetTextLineHeight();
-  w.wrapped_text("Story sentence", sentence(session));
-  ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), top + lines + ImGui::GetStyle().ItemSpacing.y));
+}
+
+void StoryCard::draw_sentence(Widgets& w, const Session& session) const {
   const bool may_miss = !session.world().all_at_rest() ||
                         (session.comparison.paper_row() && !session.comparison.paper_row()->missed.empty());
   if (const Disabled off(!may_miss);
       w.button("Show me a miss###Explain story", "Opens the guided tour at its page on a missed contact."))
     w.ask([](Session& s, UiState& ui) { ui.tour.start(s, ui.overlays, miss_step); });
-  return box_.end(area);
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  w.wrapped_text("Story sentence", sentence(session));
 }
 
 }  // namespace app::ui
