@@ -172,7 +172,8 @@ Opened open_recording(const std::vector<std::filesystem::path>& files, std::opti
   const auto bounds = playback->bounds();
   const glm::dvec3 low(bounds[0]), high(bounds[1]);
   scene.view.target = 0.5 * (low + high);
-  scene.view.distance = std::max(glm::distance(low, high), 1e-4);
+  constexpr double diameters = 1.46;  // from there a sphere just fits into the camera's field of view, 0.7 radians
+  scene.view.distance = std::max(diameters * glm::distance(low, high), 1e-4);
   return {std::move(scene), playback};
 }
 

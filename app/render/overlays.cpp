@@ -123,21 +123,43 @@ void add_cells(const OverlayInput& from, engine::FrameData& frame) {
 
 Legend cells_legend(const LegendFacts&) { return {{"occupied cell", cell_colour}}; }
 
-void add_contact(Points positions, const collide::Contact& contact, const glm::vec3& colour, LinesAndPoints& marks) {
+void add_contact(Points positions, const collide::Contact& contact, const glm::vec3& colour, auto& marks) {
   const glm::vec3 a = positions[contact.a], b = positions[contact.b];
   marks.lines.push_back({a, b, glm::vec4(colour, 0.9f)});
   for (const glm::vec3& end : {a, b}) marks.points.push_back({end, glm::vec4(colour, 1.0f)});
 }
 
+/// Adds the contacts with points of 1 to 5 pixels, at most as large as the distance between vertices, so that a fine
+/// mesh can be seen between them.
 void add_contacts(const OverlayInput& from, engine::FrameData& frame) {
-  LinesAndPoints marks(frame, 2.0f, 5.0f, half_hidden);
-  const collide::Bodies& bodies = from.world.bodies();
+  struct Marks {
+    std::vector<engine::Line> lines;
+    std::vector<engine::Point> points;
+  };
+  std::array<Marks, 5> marks;  // by the diameter of their points
+  const collide::Bodies &bodies = from.world.bodies(), &particles = *from.world.simulated().positions.bodies;
+  const auto marks_at = [&](const glm::vec3& at, const softbody::BodyMesh& mesh) -> Marks& {
+    float pixels = 5;  // vertices without edges have no such distance
+    if (mesh.mean_edge > 0)
+      pixels = static_cast<float>(mesh.mean_edge) * from.pixels_at_one_metre / glm::distance(at, from.eye);
+    return marks[static_cast<std::size_t>(std::min(std::max(1.0f, pixels), 5.0f)) - 1];
+  };
   for (const collide::Contact& contact : from.world.detection().contacts) {
-    const bool inside = bodies.body_of(contact.a) == bodies.body_of(contact.b);
-    add_contact(from.shown, contact, inside ? contact_inside_colour : contact_between_colour, marks);
+    const softbody::BodyId body = bodies.body_of(contact.a);
+    const bool inside = body == bodies.body_of(contact.b);
+    add_contact(from.shown, contact, inside ? contact_inside_colour : contact_between_colour,
+                marks_at(from.shown[contact.a], from.world.model(body).shown()));
   }
-  for (const softbody::SolidContactPoint& contact : from.request.solid_contacts)
-    marks.points.push_back({from.simulated[contact.vertex], glm::vec4(contact_solid_colour, 1.0f)});
+  for (const softbody::SolidContactPoint& contact : from.request.solid_contacts) {
+    const glm::vec3& at = from.simulated[contact.vertex];
+    marks_at(at, from.world.model(particles.body_of(contact.vertex)))
+        .points.push_back({at, glm::vec4(contact_solid_colour, 1.0f)});
+  }
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const float diameter = static_cast<float>(i + 1);
+    frame.lines.push_back({std::move(marks[i].lines), 0.4f * diameter, half_hidden});
+    frame.points.push_back({std::move(marks[i].points), diameter, half_hidden});
+  }
 }
 
 Legend contacts_legend(const LegendFacts&) {

@@ -5,6 +5,7 @@
 
 #include "app/ui/panel/panel.h"
 #include "app/ui/parts.h"
+#include "app/ui/strip.h"
 #include "app/ui/views/sweep_view.h"
 #include "app/ui/views/views.h"
 
@@ -43,25 +44,32 @@ float lower_height(const Session& session, LowerView view, const ScreenRect& sce
 
 }  // namespace
 
-Layout compute_layout(const Session& session, const UiState& ui, float scale, float beside_height) {
+Layout compute_layout(const Session& session, const UiState& ui, float scale, const Heights& heights) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float line = time_line_height(scale);
+  const bool panel = ui.panel && !ui.clean;
   Layout layout;
   layout.scene = {{0, 0}, display};
-  if (ui.clean) return layout;
   ScreenRect& scene = layout.scene;
-  layout.panel_covers_scene = ui.panel && display.x < (panel_width + min_scene_width) * scale;
+  layout.panel_covers_scene = panel && display.x < (panel_width + min_scene_width) * scale;
+  layout.cards = !ui.clean && !ui.tour.open() && !layout.panel_covers_scene;
+  if (panel && !layout.panel_covers_scene) scene.min.x = panel_width * scale;
+  if (layout.cards || has_messages(session)) {
+    const float most = std::max(display.y - min_scene_height * scale - line, 0.0f);
+    layout.strip = {scene.min, {scene.max.x, std::ceil(std::min(heights.strip, most))}};
+    scene.min.y = layout.strip->max.y;
+  }
   // A panel that covers the scene is hidden during the tour.
-  if (ui.panel && !(ui.tour.open() && layout.panel_covers_scene))
-    layout.panel = {{0, 0}, {panel_width * scale, display.y}};
-  if (ui.panel && !layout.panel_covers_scene) scene.min.x = panel_width * scale;
+  if (panel && !(ui.tour.open() && layout.panel_covers_scene))
+    layout.panel = {{0, layout.panel_covers_scene ? scene.min.y : 0}, {panel_width * scale, display.y}};
+  if (ui.clean) return layout;
   if (ui.tour.open()) {
     layout.tour = cut_tour(scene, scale);
     return layout;
   }
   if (layout.panel_covers_scene) return layout;
-  const float line = time_line_height(scale);
   if (ui.lower != LowerView::none) {
-    const float room = display.y - min_scene_height * scale - line;
+    const float room = display.y - scene.min.y - min_scene_height * scale - line;
     const float height = lower_height(session, ui.lower, scene, room, scale), top = display.y - height;
     if (height <= room)
       layout.lower = {{scene.min.x, top}, display};
@@ -74,7 +82,7 @@ Layout compute_layout(const Session& session, const UiState& ui, float scale, fl
   layout.time_line = {{scene.min.x, scene.max.y - line}, scene.max};
   scene.max.y -= line;
   if (session.simulation.beside()) {
-    layout.beside = {{scene.min.x, scene.max.y - beside_height}, scene.max};
+    layout.beside = {{scene.min.x, scene.max.y - heights.beside}, scene.max};
     scene.max.y = layout.beside->min.y;
   }
   if (has_sidebar(session, ui) && width_of(scene) >= (sidebar_width + min_scene_width) * scale) {

@@ -24,9 +24,7 @@ void draw_sidebar(Widgets& w, const Session& session, const UiState& ui, const S
   };
   if (const render::Overlays shown = ui.drawn_overlays(session); has_legend(session, shown)) {
     separate();
-    ImGui::PushTextWrapPos(0);
-    draw_legend(w, session, shown, !ui.hash_table);
-    ImGui::PopTextWrapPos();
+    draw_legend(w, session, shown, !ui.hash_table, false);
   }
   if (ui.overlays.true_surfaces) {
     separate();

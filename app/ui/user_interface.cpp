@@ -8,12 +8,12 @@
 
 namespace app::ui {
 
-Requests UserInterface::draw(const Session& session, const UiState& ui, float scale, double seconds,
-                             WidgetRecorder* recorder) {
+Requests UserInterface::draw(const Session& session, const UiState& ui, float scale, WidgetRecorder* recorder) {
   if (recorder) *recorder = {};
   Requests requests;
   Widgets widgets(scale, input_, ui.sections, requests, recorder);
-  layout_ = compute_layout(session, ui, scale, beside_height_);
+  layout_ = compute_layout(session, ui, scale, {strip_.height(), beside_height_});
+  if (layout_.strip) strip_.draw(widgets, session, ui, layout_);
   if (layout_.panel) draw_panel(widgets, session, ui, *layout_.panel, layout_.panel_covers_scene);
   if (layout_.lower && ui.lower == LowerView::comparison)
     draw_compare(widgets, session, ui, *layout_.lower);
@@ -23,13 +23,7 @@ Requests UserInterface::draw(const Session& session, const UiState& ui, float sc
   if (layout_.time_line) draw_time_line(widgets, session, *layout_.time_line);
   if (layout_.sidebar) draw_sidebar(widgets, session, ui, *layout_.sidebar);
   show_field_problem(widgets);
-  if (layout_.tour)
-    draw_tour(widgets, session, ui.tour, *layout_.tour);
-  else if (!ui.clean && !layout_.panel_covers_scene)
-    draw_over_scene(widgets, session, ui, seconds);
-  else
-    draw_notices(widgets, session, {}, layout_.scene);
-  if (!layout_.tour && layout_.panel_covers_scene) draw_import_report(widgets, session.import, layout_.scene);
+  if (layout_.tour) draw_tour(widgets, session, ui.tour, *layout_.tour);
   if (ui.help) draw_help(widgets, layout_.scene);
   const bool popup_open = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   if (popup_open != ui.popup_open) widgets.ask([popup_open](UiState& state) { state.popup_open = popup_open; });
@@ -47,21 +41,6 @@ void UserInterface::show_field_problem(Widgets& widgets) {
       notice.clear();
   });
   field_problem_ = *problem;
-}
-
-void UserInterface::draw_over_scene(Widgets& widgets, const Session& session, const UiState& ui, double seconds) {
-  ScreenRect free = layout_.scene;
-  free.max.y = draw_caption(widgets, session, free, seconds);
-  ScreenRect beside = free;
-  if (ui.lights) free.min.y = draw_status(widgets, session, ui.coverage_explained, lights_, free);
-  if (ui.shows_story()) {
-    const bool both_fit = free.max.x - free.min.x >= widgets.px(2 * min_box_width + 3 * box_margin);
-    const float end = story_.draw(widgets, session, both_fit ? beside : free);
-    if (!both_fit) free.min.y = end;
-  }
-  free.min.y = draw_notices(widgets, session, layout_.no_room_message, free);
-  if (!layout_.sidebar) draw_floating_legend(widgets, session, ui.drawn_overlays(session), free);
-  draw_import_report(widgets, session.import, free);
 }
 
 }  // namespace app::ui

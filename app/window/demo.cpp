@@ -136,9 +136,7 @@ class Demo {
     for (const engine::KeyPress& key : graphics_->gui.take_key_presses()) {
       std::optional<ui::Request> request = ui::request_by_key(session_, key.key, key.repeat, key.mods);
       if (!request) request = ui::request_by_key(session_, key.fallback_key, key.repeat, key.mods);
-      if (!request) continue;
-      requests.push_back(std::move(*request));
-      seconds_ += key_hint_seconds;
+      if (request) requests.push_back(std::move(*request));
     }
     return requests;
   }
@@ -147,7 +145,7 @@ class Demo {
   void handle_input(double elapsed) {
     graphics_->gui.begin_frame();
     std::vector<ui::WindowTask> tasks = ui::carry_out(requests_by_keys(), session_, ui_);
-    const ui::Requests drawn = interface_.draw(session_, ui_, graphics_->gui.scale(), seconds_);
+    const ui::Requests drawn = interface_.draw(session_, ui_, graphics_->gui.scale());
     std::ranges::copy(ui::carry_out(drawn, session_, ui_), std::back_inserter(tasks));
     const engine::Viewport viewport = scene_viewport();
     move_by_mouse(viewport);
@@ -200,7 +198,7 @@ class Demo {
                 !session_.simulation.stands_still() || (ui_.lower == ui::LowerView::sweep && session_.sweep().running),
             .reporting = session_.import.busy() || session_.exporter.finishing(),
             .typing = graphics_->gui.wants_keyboard(),
-            .next_change = has_news ? 0 : ui::seconds_to_hint_change(seconds_)};
+            .has_news = has_news};
   }
 
   /// Takes long steps beside the window. Meanwhile the camera can move; clicks and keys wait for the next frame.
@@ -300,7 +298,6 @@ class Demo {
   /// Begins with the scene's own camera, and moves it by the mouse.
   void move_by_mouse(const engine::Viewport& viewport) {
     if (shown_scene_ != session_.world().scene().key) {
-      if (!shown_scene_.empty()) ui_.story = false;  // another scene was asked for
       shown_scene_ = session_.world().scene().key;
       reset_camera(viewport.size);
     }
@@ -382,7 +379,6 @@ class Demo {
   static constexpr float tour_radius_factor = 0.6f;  // glide_to() leaves half of the picture free, the tour less
   static constexpr double min_context_seconds = 10;  // between two losses
   static constexpr double long_step_ms = 50;
-  static constexpr double key_hint_seconds = 5;  // a used key shortens the hint's time by so much
 
   PreferencesFile preferences_;
   std::unique_ptr<Graphics> graphics_;
@@ -401,7 +397,7 @@ class Demo {
   bool waited_ = false;  // for events, on purpose, before the present frame
   FrameTimer timer_;
   FrameSchedule schedule_{now()};
-  double seconds_ = 0;  // since the window opened; see key_hint_seconds
+  double seconds_ = 0;  // since the window opened
   double recreated_at_ = now() - min_context_seconds;
 };
 

@@ -12,17 +12,17 @@ struct Activity {
   bool counting = false;   // only numbers do: the world takes steps at rest, or a sweep goes on
   bool reporting = false;  // a file is read or written, and the interface says how far
   bool typing = false;     // a text cursor blinks
-  double next_change = std::numeric_limits<double>::infinity();  // s until a text of the interface fades or goes
+  bool has_news = false;   // the interface has other texts, and takes another frame to fit them
 };
 
 /// Returns the seconds from one frame to the next that these ask for; infinity if nothing changes.
 inline double seconds_to_next_frame(const Activity& activity) {
   constexpr double counting = 1.0 / 30, reporting = 0.25, typing = 0.4;
-  double seconds = std::max(activity.next_change, 0.0);
+  double seconds = std::numeric_limits<double>::infinity();
   if (activity.typing) seconds = std::min(seconds, typing);
   if (activity.reporting) seconds = std::min(seconds, reporting);
   if (activity.counting) seconds = std::min(seconds, counting);
-  return activity.moving ? 0 : seconds;
+  return activity.moving || activity.has_news ? 0 : seconds;
 }
 
 /// Times are seconds of one steady clock, given by the caller.

@@ -93,7 +93,7 @@ void SceneMouse::press(const MouseInput& in, const Aim& aim, Session& session, u
   if (!under) {
     if (const auto solid = pick_movable(ray, session.world().scene())) {
       drag_ = Drag::solid;
-      ui.solid = solid->index;
+      ui.show_solid(solid->index);
       held_solid_ = {solid->index, session.world().scene().solids[solid->index],
                      glm::dvec3(ray.origin) + solid->distance * glm::dvec3(ray.direction),
                      session.simulation.world_number()};

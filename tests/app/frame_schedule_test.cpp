@@ -30,13 +30,11 @@ struct Loop {
 
 TEST(SecondsToNextFrame, AreThoseOfTheMostUrgent) {
   EXPECT_EQ(window::seconds_to_next_frame({}), infinity);
-  EXPECT_EQ(window::seconds_to_next_frame({.next_change = 3}), 3);
-  EXPECT_EQ(window::seconds_to_next_frame({.typing = true, .next_change = 3}), 0.4);
-  EXPECT_EQ(window::seconds_to_next_frame({.typing = true, .next_change = 0.1}), 0.1);
+  EXPECT_EQ(window::seconds_to_next_frame({.typing = true}), 0.4);
   EXPECT_EQ(window::seconds_to_next_frame({.reporting = true, .typing = true}), 0.25);
   EXPECT_EQ(window::seconds_to_next_frame({.counting = true, .reporting = true}), 1.0 / 30);
-  EXPECT_EQ(window::seconds_to_next_frame({.moving = true, .counting = true, .next_change = 3}), 0);
-  EXPECT_EQ(window::seconds_to_next_frame({.next_change = -1}), 0) << "it should be gone already";
+  EXPECT_EQ(window::seconds_to_next_frame({.moving = true, .counting = true}), 0);
+  EXPECT_EQ(window::seconds_to_next_frame({.typing = true, .has_news = true}), 0);
 }
 
 TEST(FrameSchedule, DrawsAsOftenAsTheActivityAsksForAfterTheFirstSecond) {
@@ -78,15 +76,11 @@ TEST(FrameSchedule, DrawsAtOnceAfterInputAndForASecond) {
   EXPECT_NEAR(loop.frames, 60, 2) << "a tooltip has time to appear";
 }
 
-TEST(FrameSchedule, DrawsOnceWhenAHintGoes) {
+TEST(FrameSchedule, DrawsOnceMoreAfterNews) {
   Loop loop;
   loop.run(2);
-  loop.schedule.input(loop.now);
-  loop.run(1.5);
-  loop.schedule.drawn(loop.now, {.next_change = 7.3});
+  loop.schedule.drawn(loop.now, {.has_news = true});
   loop.run(7);
-  EXPECT_EQ(loop.frames, 0);
-  loop.run(1);
   EXPECT_EQ(loop.frames, 1);
 }
 

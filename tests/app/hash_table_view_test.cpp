@@ -35,6 +35,18 @@ TEST(LongestBucket, HasTheLargestLoad) {
   EXPECT_EQ(ui::longest_bucket(debug), 7u);
 }
 
+TEST(DrawHashTable, EndsItsScaleAtTheFullestBucket) {
+  PanelRig rig;
+  rig.session.simulation.clock.paused = true;
+  for (const std::uint32_t buckets : {7u, 1001u}) {
+    rig.change([&](softbody::Scene& scene) { scene.collision.buckets = buckets; });
+    rig.frames(2);
+    rig.hover("Load scale");
+    const std::string load = grouped(ui::longest_bucket(rig.session.inspector.shown_geometry()));
+    EXPECT_NE(rig.recorder.tooltip.find(", " + load + " in the fullest"), std::string::npos) << rig.recorder.tooltip;
+  }
+}
+
 TEST(BucketView, GroupsEntriesByCellsAndSelectsACell) {
   PanelRig rig;
   rig.change([](softbody::Scene& scene) { scene.collision.buckets = 7; });  // few, so that cells share

@@ -33,7 +33,7 @@ class PanelRig {
     gui_.begin_frame(input_);
     if (session.import.update()) tasks.push_back(ui::WindowTask::show_joined);
     carry_out({});
-    carry_out(interface.draw(session, ui, gui_.scale(), 0.0, &recorder));
+    carry_out(interface.draw(session, ui, gui_.scale(), &recorder));
     gui_.end_frame();
     gui_.draw();
     ASSERT_EQ(collide::problem(session.world().collision()), "");

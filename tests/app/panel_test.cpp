@@ -131,6 +131,10 @@ TEST(Panel, FoldsItsSectionsAndRemembersThem) {
   rig.click("Detection");
   EXPECT_FALSE(rig.recorder.find("Tolerance"));
   EXPECT_FALSE(rig.ui.sections.at("Detection"));
+  EXPECT_FALSE(rig.shows("Solid"));
+  rig.ui.show_solid(0);
+  rig.frames(2);
+  EXPECT_TRUE(rig.shows("Solid")) << "as by a click on a solid";
 }
 
 TEST(Panel, SaysWhichStagesActAsForcesInXpbd) {

@@ -13,7 +13,10 @@
 #include <functional>
 #include <sstream>
 
+#include <glm/trigonometric.hpp>
+
 #include "app/session/player.h"
+#include "engine/camera.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 
@@ -177,6 +180,22 @@ TEST_F(PlaybackTest, RefusesAnotherBodyInThePlaceOfALaterOne) {
   EXPECT_EQ(playback.frame(1)->body_count, 2u);
   expect_refusal("2.obj: body 1", [&] { playback.frame(2); });
   EXPECT_EQ(playback.frame(3)->body_count, 2u);
+}
+
+TEST_F(PlaybackTest, MakesASceneWhoseViewShowsAllFrames) {
+  const auto [scene, recording] = files::open_recording(three());
+  const auto [low, high] = *session::Player(recording, scene, 1).bounds();
+  engine::Camera camera;
+  camera.fit(glm::vec3(scene.view.target), 10, {});
+  camera.set_orbit({glm::vec3(scene.view.target), static_cast<float>(scene.view.distance),
+                    static_cast<float>(glm::radians(scene.view.azimuth)),
+                    static_cast<float>(glm::radians(scene.view.elevation))});
+  for (const float x : {low.x, high.x})
+    for (const float y : {low.y, high.y})
+      for (const float z : {low.z, high.z}) {
+        const glm::vec3 pixel = camera.project({x, y, z}, {150, 100}).value();
+        EXPECT_TRUE(pixel.x > 0 && pixel.x < 150 && pixel.y > 0 && pixel.y < 100) << x << ' ' << y << ' ' << z;
+      }
 }
 
 TEST_F(PlaybackTest, MakesASceneWhoseToleranceSuitsTheData) {

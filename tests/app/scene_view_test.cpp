@@ -190,6 +190,21 @@ TEST_F(AddOverlaysTest, MarkOnlyTheDeepestVertexOfAPairByALine) {
   EXPECT_EQ(lines[0].b, positions_[8] + glm::vec3(0.2f, 0, 0));
 }
 
+TEST_F(AddOverlaysTest, DrawContactsSmallerThanTheDistanceBetweenVertices) {
+  request_.shown = {.contacts = true};
+  const auto diameter = [&](float pixels_at_one_metre) {
+    frame_.points.clear();
+    render::add_overlays({world_, request_, glm::vec3(0, 3, 9), pixels_at_one_metre, positions_, positions_}, frame_);
+    const auto drawn = std::ranges::find_if(frame_.points, [](const auto& set) { return !set.points.empty(); });
+    EXPECT_EQ(drawn->points.size(), 2 * world_.detection().contacts.size()) << "all at one distance";
+    return drawn->diameter;
+  };
+  const float pixels = static_cast<float>(world_.model(0).mean_edge) / 9;  // of an edge, at one pixel a metre
+  EXPECT_EQ(diameter(3.5f / pixels), 3);
+  EXPECT_EQ(diameter(0.5f / pixels), 1);
+  EXPECT_EQ(diameter(50 / pixels), 5);
+}
+
 TEST(Palette, HasDistinctColoursForDozensOfBodies) {
   for (std::uint32_t a = 0; a < 47; ++a) {
     for (std::uint32_t b = a + 1; b < 47; ++b) {

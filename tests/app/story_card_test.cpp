@@ -73,26 +73,47 @@ TEST(StoryCard, OpensTheTourByOneClick) {
   EXPECT_EQ(rig.ui.tour.step(), ui::miss_step);
 }
 
-TEST(FloatingBox, IsMovedByTheMouseWithinTheScene) {
+TEST(StoryCard, SaysWhatMissesCostAndShowsItBesideFromTheStart) {
   PanelRig rig;
+  rig.ui.story = true;
+  ASSERT_TRUE(rig.frames_until([&] { return rig.session.price.price() != nullptr; }));
+  const compare::Price& price = *rig.session.price.price();
+  ASSERT_EQ(price.failure, "");
+  const compare::HowSimulated second =
+      compare::usual_second(rig.session.world(), rig.session.simulated()->integrator_choice());
+  softbody::World alone(second.scene, {});
+  compare::RunFigures figures;
+  while (alone.frame() < compare::Price::frames) {
+    alone.step();
+    figures.add(alone);
+  }
+  const auto& [cell, run] = price.runs[compare::Price::small_cells];
+  EXPECT_EQ(run.missed, figures.totals().missed);
+  EXPECT_EQ(run.true_contacts, figures.totals().true_contacts);
+  EXPECT_EQ(cell, second.scene.collision.cell_size->x);
+  EXPECT_EQ(price.runs[compare::Price::exact].totals.missed, 0u);
   rig.frames(3);
-  const ui::WidgetRecorder::Widget before = rig.widget("Close lights");
-  const auto drag = [&](float x, float y) {
-    const ui::WidgetRecorder::Widget at = rig.widget("Step light");
-    rig.move(at.max.x - 4, at.max.y - 4);
-    rig.press();
-    rig.move(at.max.x - 4 + x, at.max.y - 4 + y);
-    rig.release();
-    rig.frames(2);
+  rig.click("See it beside");
+  ASSERT_TRUE(rig.session.simulation.beside());
+  EXPECT_LT(rig.session.world().frame(), 10);
+  EXPECT_EQ(rig.session.simulation.world(session::Half::second).collision().cell_size,
+            second.scene.collision.cell_size);
+}
+
+TEST(PriceMonitor, AsksAnewWhenTheSettingsChange) {
+  Session session(touching_pair(), {}, 1);
+  session.price.on = true;
+  const auto known = [&] {
+    session.advance(tick);
+    return session.price.price() != nullptr;
   };
-  drag(60, 200);
-  EXPECT_NEAR(rig.widget("Close lights").min.x, before.min.x + 60, 1.5f);
-  EXPECT_NEAR(rig.widget("Close lights").min.y, before.min.y + 200, 1.5f);
-  drag(4000, 4000);
-  EXPECT_LE(rig.widget("Step light").max.x, rig.interface.scene_area().max.x);
-  EXPECT_LE(rig.widget("Step light").max.y, rig.interface.scene_area().max.y);
-  rig.resize(900, 600);
-  EXPECT_LE(rig.widget("Step light").max.y, rig.interface.scene_area().max.y);
+  ASSERT_TRUE(wait_until(known));
+  session.simulation.change_scene("Subdivision", [](softbody::Scene& s) { s.collision.levels = 0; });
+  session.advance(tick);
+  EXPECT_FALSE(session.price.price());
+  ASSERT_TRUE(wait_until(known));
+  EXPECT_EQ(session.price.price()->runs[compare::Price::automatic_cells].cell,
+            session.world().collision().cell_size->x);
 }
 
 TEST(TimeLine, GoesBackInTime) {

@@ -24,7 +24,7 @@ void DemoRig::frame(bool draw) {
   gui_.begin_frame(input);
   session.import.update();
   carry_out({}, session, ui);
-  carry_out(interface_.draw(session, ui, gui_.scale(), 10), session, ui);
+  carry_out(interface_.draw(session, ui, gui_.scale()), session, ui);
   const bool over_scene = !gui_.wants_mouse();
   mouse_.update(app::window::read_mouse({}, over_scene), session, ui, camera_, input.display_size);
   camera_.advance(input.seconds);

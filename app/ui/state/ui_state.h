@@ -60,6 +60,11 @@ struct UiState : Remembered {
     hash_table = !hash_table;
     if (!hash_table) session.inspector.select_bucket(std::nullopt);
   }
+  /// Opens the section that has the values of a solid.
+  void show_solid(std::size_t index) {
+    solid = index;
+    sections["World"] = true;
+  }
   std::string save_as = "scene.toml";  // the file that the scene is saved to ...
   session::FieldNotice save_problem;   // ... why it was not written ...
   session::FieldNotice save_question;  // ... and what the user must answer first

@@ -21,8 +21,9 @@ void draw_group(Widgets& w, const Session& session, const compare::BucketContent
   const std::string cell = compare::cell_text(group.cell);
   w.swatch(chosen ? render::same_cell_colour : render::aliased_colour);
   const std::string bodies = bodies_text(group, bucket, session.inspector.shown_geometry(), session.world().bodies());
-  const std::string text =
-      fmt::format("{}  {}, {}###Cell {}", cell, count_text(group.items.size(), bucket), bodies, cell);
+  const std::string text = wrapped(fmt::format("{}  {}, {}", cell, count_text(group.items.size(), bucket), bodies),
+                                   ImGui::GetContentRegionAvail().x) +
+                           "###Cell " + cell;
   const std::string tooltip =
       fmt::format("Cell {}: {} of {}. Click to show its entries in blue, and those of other cells in orange (§2.2).",
                   cell, count_text(group.items.size(), bucket), bodies);

@@ -26,9 +26,8 @@ std::string promise(const softbody::BodiesInMotion& world) {
 void draw_meaning(Widgets& w, collide::Coverage coverage, bool active) {
   const StatusLight light = status_light(coverage);
   w.dot(light.colour);
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(active ? ImGuiCol_Text : ImGuiCol_TextDisabled));
-  ImGui::TextWrapped("%s: %s", light.name, light.sentence);
-  ImGui::PopStyleColor();
+  const std::string text = fmt::format("{}: {}", light.name, light.sentence);
+  active ? w.wrapped_text("Meaning", text) : w.pale_text(text);
 }
 
 }  // namespace
@@ -71,8 +70,8 @@ void draw_coverage_light(Widgets& w, const Session& session, bool explained) {
   ImGui::BeginGroup();
   w.dot(status_light(now).colour);
   ImGui::BeginGroup();
-  ImGui::TextWrapped("%s", promise(session.world()).c_str());
-  if (!remark.text.empty()) ImGui::TextWrapped("%s", remark.text.c_str());
+  w.wrapped_text("Promise", promise(session.world()));
+  if (!remark.text.empty()) w.wrapped_text("Remark", remark.text);
   ImGui::EndGroup();
   ImGui::EndGroup();
   const bool clicked = ImGui::IsItemClicked();

@@ -1,7 +1,6 @@
 // The hash table: a square for each bucket, coloured by its load.
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include <fmt/core.h>
@@ -27,7 +26,7 @@ void draw_squares(Widgets& w, const Session& session, const BucketGrid& grid, co
     return ImVec2(origin.x + static_cast<float>(s % grid.columns) * grid.side,
                   origin.y + static_cast<float>(s / grid.columns) * grid.side);
   };
-  const float scale = std::log2(static_cast<float>(max_load));
+  const float scale = std::log2(static_cast<float>(std::max(2u, max_load)));
   for (std::uint32_t s = 0; s < grid.squares(); ++s) {
     const auto load = static_cast<float>(squares[s].load);
     if (load == 0 && gap == 0) continue;
@@ -69,18 +68,18 @@ void draw_load_scale(Widgets& w, std::uint32_t max_load) {
   ImGui::Dummy({bar, height});
   ImGui::SameLine();
   w.text_line(grouped(max_load));
-  w.register_item("Load scale", "Number of entries in a bucket. Grey squares are empty (§2.2).");
+  w.register_item("Load scale", fmt::format("Number of entries in a bucket, {} in the fullest. Grey squares are empty "
+                                            "(§2.2).",
+                                            grouped(max_load)));
 }
 
-void draw_summary(const Session& session, const BucketGrid& grid) {
+void draw_summary(Widgets& w, const Session& session, const BucketGrid& grid) {
   const std::size_t used = session.inspector.shown_geometry().loads.size();
   std::string text = grouped(grid.buckets) + (grid.buckets == 1 ? " bucket, " : " buckets, ");
   text += used == 0 ? "none used" : grouped(used) + " used";
   if (grid.per_square > 1) text += ", " + grouped(grid.per_square) + " per square (the fullest shows)";
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextWrapped("%s", text.c_str());
-  ImGui::PopStyleColor();
-  ImGui::TextDisabled("%s", shown_method_text(session).c_str());
+  w.pale_text(text);
+  w.pale_text(shown_method_text(session));
 }
 
 }  // namespace
@@ -96,18 +95,18 @@ void draw_hash_table(Widgets& w, const Session& session) {
   const ImVec2 size{ImGui::GetContentRegionAvail().x, w.px(grid_height)};
   if (table.buckets == 0) {
     ImGui::Dummy({size.x, 0.4f * size.y});
-    ImGui::TextWrapped("The scene is too large to show the table of %s while it moves. Pause to see it.",
-                       session.inspector.shown_method().name.c_str());
+    w.wrapped_text("No table",
+                   fmt::format("The scene is too large to show the table of {} while it moves. Pause to see it.",
+                               session.inspector.shown_method().name));
     ImGui::Dummy({size.x, 0.4f * size.y});
     return;
   }
   const BucketGrid grid = BucketGrid::fit(table.buckets, size.x, size.y, std::floor(w.px(min_square)));
   const std::vector<collide::BucketLoad>& squares = session.inspector.fullest_buckets(grid.per_square);
-  const std::uint32_t longest = std::ranges::max(squares, {}, &collide::BucketLoad::load).load;
-  const std::uint32_t max_load = std::max(8u, std::bit_ceil(longest));  // so that it rarely changes
+  const std::uint32_t max_load = std::max(1u, std::ranges::max(squares, {}, &collide::BucketLoad::load).load);
   draw_squares(w, session, grid, size, max_load);
   draw_load_scale(w, max_load);
-  draw_summary(session, grid);
+  draw_summary(w, session, grid);
 }
 
 }  // namespace app::ui

@@ -1,7 +1,5 @@
 #include "app/ui/views/views.h"
 
-#include <algorithm>
-
 namespace app::ui {
 namespace {
 
@@ -20,14 +18,8 @@ void draw_question(Widgets& w, const session::Import& import) {
 
 }  // namespace
 
-void draw_import_report(Widgets& w, const session::Import& import, const ScreenRect& area) {
+void draw_import_report(Widgets& w, const session::Import& import) {
   const bool asks = !import.question().empty();
-  if (import.report().empty() && !import.busy() && !asks) return;
-  const float margin = w.px(12), width = std::min(w.px(360), area.max.x - area.min.x - 2 * margin);
-  ImGui::SetNextWindowPos({area.min.x + margin, area.max.y - margin}, ImGuiCond_Always, {0, 1});
-  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, area.max.y - area.min.y - 2 * margin});
-  ImGui::SetNextWindowSize({width, 0});
-  ImGui::Begin("Import", nullptr, frameless_window & ~ImGuiWindowFlags_NoScrollbar);
   for (const session::Import::FileReport& report : import.report()) {
     for (const std::string& line : report.lines) w.wrapped_text("Import report", line, report.refused);
     if (&report != &import.report().back()) ImGui::Separator();
@@ -41,7 +33,6 @@ void draw_import_report(Widgets& w, const session::Import& import, const ScreenR
   if ((asks || (!import.report().empty() && !import.busy())) &&
       w.button("Close###Close import report", "Closes this report.", w.px(80)))
     w.ask([](Session& s) { s.import.dismiss_report(); });
-  ImGui::End();
 }
 
 }  // namespace app::ui

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <fmt/core.h>
 
@@ -12,8 +11,6 @@
 
 namespace app::ui {
 namespace {
-
-constexpr double hint_seconds = 20, fade_seconds = 2;
 
 std::string missed_text(const Session& session) {
   const compare::CompareReport& report = session.comparison.report();
@@ -25,39 +22,45 @@ std::string missed_text(const Session& session) {
                      grouped(report.true_contacts), rounded_down(row->recall));
 }
 
-void draw_legend_line(Widgets& w, const render::LegendLine& line) {
-  if (line.colour) w.swatch(*line.colour);
-  line.pale ? ImGui::TextDisabled("%s", line.text.c_str()) : ImGui::TextUnformatted(line.text.c_str());
-  if (line.colour) w.register_item("Legend");
-  if (!line.scale) return;
-  ImGui::SameLine();
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = w.px(120), top = at.y + w.px(4), height = w.px(8);
-  draw_colour_scale({at.x, top}, width, top + height, 30, line.scale);
-  ImGui::Dummy({width, height});
-  ImGui::SameLine();
-  ImGui::TextDisabled("%s", line.end.c_str());
-}
+/// Draws the lines of a legend one below another, or one behind another where they fit.
+class LegendLines {
+ public:
+  LegendLines(Widgets& widgets, bool flows) : w_(widgets), flows_(flows) {}
 
-void draw_bucket_legend(Widgets& w, const Session& session) {
-  ImGui::Text("Bucket %s", grouped(*session.inspector.selected_bucket()).c_str());
-  draw_legend_line(w, {"entry of the chosen cell", render::same_cell_colour});
-  draw_legend_line(w, {"entry of another cell (aliasing)", render::aliased_colour});
-}
+  void draw(const render::LegendLine& line) {
+    const float gap = w_.px(18), text = ImGui::CalcTextSize(line.text.c_str()).x;
+    const float width = text + (line.colour ? 0.7f * ImGui::GetFontSize() + ImGui::GetStyle().ItemSpacing.x : 0) +
+                        (line.scale ? w_.px(scale_width) + ImGui::CalcTextSize(line.end.c_str()).x + 2 * gap : 0);
+    if (flows_ && !first_) {
+      ImGui::SameLine(0, gap);
+      if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+    }
+    first_ = false;
+    ImGui::BeginGroup();
+    if (line.colour) w_.swatch(*line.colour);
+    const std::string lines = wrapped(line.text, ImGui::GetContentRegionAvail().x);
+    line.pale ? ImGui::TextDisabled("%s", lines.c_str()) : ImGui::TextUnformatted(lines.c_str());
+    if (line.scale) draw_scale(line);
+    ImGui::EndGroup();
+    w_.register_item("Legend");
+  }
 
-/// Draws text on the scene, centred, with a light background that keeps it legible on any colour. Its lower end is at
-/// `y`. Returns its upper end.
-float draw_scene_text(const Widgets& w, const char* text, float y, const ScreenRect& area, float alpha) {
-  const ImVec2 pad{w.px(10), w.px(4)};
-  const float room = area.max.x - area.min.x - 4 * pad.x;
-  const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, room);
-  const ImVec2 at{std::floor(0.5f * (area.min.x + area.max.x - size.x)), std::floor(y - size.y)};
-  ImDrawList* draw = ImGui::GetBackgroundDrawList();
-  draw->AddRectFilled({at.x - pad.x, at.y - pad.y}, {at.x + size.x + pad.x, at.y + size.y + pad.y},
-                      to_imgui(glm::vec3(1.0f), 0.65f * alpha), w.px(6));
-  draw->AddText(nullptr, 0, at, to_imgui(glm::vec3(0.15f), alpha), text, nullptr, room);
-  return at.y - pad.y;
-}
+ private:
+  static constexpr float scale_width = 120;  // design pixels
+
+  void draw_scale(const render::LegendLine& line) {
+    ImGui::SameLine();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = w_.px(scale_width), top = at.y + w_.px(4), height = w_.px(8);
+    draw_colour_scale({at.x, top}, width, top + height, 30, line.scale);
+    ImGui::Dummy({width, height});
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", line.end.c_str());
+  }
+
+  Widgets& w_;
+  bool flows_, first_ = true;
+};
 
 }  // namespace
 
@@ -94,15 +97,7 @@ std::string reference_sentence(const compare::CompareReport& report) {
   return report.reference_note.empty() ? text : text + ": " + report.reference_note;
 }
 
-float draw_status(Widgets& w, const Session& session, bool explained, FloatingBox& box, const ScreenRect& area) {
-  const float side = ImGui::GetFrameHeight();
-  box.begin(w, "Status", area, box_width(w, area), false);
-  const ImVec2 top = ImGui::GetCursorScreenPos();
-  ImGui::SetCursorScreenPos({top.x + ImGui::GetContentRegionAvail().x - side, top.y});
-  if (w.button("x###Close lights", "Puts the lights away (L). Drag the box to move it.", side))
-    w.ask([](UiState& ui) { ui.lights = false; });
-  ImGui::SetCursorScreenPos(top);
-  ImGui::PushTextWrapPos(ImGui::GetContentRegionMax().x - side);
+void draw_status(Widgets& w, const Session& session, bool explained) {
   draw_coverage_light(w, session, explained);
   w.text_line(missed_text(session));
   const std::string against = reference_sentence(session.comparison.report());
@@ -110,22 +105,6 @@ float draw_status(Widgets& w, const Session& session, bool explained, FloatingBo
       "Live recall",
       "Contacts of a recent frame that the driving method missed. Recall is the share that it found. " + against + ".");
   if (session.simulated()) draw_step_light(w, session);
-  ImGui::PopTextWrapPos();
-  return box.end(area);
-}
-
-float draw_notices(Widgets& w, const Session& session, const std::string& no_room_message, const ScreenRect& area) {
-  const session::Notice& notice = session.simulation.notice;
-  if (notice.text().empty() && no_room_message.empty()) return area.min.y;
-  const float margin = w.px(12);
-  ImGui::SetNextWindowPos({area.min.x + margin, area.min.y + margin});
-  ImGui::SetNextWindowSize({box_width(w, area), 0});
-  ImGui::Begin("Notices", nullptr, frameless_window | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
-  if (!no_room_message.empty()) w.wrapped_text("No room", no_room_message);
-  if (!notice.text().empty()) w.wrapped_text("Notice", notice.text(), notice.is_error());
-  const float end = ImGui::GetWindowPos().y + ImGui::GetWindowHeight();
-  ImGui::End();
-  return end;
 }
 
 bool has_legend(const Session& session, const render::Overlays& shown) {
@@ -134,7 +113,8 @@ bool has_legend(const Session& session, const render::Overlays& shown) {
          });
 }
 
-void draw_legend(Widgets& w, const Session& session, const render::Overlays& shown, bool names_method) {
+void draw_legend(Widgets& w, const Session& session, const render::Overlays& shown, bool names_method, bool flows) {
+  LegendLines lines(w, flows);
   const bool table = render::shows(shown, render::OverlayBasis::table);
   const render::LegendFacts facts{session.world(), table ? &session.inspector.shown_geometry() : nullptr,
                                   session.comparison.missed(),
@@ -142,46 +122,17 @@ void draw_legend(Widgets& w, const Session& session, const render::Overlays& sho
   const auto draw_rows = [&](bool of_table) {
     for (const render::OverlayRow& row : render::overlay_table)
       if (row.legend && shown.*row.shown && (row.basis == render::OverlayBasis::table) == of_table)
-        for (const render::LegendLine& line : row.legend(facts)) draw_legend_line(w, line);
+        for (const render::LegendLine& line : row.legend(facts)) lines.draw(line);
   };
   draw_rows(true);
   if (names_method && (table || session.inspector.bucket()))
-    ImGui::TextDisabled("%s", shown_method_text(session).c_str());
-  if (session.inspector.bucket()) draw_bucket_legend(w, session);
+    lines.draw({.text = shown_method_text(session), .pale = true});
+  if (session.inspector.bucket()) {
+    lines.draw({"Bucket " + grouped(*session.inspector.selected_bucket())});
+    lines.draw({"entry of the chosen cell", render::same_cell_colour});
+    lines.draw({"entry of another cell (aliasing)", render::aliased_colour});
+  }
   draw_rows(false);
-}
-
-void draw_floating_legend(Widgets& w, const Session& session, const render::Overlays& shown, const ScreenRect& area) {
-  if (!has_legend(session, shown)) return;
-  const float margin = w.px(12);
-  ImGui::SetNextWindowPos({area.min.x + margin, area.min.y + w.px(8)});
-  ImGui::Begin("Legend", nullptr, frameless_window | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
-  // The window's width depends on the text, so the text must not wrap at the window's width.
-  ImGui::PushTextWrapPos(area.max.x - area.min.x - 2 * margin - ImGui::GetStyle().WindowPadding.x);
-  draw_legend(w, session, shown, true);
-  ImGui::PopTextWrapPos();
-  ImGui::End();
-}
-
-double seconds_to_hint_change(double seconds) {
-  if (seconds > hint_seconds) return std::numeric_limits<double>::infinity();
-  constexpr double fade_step = 1.0 / 30;
-  return std::max(fade_step, hint_seconds - fade_seconds - seconds);
-}
-
-float draw_caption(Widgets& w, const Session& session, const ScreenRect& area, double seconds) {
-  const float bottom = area.max.y - w.px(14), line = ImGui::GetTextLineHeight() + w.px(14);
-  float hint = bottom - line;  // a line stays free for the caption, so that the hint does not move
-  if (!session.simulation.caption().empty())
-    hint = std::min(hint, draw_scene_text(w, session.simulation.caption().c_str(), bottom, area, 1.0f) - w.px(10));
-  const float alpha = static_cast<float>(std::clamp((hint_seconds - seconds) / fade_seconds, 0.0, 1.0));
-  if (alpha <= 0) return hint;
-  const char* text = session.simulated()
-                         ? "Drag a body to pull it. Drag the background to orbit. B throws a body. "
-                           "G:\u00a0tour. F1:\u00a0help."
-                         : "Drag to orbit. Click a body to select it. V:\u00a0compare the methods. G:\u00a0tour. "
-                           "F1:\u00a0help.";
-  return draw_scene_text(w, text, hint, area, alpha);
 }
 
 }  // namespace app::ui

@@ -1,11 +1,11 @@
 #pragma once
-// What stands over the scene even if the panel is hidden: the status lights with the live recall, the legend of the
-// overlays, the scene's caption, and hints for newcomers.
+// What the strip above the scene shows even if the panel is hidden: the status lights with the live recall, and the
+// legend of the overlays.
 
 #include "app/render/overlays.h"
 #include "app/session/session.h"
 #include "app/ui/state/ui_state.h"
-#include "app/ui/widgets/floating_box.h"
+#include "app/ui/widgets/dock.h"
 
 namespace app::ui {
 
@@ -39,25 +39,13 @@ double rounded_down(double share);
 /// Returns "Measured against ...", with the reason if that is not brute force.
 std::string reference_sentence(const compare::CompareReport& report);
 
-/// Draws the two lights and the recall in `box` over `area`. Returns the lower end (y) of a box that stands in its
-/// place, else the upper end of the area. `explained`: the meaning of all three colours is shown.
-float draw_status(Widgets& widgets, const Session& session, bool explained, FloatingBox& box, const ScreenRect& area);
-/// Draws Layout::no_room_message and the session's notice, if any, at the upper edge of `area`. Returns their lower end
-/// (y).
-float draw_notices(Widgets& widgets, const Session& session, const std::string& no_room_message,
-                   const ScreenRect& area);
+/// Draws the two lights and the recall. `explained`: the meaning of all three colours is shown.
+void draw_status(Widgets& widgets, const Session& session, bool explained);
 /// True if an overlay that is shown needs a legend.
 bool has_legend(const Session& session, const render::Overlays& shown);
-/// Draws the legend of the overlays into the current window. `names_method`: it also names the method whose boxes and
-/// cells are shown.
-void draw_legend(Widgets& widgets, const Session& session, const render::Overlays& shown, bool names_method);
-/// Draws the legend, if any, over the scene in the upper left corner of `area`.
-void draw_floating_legend(Widgets& widgets, const Session& session, const render::Overlays& shown,
-                          const ScreenRect& area);
-/// Draws the caption and the hint at the lower edge of `area`. Returns their upper end (y). `seconds`: since the window
-/// opened; the hint fades out after a while.
-float draw_caption(Widgets& widgets, const Session& session, const ScreenRect& area, double seconds);
-/// Returns the seconds until the hint looks otherwise; infinity once it is gone.
-double seconds_to_hint_change(double seconds);
+/// Draws the legend of the overlays, if any. `names_method`: it also names the method whose boxes and cells are shown.
+/// `flows`: several entries stand in a line.
+void draw_legend(Widgets& widgets, const Session& session, const render::Overlays& shown, bool names_method,
+                 bool flows);
 
 }  // namespace app::ui

@@ -1,7 +1,5 @@
 #include "app/ui/views/story_card.h"
 
-#include <algorithm>
-
 #include <fmt/core.h>
 
 #include "app/render/palette.h"
@@ -45,6 +43,32 @@ void draw_method(Widgets& w, const session::LiveComparison& comparison, std::siz
   w.register_item(fmt::format("Story of {}", its.name), its.summary);
 }
 
+std::string missed_share(const compare::RunTotals& run) {
+  return fmt::format("misses {:.2g} %", 100 * (1 - run.recall()));
+}
+
+/// Says what cells of half the automatic size cost, beside the exact method.
+std::string small_cells_sentence(const compare::Price& price) {
+  const auto& [cell, run] = price.runs[compare::Price::small_cells];
+  const compare::RunTotals& exact = price.runs[compare::Price::exact].totals;
+  std::string sunk = "nothing sinks";
+  if (run.inside > 0)
+    sunk = fmt::format("bodies end {:.2f} m inside each other", run.depth);
+  else if (run.deepest > exact.deepest)
+    sunk = fmt::format("bodies sink {:.2f} m into each other, but come out again", run.deepest);
+  return fmt::format("Cells of {:.2f} m: the paper's method {}, takes {:.1f} times as long as the exact one, and {}.",
+                     cell, missed_share(run), run.detect_ms / exact.detect_ms, sunk);
+}
+
+/// Says as honestly what the automatic cells cost.
+std::string automatic_cells_sentence(const compare::Price& price, float tolerance) {
+  const auto& [cell, run] = price.runs[compare::Price::automatic_cells];
+  const std::string sunk = run.inside > 0 ? fmt::format("bodies end {:.2f} m inside each other", run.depth)
+                                          : std::string("nothing ends inside another body");
+  return fmt::format("Automatic cells ({:.2f} m): it {}, and {}. Bodies touch later, by up to {:.2g} m.", cell,
+                     missed_share(run), sunk, tolerance);
+}
+
 const char* reason(collide::Coverage coverage) {
   return coverage == collide::Coverage::exceeded
              ? "Why: some boxes are larger than a cell. Their corners skip cells, and what lies there is never "
@@ -85,24 +109,34 @@ std::string StoryCard::sentence(const Session& session) const {
          "a face of the grid.";
 }
 
-float StoryCard::draw(Widgets& w, const Session& session, const ScreenRect& area) {
+void StoryCard::draw(Widgets& w, const Session& session) {
   follow(session);
-  box_.begin(w, "Story", area, box_width(w, area), true);
-  if (w.closable_heading("Contacts found in the same frame###story",
-                         "Puts this card away (W or Esc). W brings it back."))
-    w.ask([](UiState& ui) { ui.set_story(false); });
   draw_method(w, session.comparison, compare::method_index(collide::paper_method), " (the paper's)");
   if (const auto exact = exact_method(session)) draw_method(w, session.comparison, *exact, "");
-  // The sentence has the same height whatever its length, so that the button does not move.
-  const float top = ImGui::GetCursorPosY(), lines = 2 * ImGui::GetTextLineHeight();
-  w.wrapped_text("Story sentence", sentence(session));
-  ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), top + lines + ImGui::GetStyle().ItemSpacing.y));
+}
+
+void StoryCard::draw_sentence(Widgets& w, const Session& session) const {
+  const auto draw = [&w](const char* button, const char* tooltip, const char* label, const std::string& text,
+                         const auto& request) {
+    if (w.button(button, tooltip, w.px(120))) w.ask(request);
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    w.wrapped_text(label, text);
+  };
+  const compare::Price* price = session.price.price();
+  if (price && !price->failure.empty()) price = nullptr;
+  if (price)
+    draw("See it beside", "Starts the scene anew, with a second world beside it.", "Price",
+         small_cells_sentence(*price), [](Session& s) {
+           s.simulation.reset();
+           if (!s.simulation.beside()) s.simulation.toggle_beside();
+         });
   const bool may_miss = !session.world().all_at_rest() ||
                         (session.comparison.paper_row() && !session.comparison.paper_row()->missed.empty());
-  if (const Disabled off(!may_miss);
-      w.button("Show me a miss###Explain story", "Opens the guided tour at its page on a missed contact."))
-    w.ask([](Session& s, UiState& ui) { ui.tour.start(s, ui.overlays, miss_step); });
-  return box_.end(area);
+  const Disabled off(!may_miss);
+  draw("Show me a miss###Explain story", "Opens the guided tour at its page on a missed contact.", "Story sentence",
+       price ? automatic_cells_sentence(*price, session.world().collision().tolerance) : sentence(session),
+       [](Session& s, UiState& ui) { ui.tour.start(s, ui.overlays, miss_step); });
 }
 
 }  // namespace app::ui

@@ -2,15 +2,17 @@
 // The card of the first minute: the paper's method and an exact one on the same frame, what the former misses, and why.
 
 #include "app/session/session.h"
-#include "app/ui/widgets/floating_box.h"
+#include "app/ui/widgets/widgets.h"
 
 namespace app::ui {
 
 class StoryCard {
  public:
-  /// Draws the card in the upper right corner of `area`. Returns the lower end (y) of a card that stands in its place,
-  /// else the upper end of the area. The comparison must include the paper's method (CompareChoice::with_paper).
-  float draw(Widgets& widgets, const Session& session, const ScreenRect& area);
+  /// Draws what both methods find. The comparison must include the paper's method (CompareChoice::with_paper).
+  void draw(Widgets& widgets, const Session& session);
+  /// Draws what it costs in this scene, as far as it is known, and a sentence on what is missed, each behind a button
+  /// that shows it. Must follow draw().
+  void draw_sentence(Widgets& widgets, const Session& session) const;
 
  private:
   struct Miss {
@@ -22,7 +24,6 @@ class StoryCard {
   void follow(const Session& session);
   std::string sentence(const Session& session) const;
 
-  FloatingBox box_;
   std::uint64_t reports_ = 0, world_ = 0;
   std::optional<Miss> last_;  // in this world
 };

@@ -98,7 +98,6 @@ void draw_tour(Widgets& w, const Session& session, const Tour& tour, const Scree
   const float buttons = ImGui::GetFrameHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
   ImGui::BeginChild(fmt::format("Step {}", tour.step()).c_str(), {0, -buttons});  // each scrolls on its own
   draw_content(w, session, tour);
-  if (!session.simulation.notice.text().empty()) ImGui::TextWrapped("%s", session.simulation.notice.text().c_str());
   ImGui::EndChild();
   ImGui::Spacing();
   draw_buttons(w, tour);

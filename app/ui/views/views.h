@@ -21,9 +21,8 @@ float compare_height(std::size_t methods, float width, float scale);
 void draw_compare(Widgets& widgets, const Session& session, const UiState& ui, const ScreenRect& area);
 
 /// Draws the progress of a file that is being read, and the report on the last files until the user closes it: what was
-/// found in each and what was done to it. It stands in the lower left corner of `area`, over the scene, so that it
-/// moves nothing on the panel. Draws nothing if there is neither.
-void draw_import_report(Widgets& widgets, const session::Import& import, const ScreenRect& area);
+/// found in each and what was done to it. Draws nothing if there is neither.
+void draw_import_report(Widgets& widgets, const session::Import& import);
 
 /// Draws the hash table of the method that is shown: a square for each bucket, coloured by its load. A click asks for
 /// the bucket: its boxes are shown in the scene.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -49,6 +50,10 @@ ImVec2 tooltip_position(const ImVec2& size, float gap, float max_shift, const st
   return found != places.end() ? *found : ImVec2{x, inside(end.y + gap, size.y, display.y)};
 }
 
+void draw_wrapped(const std::string& text) {
+  ImGui::TextWrapped("%s", wrapped(text, ImGui::GetContentRegionAvail().x).c_str());
+}
+
 /// Draws text in the rest of the line. `align`: 0 is flush left, 1 flush right.
 void draw_text_in_line(const std::string& text, float align) {
   const float space = ImGui::GetContentRegionAvail().x;
@@ -67,6 +72,25 @@ const WidgetRecorder::Widget* WidgetRecorder::find(std::string_view label) const
 
 ImU32 to_imgui(const glm::vec3& colour, float alpha) {
   return ImGui::ColorConvertFloat4ToU32({colour.x, colour.y, colour.z, alpha});
+}
+
+std::string wrapped(std::string_view text, float width) {
+  std::string lines(text);
+  std::size_t line = 0, last = lines.npos;  // where the line begins, and its last space
+  for (std::size_t i = 0; i <= lines.size(); ++i) {
+    if (i < lines.size() && lines[i] != ' ' && lines[i] != '\n') continue;
+    if (last != lines.npos && ImGui::CalcTextSize(&lines[line], &lines[i]).x > width) {
+      lines[last] = '\n';
+      line = last + 1;
+    }
+    const bool before_unit = i > 0 && std::isdigit(static_cast<unsigned char>(lines[i - 1])) &&
+                             std::min(lines.find_first_of(" \n", i + 1), lines.size()) <= i + 3;
+    if (i < lines.size() && lines[i] == '\n')
+      line = i + 1, last = lines.npos;
+    else if (!before_unit)
+      last = i;
+  }
+  return lines;
 }
 
 void draw_colour_scale(ImVec2 min, float width, float bottom, int steps, glm::vec3 (*colour)(float)) {
@@ -118,10 +142,9 @@ void Widgets::keep_tooltips_off() {
 
 void Widgets::show_tooltip(std::string_view text) const {
   if (input_.clicked) return;
-  const char* end = text.data() + text.size();
-  const float wrap = px(250);
-  const ImVec2 pad = ImGui::GetStyle().WindowPadding, lines = ImGui::CalcTextSize(text.data(), end, false, wrap);
-  const ImVec2 size{lines.x + 2 * pad.x, lines.y + 2 * pad.y};
+  const std::string lines = wrapped(text, px(250));
+  const ImVec2 pad = ImGui::GetStyle().WindowPadding, extent = ImGui::CalcTextSize(lines.c_str());
+  const ImVec2 size{extent.x + 2 * pad.x, extent.y + 2 * pad.y};
   // Far from the item only beside an open list, whose other lines stay legible.
   const bool list = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   const float max_shift = list ? ImGui::GetIO().DisplaySize.y : px(80);
@@ -133,9 +156,7 @@ void Widgets::show_tooltip(std::string_view text) const {
   ImGui::SetNextWindowPos(at);
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, usual_alpha_);  // the tooltip of a disabled widget is not faint
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(wrap + pad.x);
-  ImGui::TextUnformatted(text.data(), end);
-  ImGui::PopTextWrapPos();
+  ImGui::TextUnformatted(lines.c_str());
   ImGui::EndTooltip();
   ImGui::PopStyleVar();
 }
@@ -152,7 +173,7 @@ bool Widgets::checkbox(std::string_view label, bool value, std::string_view tool
 bool Widgets::section(std::string_view label, bool open_at_first) {
   const std::string name(label);
   const auto stored = sections_.find(name);
-  if (stored != sections_.end()) ImGui::SetNextItemOpen(stored->second, ImGuiCond_Once);
+  if (stored != sections_.end()) ImGui::SetNextItemOpen(stored->second);
   const bool open = ImGui::CollapsingHeader(name.c_str(), open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
   if (stored == sections_.end() || open != stored->second) ask([name, open](UiState& ui) { ui.sections[name] = open; });
   return register_item(open, label, "");
@@ -202,7 +223,7 @@ void Widgets::row_label(std::string_view label, float column) {
 
 void Widgets::text_line(const std::string& text) {
   if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x)
-    ImGui::TextWrapped("%s", text.c_str());
+    draw_wrapped(text);
   else
     draw_text_in_line(text, 0.0f);
 }
@@ -210,9 +231,15 @@ void Widgets::right_text(const std::string& text) { draw_text_in_line(text, 1.0f
 
 void Widgets::wrapped_text(std::string_view label, const std::string& text, bool problem) {
   if (problem) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
-  ImGui::TextWrapped("%s", text.c_str());
+  draw_wrapped(text);
   if (problem) ImGui::PopStyleColor();
   register_item(label);
+}
+
+void Widgets::pale_text(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  draw_wrapped(text);
+  ImGui::PopStyleColor();
 }
 
 void Widgets::figure(std::string_view label, const std::string& value_text, std::string_view tooltip) {

@@ -78,6 +78,10 @@ ImU32 to_imgui(const glm::vec3& colour, float alpha = 1.0f);
 /// the lower end (y).
 void draw_colour_scale(ImVec2 min, float width, float bottom, int steps, glm::vec3 (*colour)(float));
 
+/// Returns the text with line ends in place of spaces, so that no line is wider than `width` (ImGui units), except one
+/// word that is wider alone. ImGui by itself breaks lines within numbers, too. A number keeps its unit.
+std::string wrapped(std::string_view text, float width);
+
 /// Returns the first of 1, 2, 5, 10, ... times `min_end` that is not below `max`, so that an axis rarely changes.
 /// min_end > 0.
 float axis_end(float max, float min_end);
@@ -155,6 +159,8 @@ class Widgets {
   void right_text(const std::string& text);
   /// Draws text that wraps, in red if it tells of a problem. Has no tooltip.
   void wrapped_text(std::string_view label, const std::string& text, bool problem = false);
+  /// Draws grey text that wraps.
+  void pale_text(const std::string& text);
   /// Draws a line with a grey label and its value at the right.
   void figure(std::string_view label, const std::string& value, std::string_view tooltip);
   /// Draw a coloured square, or a dot, at the start of a line.
