@@ -35,7 +35,7 @@ app/files: app/base collide softbody engine
 app/compare: app/base collide softbody
 app/reference: softbody
 app/session/stability: app/base app/compare softbody
-app/session/live: app/base app/compare collide softbody
+app/session/live: app/base app/compare app/session/stability collide softbody
 app/session/export: app/base app/files app/compare engine
 app/session: app/base app/files app/compare app/session/stability app/session/live app/session/export collide softbody
 app/render: app/base app/files app/compare collide softbody engine

@@ -9,7 +9,7 @@
 
 #include "app/base/time_series.h"
 #include "app/compare/positions.h"
-#include "app/session/beside.h"
+#include "app/session/live/beside.h"
 #include "app/session/notice.h"
 #include "app/session/player.h"
 #include "app/session/simulation_clock.h"

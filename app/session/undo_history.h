@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "app/session/beside.h"
+#include "app/session/live/beside.h"
 #include "app/session/player.h"
 #include "app/session/scene_file.h"
 #include "softbody/world/snapshot.h"

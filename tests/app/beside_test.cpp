@@ -1,6 +1,6 @@
 // Two worlds side by side: each moves as it would alone, and what the user does acts in both.
 
-#include "app/session/beside.h"
+#include "app/session/live/beside.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/session/beside.h"
+#include "app/session/live/beside.h"
 
 #include <algorithm>
 #include <utility>
