@@ -117,6 +117,10 @@ void draw_solids(Widgets& w, const Session& session, const UiState& ui) {
   const auto shown = static_cast<std::size_t>(std::ranges::find(order, ui.solid.value_or(order[0])) - order.begin());
   const std::size_t chosen = choose(w, "Solid", "The solid to edit.", shown, order.size(),
                                     [&](std::size_t i) { return session::solid_name(solids, order[i]); });
+  if (ui.scrolls_to_solid) {
+    ImGui::SetScrollHereY(0);
+    w.ask([](UiState& state) { state.scrolls_to_solid = false; });
+  }
   const std::size_t index = order[chosen];
   if (chosen != shown) w.ask([index](UiState& state) { state.solid = index; });
   softbody::Solid solid = solids[index];

@@ -60,16 +60,17 @@ struct UiState : Remembered {
     hash_table = !hash_table;
     if (!hash_table) session.inspector.select_bucket(std::nullopt);
   }
-  /// Opens the section that has the values of a solid.
+  /// Brings the values of a solid into sight.
   void show_solid(std::size_t index) {
     solid = index;
-    sections["World"] = true;
+    scrolls_to_solid = sections["World"] = true;
   }
   std::string save_as = "scene.toml";  // the file that the scene is saved to ...
   session::FieldNotice save_problem;   // ... why it was not written ...
   session::FieldNotice save_question;  // ... and what the user must answer first
   std::size_t material = 0;            // whose values the panel shows
   std::optional<std::size_t> solid;    // the same; nullopt: those of the first in its list
+  bool scrolls_to_solid = false;       // the panel, in the next frame
 };
 
 }  // namespace app::ui
