@@ -56,6 +56,9 @@ class Session : private SimulationObserver {
   /// Returns true if those who look at the world may have an answer soon, though it stands still.
   bool awaits_answer() const;
 
+  /// Returns what most of the time from one picture to the next goes into: "detection", "drawing".
+  const char* slowest_part() const;
+
   /// Begins a second world that goes on from the present state by another integrator, or ends it (nothing). It begins
   /// anew whenever hands or settings change the world that is shown, which must be simulated.
   void choose_ghost(const std::optional<softbody::IntegratorChoice>& choice);

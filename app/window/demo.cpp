@@ -62,8 +62,8 @@ std::unique_ptr<Session> open_session(const DemoOptions& options, Graphics& grap
 /// Returns what the interface shows that may change without input, apart from the contents of Activity.
 auto interface_key(const Session& session) {
   return std::tuple(session.simulation.revision(), session.comparison.reports(), session.surfaces.reports(),
-                    session.simulation.notice.text(), session.exporter.message(), session.exporter.finishing(),
-                    session.sweep().running);
+                    session.simulation.notice.text(), session.import.report().size(), session.exporter.message(),
+                    session.exporter.finishing(), session.sweep().running);
 }
 using InterfaceKey = std::invoke_result_t<decltype(interface_key), const Session&>;
 
@@ -76,9 +76,11 @@ class Demo {
         session_(*session_owner_) {
     session_.settings.set_integrator(options.integrator);
     apply(preferences_.is_new() ? first_preferences(window_size()) : preferences_.stored(), session_, ui_);
-    ui_.story = ui_.story_at_start && !options.scene_given;
+    ui_.story = ui_.story_at_start && !options.scene_given && options.meshes.empty();
     store_preferences();
-    for (const std::string& mesh : options.meshes) session_.import.drop({mesh});  // each for itself: no frames
+    if (!options.meshes.empty() && !options.scene_given) session_.import.lone_options = options.apply;
+    for (const std::string& mesh : options.meshes)  // each for itself: no frames
+      session_.import.drop({mesh}, options.scene_given);
   }
 
   void run() {
