@@ -44,7 +44,7 @@ std::size_t distance(std::string_view from, std::string_view to) {
   return row.back();
 }
 
-/// Returns "; did you mean --levels?" if a word that was not expected is nearly a name, else nothing.
+/// Returns "; did you mean --levels? See " if a word that was not expected is nearly a name, else "; see ".
 std::string suggestion(const CLI::App& cli) {
   const auto given = cli.get_subcommands();
   const CLI::App& command = given.empty() ? cli : *given.front();
@@ -56,9 +56,9 @@ std::string suggestion(const CLI::App& cli) {
     const std::string word = argument.substr(0, argument.find('='));
     const auto from_word = [&](const std::string& name) { return distance(word, name); };
     const std::string nearest = std::ranges::min(names, {}, from_word);
-    if (3 * from_word(nearest) <= word.size()) return "; did you mean " + nearest + "?";
+    if (3 * from_word(nearest) <= word.size()) return "; did you mean " + nearest + "? See ";
   }
-  return {};
+  return "; see ";
 }
 
 /// Reads width and height, e.g. "1280x720".
@@ -420,7 +420,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     const auto below = cli.get_subcommands();
     const std::string command = below.empty() ? "" : below.front()->get_name() + " ";
-    throw UsageError(reason(error) + suggestion(cli) + "; see sbcollide " + command + "--help");
+    throw UsageError(reason(error) + suggestion(cli) + "sbcollide " + command + "--help");
   }
   refuse_missing_values(cli);
   if (*report) check_report(options.report);
