@@ -38,6 +38,7 @@ void run(const app::cli::Options& options) {
                          .scene_given = options.scene_given || !options.play.empty(),
                          .scene_folder = app::files::scene_folder(),
                          .meshes = options.meshes,
+                         .apply = [&](softbody::Scene& scene) { app::cli::apply(options, scene); },
                          .integrator = options.integrator,
                          .beside = beside,
                          .threads = options.threads,

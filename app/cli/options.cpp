@@ -4,7 +4,9 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <thread>
+#include <utility>
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
@@ -29,6 +31,35 @@ std::string reason(const CLI::ParseError& error) {
   if (why.starts_with(no_value)) return why.substr(no_value.size()) + ": is no number; write e.g. 0.25";
   if (!why.ends_with(value_of_flag)) return why;
   return "--" + why.substr(0, why.size() - value_of_flag.size()) + ": a flag, to be written without a value";
+}
+
+/// Returns how many letters must be added, taken out or changed to make one word of the other.
+std::size_t distance(std::string_view from, std::string_view to) {
+  std::vector<std::size_t> row(to.size() + 1);  // of the beginnings of `to` from the present beginning of `from`
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < to.size(); ++j)
+      diagonal = std::exchange(row[j + 1], std::min({row[j] + 1, row[j + 1] + 1, diagonal + (from[i] != to[j])}));
+  }
+  return row.back();
+}
+
+/// Returns "; did you mean --levels? See " if a word that was not expected is nearly a name, else "; see ".
+std::string suggestion(const CLI::App& cli) {
+  const auto given = cli.get_subcommands();
+  const CLI::App& command = given.empty() ? cli : *given.front();
+  std::vector<std::string> names;
+  for (const CLI::App* below : command.get_subcommands({})) names.push_back(below->get_name());
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const std::string& argument : cli.remaining(true)) {
+    const std::string word = argument.substr(0, argument.find('='));
+    const auto from_word = [&](const std::string& name) { return distance(word, name); };
+    const std::string nearest = std::ranges::min(names, {}, from_word);
+    if (3 * from_word(nearest) <= word.size()) return "; did you mean " + nearest + "? See ";
+  }
+  return "; see ";
 }
 
 /// Reads width and height, e.g. "1280x720".
@@ -414,7 +445,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   cli.require_subcommand(0, 1);
   add_scene_options(cli, options, beside);
   add(cli, "--size", "WxH", size, "size of the window or the pictures in pixels");
-  cli.add_option("--mesh", options.meshes, "OBJ or PLY files whose bodies join the scene in the window")
+  cli.add_option("--mesh", options.meshes,
+                 "OBJ or PLY files to open as soft bodies in the window; they join the scene of --scene if it is given")
       ->type_name("FILE")
       ->check(CLI::ExistingFile);
 
@@ -438,7 +470,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     const auto below = cli.get_subcommands();
     const std::string command = below.empty() ? "" : below.front()->get_name() + " ";
-    throw UsageError(reason(error) + "; see sbcollide " + command + "--help");
+    throw UsageError(reason(error) + suggestion(cli) + "sbcollide " + command + "--help");
   }
   refuse_missing_values(cli);
   if (*report) check_report(options.report);
@@ -462,10 +494,18 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   return options;
 }
 
-namespace {
+files::Opened open(const Options& options) {
+  if (options.scene.ends_with(".obj") || options.scene.ends_with(".ply"))
+    throw UsageError("--scene " + options.scene + ": a mesh, not a scene; `sbcollide --mesh` opens it in the window");
+  files::Opened opened = options.play.empty()
+                             ? softbody::find_scene(options.scene, files::scene_folder())
+                             : files::open_recording({options.play.begin(), options.play.end()}, options.bodies_by);
+  apply(options, opened.scene);
+  return opened;
+}
 
-/// Applies the options to a scene. may_be_saved: as a scene file, whose limits then hold.
-void apply(const Options& options, softbody::Scene& scene, bool may_be_saved) {
+void apply(const Options& options, softbody::Scene& scene) {
+  const bool may_be_saved = options.play.empty();
   scene.method = chosen_method(options.detection, scene.method).key;
   if (const auto tolerance = options.detection.tolerance; tolerance && may_be_saved)
     require_length(fmt::format("--tolerance {:.9g}", *tolerance), *tolerance, softbody::scene_key::tolerance);
@@ -478,23 +518,11 @@ void apply(const Options& options, softbody::Scene& scene, bool may_be_saved) {
   if (options.contact_surface) scene.contact_surface = softbody::find_contact_surface(*options.contact_surface)->value;
 }
 
-}  // namespace
-
-files::Opened open(const Options& options) {
-  if (options.scene.ends_with(".obj") || options.scene.ends_with(".ply"))
-    throw UsageError("--scene " + options.scene + ": a mesh, not a scene; `sbcollide --mesh` opens it in the window");
-  files::Opened opened = options.play.empty()
-                             ? softbody::find_scene(options.scene, files::scene_folder())
-                             : files::open_recording({options.play.begin(), options.play.end()}, options.bodies_by);
-  apply(options, opened.scene, options.play.empty());
-  return opened;
-}
-
 std::optional<compare::HowSimulated> second_world(const Options& options, const softbody::Scene& first) {
   if (options.beside.empty()) return std::nullopt;
   compare::HowSimulated second{first, options.beside.front().integrator};
   try {
-    apply(options.beside.front(), second.scene, true);
+    apply(options.beside.front(), second.scene);
   } catch (const UsageError& error) {
     throw UsageError(std::string("--beside: ") + error.what());
   }

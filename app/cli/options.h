@@ -93,6 +93,9 @@ int frames_per_picture(double frame_time);
 /// Returns the options; nothing if help or the version was asked for and has been printed. Throws UsageError.
 std::optional<Options> parse_options(int argc, const char* const* argv);
 
+/// Applies the options of scenes. Throws UsageError.
+void apply(const Options& options, softbody::Scene& scene);
+
 /// Returns the scene that the options name, or the recording in their files, with their settings. Throws UsageError,
 /// SceneError or MeshFileError.
 files::Opened open(const Options& options);

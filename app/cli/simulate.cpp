@@ -217,8 +217,8 @@ class Pictures {
 };
 #endif
 
-/// Writes the bodies of every Nth frame, and at rest whenever the bodies have changed. Leaves out frames with a body
-/// that is not finite.
+/// Writes the bodies of every Nth frame; at rest, with the scene around them, whenever they have changed. Leaves out
+/// frames with a body that is not finite.
 class ObjSequence {
  public:
   ObjSequence(const Options& options, std::vector<std::string>& warnings) : options_(options), warnings_(warnings) {
@@ -226,6 +226,7 @@ class ObjSequence {
     files::prepare_folder(options.out);
     for (const auto& entry : std::filesystem::directory_iterator(options.out))
       if (will_write(entry.path().filename().string())) files::require_no_input(entry.path());
+    files::OutputFile(options.out / files::surroundings_name, files::surroundings_heading);  // throws if it may not be
   }
   void take(const softbody::World& world) {
     if (!options_.obj_every || world.frame() % *options_.obj_every != 0) return;
@@ -240,6 +241,7 @@ class ObjSequence {
     if (!bodies_ || !bodies_->matches(world)) {
       bodies_.emplace(world);
       files::write_file(file("rest", world.frame()), bodies_->at_rest());
+      bodies_->write_surroundings(options_.out);
     }
     files::write_file(file("frame", world.frame()), bodies_->frame({x, y, z}));
   }

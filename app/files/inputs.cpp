@@ -44,7 +44,7 @@ void require_no_input(const fs::path& output) {
   for (const fs::path& input : protected_files)
     if (same_file(output, input))
       throw UsageError(output.string() + ": cannot be written: it is the input " + input.string() +
-                       "; name another file");
+                       "; name another file or folder");
 }
 
 }  // namespace app::files

@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include "app/files/output_file.h"
 #include "softbody/model/body_model.h"
 
 namespace app::files {
@@ -54,9 +55,30 @@ std::vector<const softbody::BodyModel*> models_of(const softbody::BodiesInMotion
   return list;
 }
 
+/// Returns the text of a scene file without names, since those of files may have any bytes; empty if there can be none:
+/// what is played may be beyond the limits of scenes. A scene needs a dropper if it has no bodies.
+std::string surroundings_of(const softbody::BodiesInMotion& world) {
+  const softbody::Scene& of = world.scene();
+  softbody::Scene scene;
+  scene.method = of.method;
+  scene.collision = of.collision;
+  scene.solids = of.solids;
+  scene.view = of.view;
+  scene.materials.resize(1);
+  scene.dropper.emplace();
+  std::string text = surroundings_heading + softbody::scene_toml(scene, {});
+  try {
+    softbody::parse_scene(text, surroundings_name);
+  } catch (const softbody::SceneError&) {
+    text.clear();
+  }
+  return text;
+}
+
 }  // namespace
 
-ObjWriter::ObjWriter(const softbody::BodiesInMotion& world) : models_(models_of(world)), first_{0} {
+ObjWriter::ObjWriter(const softbody::BodiesInMotion& world)
+    : models_(models_of(world)), first_{0}, surroundings_(surroundings_of(world)) {
   for (const softbody::BodyModel* model : models_) {
     faces_.push_back(faces_of(model->shown().mesh, first_.back()));
     rest_.add(model->shown_at_rest());
@@ -65,6 +87,10 @@ ObjWriter::ObjWriter(const softbody::BodiesInMotion& world) : models_(models_of(
 }
 
 bool ObjWriter::matches(const softbody::BodiesInMotion& world) const { return models_ == models_of(world); }
+
+void ObjWriter::write_surroundings(const std::filesystem::path& folder) const {
+  if (!surroundings_.empty()) write_file(folder / surroundings_name, surroundings_);
+}
 
 bool ObjWriter::can_write(const softbody::ConstPoints& at) {
   const auto finite = [](float axis) { return std::isfinite(axis); };

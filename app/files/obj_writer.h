@@ -1,6 +1,7 @@
 #pragma once
 // Writes bodies as OBJ text. `detect` reads it back as the same bodies with the same edges and, to the bit, positions.
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@
 namespace app::files {
 
 inline constexpr const char* rest_shape_name = "rest.obj";  // of the file at_rest() beside those of the frames
+// Of the file surroundings() beside them, which begins with the heading.
+inline constexpr const char* surroundings_name = "scene.toml";
+inline constexpr const char* surroundings_heading = "# Where the frames beside this file were recorded, for --play.\n";
 
 /// Keeps the faces and the rest positions of a world's bodies, and combines them with the positions of frames.
 class ObjWriter {
@@ -27,12 +31,16 @@ class ObjWriter {
   /// Returns the bodies at rest, inflated as they start, each about its own origin: --rest asks for distances and
   /// boxes.
   std::string at_rest() const { return frame(rest_); }
+  /// Writes the scene of the world without its bodies into a folder: the solids, the camera, and how contacts are
+  /// found. open_recording() reads it. Writes nothing if no scene file can hold it. Throws UsageError.
+  void write_surroundings(const std::filesystem::path& folder) const;
 
  private:
   std::vector<const softbody::BodyModel*> models_;  // only for comparison: the world may be gone
   std::vector<std::size_t> first_;                  // by body: its first vertex; one more at the end
   std::vector<std::string> faces_;                  // by body
   softbody::Points rest_;
+  std::string surroundings_;
 };
 
 }  // namespace app::files

@@ -99,8 +99,8 @@ OutputFile::OutputFile(fs::path path, std::string_view heading) : path_(std::mov
   require_no_input(path_);
   std::error_code ignored;
   if (const fs::file_status status = fs::status(path_, ignored); fs::exists(status)) {
-    if (!fs::is_regular_file(status)) fail("it is not a regular file", "name another file");
-    if (!may_replace(path_, heading)) fail("it exists and is not a file of this kind", "name another file");
+    if (!fs::is_regular_file(status)) fail("it is not a regular file", "name another file or folder");
+    if (!may_replace(path_, heading)) fail("it exists and is not a file of this kind", "name another file or folder");
   }
   open();
   write(heading);

@@ -4,12 +4,15 @@
 #include <cassert>
 #include <cmath>
 #include <iterator>
+#include <regex>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
+#include "app/files/inputs.h"
+#include "app/files/obj_writer.h"
 #include "collide/surface/surface.h"
 #include "softbody/world/body_model_set.h"
 
@@ -41,10 +44,20 @@ bool suits(const softbody::BodyModel& model, const collide::Shape& shape,
          model.mesh.triangles == triangles;
 }
 
+/// Returns the scene that a recording of this program left beside this frame, if it is one of its frames.
+std::optional<softbody::Scene> scene_around(const std::filesystem::path& frame) {
+  if (!std::regex_match(frame.filename().string(), std::regex("frame_[0-9]+\\.obj"))) return {};
+  const std::filesystem::path file = frame.parent_path() / surroundings_name;
+  if (std::error_code ignored; !std::filesystem::exists(file, ignored)) return {};
+  protect_input(file);
+  return softbody::load_scene(file, softbody::presets_path(scene_folder()));
+}
+
 }  // namespace
 
-Playback::Playback(std::vector<std::filesystem::path> files, std::optional<BodiesBy> by, std::size_t kept_bytes)
-    : sequence_(std::move(files), {.by = by, .may_grow = true, .any_distance = true}), free_bytes_(kept_bytes) {
+Playback::Playback(std::vector<std::filesystem::path> files, std::optional<BodiesBy> by, std::size_t kept_bytes,
+                   bool in_scene)
+    : sequence_(std::move(files), {.by = by, .may_grow = true, .any_distance = !in_scene}), free_bytes_(kept_bytes) {
   const std::shared_ptr<const RecordedFrame> first = frame(0);
   if (first->x.empty())
     throw softbody::SceneError(sequence_.file(0).string() + ": has no vertex; nothing can be played");
@@ -162,12 +175,17 @@ float Playback::usual_tolerance() {
 }
 
 Opened open_recording(const std::vector<std::filesystem::path>& files, std::optional<BodiesBy> by) {
-  const auto playback = std::make_shared<Playback>(files, by);
-  softbody::Scene scene;
+  const std::optional<softbody::Scene> around = scene_around(files.front());
+  const auto playback = std::make_shared<Playback>(files, by, Playback::max_kept_bytes, around.has_value());
+  softbody::Scene scene = around.value_or(softbody::Scene());
+  scene.bodies.clear();  // they are in the frames
+  scene.dropper.reset();
+  scene.captions.clear();
   scene.key = std::filesystem::absolute(files.front()).string();
   scene.name = files.front().filename().string();
   scene.look_at = fmt::format("{} recorded frames, from {} to {}. Nothing is simulated.", files.size(),
                               files.front().filename().string(), files.back().filename().string());
+  if (around) return {std::move(scene), playback};
   scene.collision.tolerance = playback->usual_tolerance();
   const auto bounds = playback->bounds();
   const glm::dvec3 low(bounds[0]), high(bounds[1]);

@@ -21,10 +21,10 @@ class Playback : public Recording {
   static constexpr double max_coordinate = 1e15;  // in a file, m; squares of distances must fit into a float
 
   /// Reads the first frame, and for bounds() one in the middle and the last. by: left out, the default of the first
-  /// file's format. Throws as FrameSequence does, and SceneError if the first frame cannot be read, has no vertex or
-  /// one beyond max_coordinate.
+  /// file's format. in_scene: the frames are floats of a scene and stay where they are. Throws as FrameSequence does,
+  /// and SceneError if the first frame cannot be read, has no vertex or one beyond max_coordinate.
   explicit Playback(std::vector<std::filesystem::path> files, std::optional<BodiesBy> by = {},
-                    std::size_t kept_bytes = max_kept_bytes);
+                    std::size_t kept_bytes = max_kept_bytes, bool in_scene = false);
 
   std::array<glm::vec3, 2> bounds() const override { return {glm::vec3(bounds_.lo), glm::vec3(bounds_.hi)}; }
   int frame_count() const override { return static_cast<int>(sequence_.count()); }
@@ -64,8 +64,10 @@ class Playback : public Recording {
   std::optional<Background<ReadAhead>> ahead_;  // last member: its thread ends before the others go
 };
 
-/// Returns the recording in these files, whose contacts are found with usual_tolerance(); the camera sees all of
-/// bounds(). Throws as Playback does.
+/// Returns the recording in these files. If they are called as those of a recording of this program, and the file of
+/// ObjWriter::write_surroundings() lies beside the first, that decides on the solids, the camera, and how contacts are
+/// found. Else usual_tolerance() holds, and the camera sees all of bounds(). Throws as Playback does, and SceneError if
+/// that file cannot be read.
 Opened open_recording(const std::vector<std::filesystem::path>& files, std::optional<BodiesBy> by = {});
 
 }  // namespace app::files

@@ -192,15 +192,13 @@ double SceneView::radius(const softbody::MeshSource& source) {
   return radii_.emplace_back(source, softbody::bounding_radius(source.make())).second;
 }
 
-/// Returns a sphere around all frames if that is known, else around the scene as it is set up: the solids, and the
-/// places where bodies start.
+/// Returns a sphere around the solids, and around all frames if that is known, else around the places where bodies
+/// start.
 BoundingSphere SceneView::bounds(const softbody::BodiesInMotion& world) {
-  if (const auto known = world.bounds()) {
-    const glm::dvec3 low((*known)[0]), high((*known)[1]);
-    return {glm::vec3(0.5 * (low + high)), static_cast<float>(0.5 * glm::distance(low, high))};
-  }
   const softbody::Scene& scene = world.scene();
-  glm::dvec3 lo = scene.view.target, hi = scene.view.target;
+  const auto known = world.bounds();
+  glm::dvec3 lo(known ? glm::dvec3((*known)[0]) : scene.view.target);
+  glm::dvec3 hi(known ? glm::dvec3((*known)[1]) : scene.view.target);
   const auto include = [&](const glm::dvec3& centre, double reach) {
     lo = glm::min(lo, centre - reach);
     hi = glm::max(hi, centre + reach);
@@ -214,7 +212,7 @@ BoundingSphere SceneView::bounds(const softbody::BodiesInMotion& world) {
     for (const glm::vec3& end : {c.from, c.to}) include(glm::dvec3(end), double{c.radius});
   for (const softbody::BodySource& body : scene.bodies) include(body.position, radius(body.mesh));
   if (scene.dropper) include(scene.dropper->body.position, radius(scene.dropper->body.mesh));
-  return {glm::vec3(0.5 * (lo + hi)), static_cast<float>(0.5 * glm::distance(lo, hi)) + 0.5f};
+  return {glm::vec3(0.5 * (lo + hi)), static_cast<float>(0.5 * glm::distance(lo, hi)) + (known ? 0.0f : 0.5f)};
 }
 
 engine::Camera SceneView::camera(const softbody::BodiesInMotion& world, glm::ivec2 size) {

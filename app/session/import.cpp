@@ -30,6 +30,7 @@ namespace {
 
 constexpr std::size_t many_particles = 3000;
 constexpr double finest_edge = 0.2;  // in tolerances
+constexpr const char* opening = "opening of a mesh";
 
 /// Returns the lowest height from `at` upwards at which a ball of this radius is clear of bodies and solids.
 double clear_height(const softbody::BodiesInMotion& world, glm::dvec3 at, double radius) {
@@ -42,25 +43,24 @@ double clear_height(const softbody::BodiesInMotion& world, glm::dvec3 at, double
   return at.y;
 }
 
-std::vector<std::string> lines_about(const FileReader::Mesh& read, const softbody::BodiesInMotion& world) {
-  const softbody::MeshSource& mesh = read.mesh;
+/// Returns what was found in a mesh, what was changed, and what may surprise in this scene.
+std::string text_about(const softbody::MeshSource& mesh, const softbody::BodyModel& model,
+                       const softbody::Scene& scene) {
   const softbody::ImportFindings& f = mesh.imported->findings;
-  std::vector<std::string> lines{
-      fmt::format("{}: {} vertices, {} triangles", mesh.file.path.filename().string(),
-                  grouped(mesh.imported->mesh.vertices.size()), grouped(mesh.imported->mesh.triangles.size())),
-      fmt::format("scaled from {:.4g} to {:.4g} m", f.file_extent, f.extent)};
   const std::string changed = softbody::remarks(*mesh.imported);
+  std::string text =
+      fmt::format("{}: {} vertices, scaled from {:.4g} to {:.4g} m, {}", mesh.file.path.filename().string(),
+                  grouped(mesh.imported->mesh.vertices.size()), f.file_extent, f.extent,
+                  changed.empty() ? "closed, in one piece, taken as it is" : changed);
   if (mesh.imported->simulated().vertices.size() > many_particles)
-    lines.push_back("so many particles that the world may run slower than real time");
-  if (world.scene().contact_surface == softbody::ContactSurface::vertices) {
-    const double tolerance = static_cast<double>(world.collision().tolerance);
-    if (read.model->mean_edge < finest_edge * tolerance)
-      lines.push_back("much finer than the tolerance: vertex-vertex contact may let others sink in, F is for surfaces");
-    if (read.model->covering > tolerance)
-      lines.push_back("faces wider than the tolerance: vertices may slip in between vertices, F is for surfaces");
-  }
-  lines.push_back(changed.empty() ? "closed, in one piece, taken as it is" : changed);
-  return lines;
+    text += "; so many particles that the world may run slower than real time";
+  if (scene.contact_surface != softbody::ContactSurface::vertices) return text;
+  const double tolerance = static_cast<double>(scene.collision.tolerance);
+  if (model.mean_edge < finest_edge * tolerance)
+    text += "; much finer than the tolerance: vertex-vertex contact may let others sink in, F is for surfaces";
+  if (model.covering > tolerance)
+    text += "; faces wider than the tolerance: vertices may slip in between vertices, F is for surfaces";
+  return text;
 }
 
 /// Returns a mesh without its model, or what a window can show.
@@ -83,8 +83,12 @@ bool is_mesh(const std::filesystem::path& file) {
   return strcasecmp(ending.c_str(), ".obj") == 0 || strcasecmp(ending.c_str(), ".ply") == 0;
 }
 
-/// Returns true for the file that an export of motion writes beside its frames.
-bool is_rest_shape(const std::filesystem::path& file) { return file.filename() == files::rest_shape_name; }
+bool may_be_surroundings(const std::filesystem::path& file) { return file.filename() == files::surroundings_name; }
+
+/// Returns true for the files that an export of motion writes beside its frames.
+bool is_beside_frames(const std::filesystem::path& file) {
+  return file.filename() == files::rest_shape_name || may_be_surroundings(file);
+}
 
 }  // namespace
 
@@ -103,6 +107,12 @@ std::optional<FileReader::Answer> FileReader::advance(const Question& question, 
     if (auto* mesh = std::get_if<Mesh>(&answer)) {
       begin_stage("preparing the body");
       mesh->model = softbody::shared_body_model(mesh->mesh, imported_material(mesh->mesh.imported->findings.extent));
+      if (!question.lone || background.cancelled()) return answer;
+      softbody::Scene scene = lone_scene(mesh->mesh);
+      question.lone(scene);
+      auto shown = make_window_world(scene, question.integrator, question.threads);
+      std::string text = text_about(mesh->mesh, *mesh->model, scene);
+      return World{"", std::move(text), std::move(scene), std::move(shown), std::move(*mesh)};
     } else if (auto& world = std::get<World>(answer); !background.cancelled()) {
       world.shown = show_in_window(world.opened, question.threads);
     }
@@ -123,6 +133,32 @@ softbody::BodySource place_above(const softbody::BodiesInMotion& world, softbody
   const glm::dvec3 at = scene.dropper ? scene.dropper->body.position : scene.view.target + glm::dvec3(0, 1, 0);
   body.position = {at.x, clear_height(world, at, radius), at.z};
   return body;
+}
+
+softbody::Scene lone_scene(softbody::MeshSource mesh) {
+  assert(mesh.imported);
+  const double extent = mesh.imported->findings.extent;
+  double lowest = 0;  // m, below the mesh's origin
+  for (const glm::dvec3& vertex : mesh.imported->mesh.vertices) lowest = std::min(lowest, vertex.y);
+  softbody::Scene scene;
+  scene.key = mesh.file.path.string();
+  scene.name = mesh.file.path.filename().string();
+  scene.look_at = "Your mesh falls on the ground. D drops another one, and B throws one.";
+  // With a tolerance as wide as some faces, the detector would find most vertices of a fine mesh near each other. So
+  // surfaces meet, unless there are so many that this takes too long.
+  scene.collision.tolerance = static_cast<float>(0.02 * extent);
+  if (mesh.imported->simulated().vertices.size() <= softbody::max_simulated_vertices)
+    scene.contact_surface = softbody::ContactSurface::surfaces;
+  scene.materials = {imported_material(extent)};
+  scene.solids = {{softbody::Ground{}}};
+  scene.view = {.target = {0, 0.6 * extent, 0}, .distance = 2.4 * extent};
+  softbody::BodySource body;
+  body.mesh = std::move(mesh);
+  body.position = {0, 0.5 * extent - lowest, 0};
+  scene.bodies = {body};
+  body.position.y += 1.5 * extent;
+  scene.dropper = softbody::Dropper{.body = std::move(body), .spread = 0.1 * extent};
+  return scene;
 }
 
 Material imported_material(double extent) {
@@ -155,7 +191,15 @@ void Import::cancel() {
   if (reading_) reader_.cancel();
 }
 
+void Import::age(double elapsed) {
+  report_age_ += std::min(elapsed, 0.5);  // a picture may have taken long
+  if (report_age_ < max_report_age || busy()) return;
+  std::erase_if(report_, [](const FileReport& each) { return !each.refused; });
+  lone_.clear();
+}
+
 void Import::add(FileReport file_report) {
+  report_age_ = 0;
   report_.push_back(std::move(file_report));
   if (report_.size() <= max_file_reports) return;
   const auto newest = report_.end() - 1,
@@ -164,7 +208,7 @@ void Import::add(FileReport file_report) {
 }
 
 void Import::refuse(const std::string& why) {
-  if (is_dropped_) return add({.lines = {why}, .refused = true});
+  if (is_dropped_) return add({.text = why, .refused = true});
   problem_.set(path, why);
 }
 
@@ -172,7 +216,7 @@ void Import::load() {
   if (path.empty() || reading_) return;
   report_.clear();
   problem_.clear();
-  is_dropped_ = false;
+  is_dropped_ = joins_ = false;
   open();
 }
 
@@ -190,13 +234,17 @@ void Import::read(decltype(FileReader::Question::file) file) {
   began_ = std::chrono::steady_clock::now();
   reading_ = true;
   stage_.clear();
-  reader_.offer({std::move(file), simulation_.threads()});
+  const softbody::World* now = simulation_.simulated();
+  reader_.offer({std::move(file), simulation_.threads(), joins_ ? nullptr : lone_options,
+                 now ? now->integrator_choice() : softbody::IntegratorChoice{}});
 }
 
-void Import::drop(const std::vector<std::string>& files) {
+void Import::drop(const std::vector<std::string>& files, bool into_scene) {
   std::vector<std::string> frames;
-  if (!busy() && !frames_ && std::ranges::all_of(files, is_mesh))
-    std::ranges::remove_copy_if(files, std::back_inserter(frames), is_rest_shape);
+  const auto may_belong = [](const std::string& file) { return is_mesh(file) || may_be_surroundings(file); };
+  if (!busy() && !frames_ && std::ranges::all_of(files, may_belong))
+    std::ranges::remove_copy_if(files, std::back_inserter(frames), is_beside_frames);
+  if (!files.empty() && !busy()) joins_ = into_scene;
   if (frames.size() > 1) {
     together_ = files;
     // A file manager gives them in any order. Numbers count as numbers: 9 comes before 10.
@@ -226,6 +274,7 @@ void Import::play() {
 void Import::import_each() {
   assert(frames_);
   const std::vector<std::string> files = std::exchange(frames_, std::nullopt)->files;
+  joins_ = false;
   dropped_.insert(dropped_.begin(), files.begin(), files.end());
   open_next();
 }
@@ -257,6 +306,7 @@ void Import::open_next() {
 bool Import::take(FileReader::Answer answer) {
   if (std::vector<std::string> files = std::exchange(together_, {}); !files.empty()) {
     if (auto* world = std::get_if<FileReader::World>(&answer)) {
+      std::erase_if(files, may_be_surroundings);
       frames_.emplace(Frames{std::move(files), std::move(*world)});
       if (!simulation_.simulated()) play();  // no body could join
     } else {                                 // they are no frames
@@ -265,6 +315,7 @@ bool Import::take(FileReader::Answer answer) {
   } else if (const auto* why = std::get_if<std::string>(&answer)) {
     refuse(*why);
   } else if (auto* mesh = std::get_if<FileReader::Mesh>(&answer)) {
+    if (!lone_.empty()) lone_.push_back(*mesh);
     return join(std::move(*mesh));
   } else {
     enter(std::move(std::get<FileReader::World>(answer)));
@@ -273,17 +324,36 @@ bool Import::take(FileReader::Answer answer) {
 }
 
 void Import::enter(FileReader::World answer) {
+  const bool may_join = simulation_.simulated();
   try {
-    scenes_.enter(std::move(answer.shown), std::move(answer.opened.scene), answer.path.string());
-    add({.lines = {std::move(answer.what)}});
+    scenes_.enter(std::move(answer.shown), std::move(answer.opened.scene), answer.path.string(),
+                  answer.lone ? opening : "choice of scene");
+    add({.text = std::move(answer.what)});
+    joins_ = answer.lone.has_value();
+    lone_.clear();
+    if (joins_ && may_join) lone_.push_back(std::move(*answer.lone));
   } catch (const std::exception& error) {
     refuse(error.what());
   }
 }
 
+bool Import::can_join() const {
+  return !lone_.empty() && simulation_.world().scene().key == lone_.front().mesh.file.path.string() &&
+         simulation_.can_undo();
+}
+
+void Import::join_scene_before() {
+  assert(can_join());
+  // What was changed in the lone scene goes first.
+  for (bool leaves = false; !leaves && simulation_.can_undo(); simulation_.undo()) leaves = simulation_.undoes(opening);
+  std::vector<FileReader::Mesh> meshes = std::exchange(lone_, {});
+  dismiss_report();
+  for (FileReader::Mesh& mesh : meshes) join(std::move(mesh));
+}
+
 bool Import::join(FileReader::Mesh read) {
   const std::string name = read.mesh.file.path.filename().string();
-  std::vector<std::string> lines = lines_about(read, simulation_.world());
+  std::string text = text_about(read.mesh, *read.model, simulation_.world().scene());
   Material material = imported_material(read.mesh.imported->findings.extent);
   softbody::BodySource body = place_above(simulation_.world(), std::move(read.mesh));
   const JoinedAt place{body.position, softbody::bounding_radius(body.mesh.imported->mesh)};
@@ -295,7 +365,7 @@ bool Import::join(FileReader::Mesh read) {
     return false;
   }
   joined_ = place;
-  add({.lines = std::move(lines)});
+  add({.text = std::move(text)});
   return true;
 }
 

@@ -3,6 +3,7 @@
 // reported on.
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,16 +29,19 @@ class FileReader {
   };
   struct World {
     std::filesystem::path path;  // of the scene, or of the first frame
-    std::string what;            // the line of the report
+    std::string what;            // the report
     files::Opened opened;
     ShownWorld shown;
+    std::optional<Mesh> lone{};  // whose lone_scene() it is
   };
   struct Stage {  // that was begun; the answer is not whole yet
     std::string name;
   };
   struct Question {
     std::variant<softbody::MeshFile, SceneToRead, FramesToRead> file;
-    int threads = 1;  // of the world
+    int threads = 1;                               // of the world
+    std::function<void(softbody::Scene&)> lone{};  // of a mesh that opens in its lone_scene(): changes that
+    softbody::IntegratorChoice integrator{};       // of lone_scene()
   };
   using Answer = std::variant<Stage, Mesh, World, std::string>;  // string: what failed; empty if it was cancelled
   std::optional<Answer> advance(const Question& question, Background<FileReader>& background);
@@ -50,6 +54,10 @@ class FileReader {
 /// bodies.
 softbody::BodySource place_above(const softbody::BodiesInMotion& world, softbody::MeshSource mesh);
 
+/// Returns a scene in which a body of this mesh, which must be imported, falls on the ground and nothing else is there.
+/// The camera shows it large.
+softbody::Scene lone_scene(softbody::MeshSource mesh);
+
 /// Returns the material of an imported body of this extent (m): springs, and shape matching instead of gas, which
 /// cannot keep a concave or open mesh in shape. It swings and bends like a body of 1 m and 1 kg, but a larger body
 /// weighs more.
@@ -57,9 +65,9 @@ softbody::Material imported_material(double extent);
 
 class Import {
  public:
-  /// The report on one file: lines on what was found and changed, or on why it was refused.
+  /// The report on one file: what was found and changed, or why it was refused.
   struct FileReport {
-    std::vector<std::string> lines;
+    std::string text;
     bool refused = false;
   };
   struct JoinedAt {
@@ -78,17 +86,22 @@ class Import {
   double weld = softbody::MeshFile{}.weld;  // times the size, see softbody::MeshFile
   bool z_is_up = false;                     // in the file; else y is up
   std::size_t resolution = 0;               // of particles, see softbody::MeshFile
+  /// What the command line wants of a lone_scene().
+  std::function<void(softbody::Scene&)> lone_options = [](softbody::Scene&) {};
 
-  /// Begins to read the file of `path`. A scene then replaces the present one; a mesh is added to it. problem() says
-  /// why a file is refused.
+  /// Begins to read the file of `path`, which then replaces the present scene: a mesh opens in lone_scene(). problem()
+  /// says why a file is refused.
   void load();
-  /// Does the same with files that were dropped on the window, one after another. report() says why one is refused. If
-  /// they are meshes that fit together as frames, question() asks first whether to play them; the rest shape that an
-  /// export of motion writes beside them is no frame. Files that are dropped meanwhile wait for the answer.
-  void drop(const std::vector<std::string>& files);
+  /// Does the same with files that were dropped on the window, one after another; but meshes behind the first one join
+  /// it, and if `into_scene`, all join the present scene. report() says why one is refused. If they are meshes that fit
+  /// together as frames, question() asks first whether to play them; what an export of motion writes beside them is no
+  /// frame. Files that are dropped meanwhile wait for the answer.
+  void drop(const std::vector<std::string>& files, bool into_scene = false);
   /// Takes what has been read, and begins with the next file that waits. Call it once a frame. Returns true if a mesh
   /// has joined the scene.
   bool update();
+  /// Lets `elapsed` seconds of real time pass. Reports go after a while, but refusals stay.
+  void age(double elapsed);
   /// Returns a sphere around the place where the last mesh has joined, which may be out of sight.
   const std::optional<JoinedAt>& joined() const { return joined_; }
 
@@ -112,10 +125,17 @@ class Import {
   void dismiss_report() {
     report_.clear();
     frames_.reset();
+    lone_.clear();
   }
+
+  /// Returns true if the report is on meshes in a lone_scene(), and there was a scene before that they could join.
+  bool can_join() const;
+  /// Goes back to that scene, and lets them join. Precondition: can_join().
+  void join_scene_before();
 
  private:
   static constexpr std::size_t max_file_reports = 5;
+  static constexpr double max_report_age = 15;  // s
   struct Frames {
     std::vector<std::string> files;
     FileReader::World world;
@@ -135,10 +155,13 @@ class Import {
   BodyControls& bodies_;
   FieldNotice problem_;
   bool is_dropped_ = false;  // the file that is read; else load() was called
+  bool joins_ = false;       // the next mesh; else it opens in a scene of its own
   std::vector<FileReport> report_;
-  std::vector<std::string> dropped_;   // not yet loaded
-  std::vector<std::string> together_;  // what is read now, if it may be frames
-  std::optional<Frames> frames_;       // what question() is about
+  double report_age_ = 0;               // s
+  std::vector<FileReader::Mesh> lone_;  // the meshes of the last lone_scene(), if there was a world before
+  std::vector<std::string> dropped_;    // not yet loaded
+  std::vector<std::string> together_;   // what is read now, if it may be frames
+  std::optional<Frames> frames_;        // what question() is about
   std::optional<JoinedAt> joined_;
   std::chrono::steady_clock::time_point began_;
   bool reading_ = false;

@@ -51,9 +51,9 @@ void SceneControls::choose(const std::string& key_or_path) {
   }
 }
 
-void SceneControls::enter(ShownWorld world, softbody::Scene scene, const std::string& key_or_path) {
+void SceneControls::enter(ShownWorld world, softbody::Scene scene, const std::string& key_or_path, std::string change) {
   files::protect_inputs(scene);
-  simulation_.enter(std::move(world), {std::move(scene), SceneFile(key_or_path)}, "choice of scene");
+  simulation_.enter(std::move(world), {std::move(scene), SceneFile(key_or_path)}, std::move(change));
 }
 
 softbody::Scene SceneControls::with_added_bodies() const {

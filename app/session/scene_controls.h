@@ -23,9 +23,10 @@ class SceneControls {
   std::filesystem::path presets_file() const { return softbody::presets_path(folder_); }
   /// Loads another scene with its own settings. On an error the present one stays, and the notice says why.
   void choose(const std::string& key_or_path);
-  /// The same with what shows that scene, made elsewhere with the simulation's threads(). Throws UsageError or
-  /// std::filesystem::filesystem_error, and changes nothing then.
-  void enter(ShownWorld world, softbody::Scene scene, const std::string& key_or_path);
+  /// The same with what shows that scene, made elsewhere with the simulation's threads(). `change`: the name for undo.
+  /// Throws UsageError or std::filesystem::filesystem_error, and changes nothing then.
+  void enter(ShownWorld world, softbody::Scene scene, const std::string& key_or_path,
+             std::string change = "choice of scene");
   /// The scene as it is now: the settings in use, and added bodies, each in the frame in which it came.
   softbody::Scene with_added_bodies() const;
   /// Returns a question for the user if save() would replace a file that is not the scene's own, or that has changed

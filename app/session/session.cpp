@@ -1,5 +1,9 @@
 #include "app/session/session.h"
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "app/base/heap.h"
 
 namespace app::session {
@@ -19,6 +23,7 @@ Session::Session(files::Opened opened, const std::filesystem::path& scene_folder
 
 void Session::advance(double elapsed, bool waited) {
   if (exporter.recording()) return advance_one(elapsed);
+  import.age(elapsed);
   if (!waited) add_picture(elapsed);
   run_ahead.before_advance();
   simulation.advance(elapsed);
@@ -27,6 +32,7 @@ void Session::advance(double elapsed, bool waited) {
 
 void Session::let_pass(double elapsed) {
   simulation.notice.age(elapsed);
+  import.age(elapsed);
   exchange();
 }
 
@@ -40,6 +46,7 @@ News Session::news() const {
           .comparison = comparison.reports(),
           .surfaces = surfaces.reports(),
           .price = price.price(),
+          .imported = import.report().size(),
           .notice = simulation.notice.text(),
           .exported = exporter.message(),
           .finishing = exporter.finishing(),
@@ -56,6 +63,22 @@ void Session::advance_one(double elapsed) {
 /// Records that a picture came `seconds` after the one before it.
 void Session::add_picture(double seconds) {
   simulation.history.frame_ms.push(world().frame(), static_cast<float>(seconds * 1e3));
+}
+
+const char* Session::slowest_part() const {
+  constexpr std::size_t pictures = 15;
+  const StepHistory& history = simulation.history;
+  const float picture = history.frame_ms.median(pictures), detect = history.detect_ms.median(pictures),
+              solve = history.solve_ms.median(pictures);
+  const auto beside = static_cast<float>(std::max(simulation.step_ms() - world().last_step().total_ms, 0.0));
+  const double simulated_by_step = world().last_step().seconds > 0 ? world().last_step().seconds : world().frame_time();
+  const auto steps = static_cast<float>(simulation.clock.pace() / (1e3 * simulated_by_step)) * picture;
+  using Part = std::pair<float, const char*>;  // ms
+  const std::array<Part, 4> parts{{{steps * detect, "detection"},
+                                   {steps * solve, simulated() ? "solver" : "reading"},
+                                   {steps * beside, "second world"},
+                                   {picture - steps * (detect + solve + beside), "drawing"}}};
+  return std::ranges::max(parts, {}, &Part::first).second;
 }
 
 void Session::exchange() {

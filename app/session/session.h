@@ -21,6 +21,7 @@ namespace app::session {
 struct News {
   std::uint64_t world = 0, comparison = 0, surfaces = 0;
   const compare::Price* price = nullptr;
+  std::size_t imported = 0;  // messages
   std::string notice, exported;
   bool finishing = false, sweeping = false;  // a recording; a sweep
 
@@ -65,6 +66,9 @@ class Session : private SimulationObserver {
   /// Returns true if those who look at the world may have an answer soon, though it stands still.
   bool awaits_answer() const;
   News news() const;
+
+  /// Returns what most of the time from one picture to the next goes into: "detection", "drawing".
+  const char* slowest_part() const;
 
   /// Returns the latest sweep.
   const SweepState& sweep() const { return sweep_worker.state(); }

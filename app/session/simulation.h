@@ -145,6 +145,8 @@ class Simulation {
   /// that was left by undo(), until the next such change.
   bool can_undo() const { return !kept_.empty(Way::back); }
   bool can_redo() const { return !kept_.empty(Way::forward); }
+  /// Returns true if undo() takes back a change of this name.
+  bool undoes(std::string_view change) const { return can_undo() && kept_.next(Way::back).change == change; }
   /// Go there; the notice says what was undone. They stay where they are, with an error, if there is too little memory.
   void undo() { go(Way::back); }
   void redo() { go(Way::forward); }

@@ -7,7 +7,7 @@
 namespace app::ui {
 namespace {
 
-constexpr float padding = 4, button_width = 64, state_width = 190, speed_width = 110;  // design pixels
+constexpr float padding = 4, button_width = 64, state_width = 205, speed_width = 110;  // design pixels
 
 bool is_slowed(const session::SimulationClock& clock) { return !clock.paused && clock.pace() < 0.95; }
 
@@ -15,7 +15,7 @@ std::string state_text(const Session& session) {
   const softbody::BodiesInMotion& world = session.world();
   const session::SimulationClock& clock = session.simulation.clock;
   if (clock.paused) return "paused";
-  if (is_slowed(clock)) return fmt::format("slowed to {:.0f} %", 100 * clock.pace());
+  if (is_slowed(clock)) return fmt::format("slowed to {:.0f} %: {}", 100 * clock.pace(), session.slowest_part());
   const std::size_t count = world.bodies().count(), more = bodies_to_come(world);
   std::string text = fmt::format("{} {}", grouped(count), count == 1 ? "body" : "bodies");
   if (more > 0) return text + fmt::format(", {} to come", grouped(more));
@@ -68,7 +68,7 @@ void draw_state_text(Widgets& w, const Session& session) {
   w.right_text(state_text(session));
   w.register_item("Progress", is_slowed(session.simulation.clock)
                                   ? "The machine does not keep up, or frames take more work than is allowed: the "
-                                    "simulation runs slower than real time."
+                                    "simulation runs slower than real time. Behind the colon stands what takes most."
                                   : "What the simulation does now.");
 }
 

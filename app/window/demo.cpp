@@ -68,9 +68,11 @@ class Demo {
     session_.settings.set_integrator(options.integrator);
     if (options.beside) session_.simulation.set_beside(*options.beside);
     apply(preferences_.is_new() ? first_preferences(window_size()) : preferences_.stored(), session_, ui_);
-    ui_.story = ui_.story_at_start && !options.scene_given;
+    ui_.story = ui_.story_at_start && !options.scene_given && options.meshes.empty();
     store_preferences();
-    for (const std::string& mesh : options.meshes) session_.import.drop({mesh});  // each for itself: no frames
+    if (!options.meshes.empty() && !options.scene_given) session_.import.lone_options = options.apply;
+    for (const std::string& mesh : options.meshes)  // each for itself: no frames
+      session_.import.drop({mesh}, options.scene_given);
   }
 
   void run() {

@@ -2,6 +2,7 @@
 // The demo window: a world in motion with the panel beside it.
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include <glm/vec2.hpp>
@@ -15,10 +16,11 @@ namespace app::window {
 
 struct DemoOptions {
   files::Opened opened;
-  std::string scene_name;              // its key or file
-  bool scene_given = false;            // else it is the default scene, which opens with the story
-  std::filesystem::path scene_folder;  // of the other scenes that the panel offers
-  std::vector<std::string> meshes;     // mesh files that are imported as if dropped on the window
+  std::string scene_name;                       // its key or file
+  bool scene_given = false;                     // else it is the default scene, which opens with the story
+  std::filesystem::path scene_folder;           // of the other scenes that the panel offers
+  std::vector<std::string> meshes;              // mesh files that are imported; they join a scene that is given
+  std::function<void(softbody::Scene&)> apply;  // the options of scenes, for the one in which meshes open
   softbody::IntegratorChoice integrator;
   std::optional<compare::HowSimulated> beside;  // the second world
   int threads = 1;

@@ -11,9 +11,11 @@ namespace {
 
 constexpr float max_click_length = 5;  // pixels: a longer way of the mouse is a drag
 
-/// Returns the first solid that the ray meets, if it can be dragged.
-std::optional<render::SolidPick> pick_movable(const engine::Ray& ray, const softbody::Scene& scene) {
+/// Returns the first solid that the ray meets, if it can be dragged: not where recorded bodies have met it.
+std::optional<render::SolidPick> pick_movable(const engine::Ray& ray, const Session& session) {
   constexpr double max_distance = 1000;  // m
+  const softbody::Scene& scene = session.world().scene();
+  if (!session.simulated()) return std::nullopt;
   const auto first = render::pick_solid(ray, scene, max_distance);
   return first && scene.solids[first->index].traits().half_space ? std::nullopt : first;
 }
@@ -69,7 +71,7 @@ void SceneMouse::update(const MouseInput& in, Session& session, ui::UiState& ui,
   orbited_ = {};
   const auto something_under = [&] {
     return render::pick(aim.ray, session.simulation.world(aim.half), positions_under_mouse(session, aim.half)) ||
-           pick_movable(aim.ray, session.world().scene());
+           pick_movable(aim.ray, session);
   };
   can_drag_ =
       drag_ == Drag::body || drag_ == Drag::solid || (drag_ == Drag::none && in.over_scene && something_under());
@@ -91,7 +93,7 @@ void SceneMouse::press(const MouseInput& in, const Aim& aim, Session& session, u
   const auto under = render::pick(ray, session.simulation.world(aim.half), positions_under_mouse(session, aim.half));
   pressed_on_body_ = under.has_value();
   if (!under) {
-    if (const auto solid = pick_movable(ray, session.world().scene())) {
+    if (const auto solid = pick_movable(ray, session)) {
       drag_ = Drag::solid;
       ui.show_solid(solid->index);
       held_solid_ = {solid->index, session.world().scene().solids[solid->index],

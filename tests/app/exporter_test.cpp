@@ -8,6 +8,7 @@
 #include <fstream>
 #include <set>
 
+#include "app/files/playback.h"
 #include "app/session/session.h"
 #include "tests/app/recorded_bodies.h"
 #include "tests/app/scenes.h"
@@ -217,7 +218,7 @@ TEST_F(ExporterTest, EndsWhenTheRecordingThatPlaysBeginsAgain) {
   stop();
   EXPECT_FALSE(exporter.failed()) << exporter.message();
   EXPECT_EQ(names(folder.path()), std::set<std::string>{"motion_0001"});
-  EXPECT_EQ(names(folder.path() / "motion_0001").size(), 4u) << "frames 1 to 3 and the rest shape";
+  EXPECT_EQ(names(folder.path() / "motion_0001").size(), 5u) << "frames 1 to 3, the rest shape and the scene";
 }
 
 TEST_F(ExporterTest, WritesMotionThatReadsBackAsTheSameBodies) {
@@ -230,10 +231,12 @@ TEST_F(ExporterTest, WritesMotionThatReadsBackAsTheSameBodies) {
   session.bodies.drop();
   frames(2);
   stop();
-  EXPECT_EQ(
-      names(folder.path() / "motion_0001"),
-      (std::set<std::string>{"frame_00001.obj", "frame_00002.obj", "frame_00003.obj", "frame_00004.obj", "rest.obj"}));
-  EXPECT_EQ(names(folder.path() / "motion_0002").size(), 3u) << "another body needs another folder";
+  EXPECT_EQ(names(folder.path() / "motion_0001"),
+            (std::set<std::string>{"frame_00001.obj", "frame_00002.obj", "frame_00003.obj", "frame_00004.obj",
+                                   "rest.obj", "scene.toml"}));
+  EXPECT_EQ(names(folder.path() / "motion_0002").size(), 4u) << "another body needs another folder";
+  const std::filesystem::path frame = folder.path() / "motion_0002" / "frame_00005.obj";
+  EXPECT_EQ(files::open_recording({frame}).scene.solids, session.world().scene().solids);
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const files::BodyFile file =
         files::read_bodies(folder.path() / "motion_0001" / ("frame_0000" + std::to_string(i + 1) + ".obj"));

@@ -48,6 +48,11 @@ std::string obj_of(const Globe& g) {
 
 class ImportTest : public testing::Test {
  protected:
+  /// Lets a mesh join the scene.
+  void join(const std::filesystem::path& file) {
+    import.drop({file.string()}, true);
+    wait();
+  }
   void load(const std::filesystem::path& file) {
     import.path = file.string();
     import.load();
@@ -66,8 +71,7 @@ class ImportTest : public testing::Test {
   void update() { joined += import.update(); }
   std::string report() const {
     std::string text;
-    for (const session::Import::FileReport& file_report : import.report())
-      for (const std::string& line : file_report.lines) text += line + "\n";
+    for (const session::Import::FileReport& file_report : import.report()) text += file_report.text + "\n";
     return text;
   }
   bool refused() const { return !import.report().empty() && import.report().back().refused; }
@@ -83,9 +87,72 @@ class ImportTest : public testing::Test {
   int joined = 0;  // meshes
 };
 
+TEST_F(ImportTest, OpensAMeshAloneOnTheGroundLargeInTheMiddle) {
+  run(session, 5);
+  load(folder.write("ball.obj", obj_of({.scale = 7, .bump = 0.3})));
+  const softbody::Scene& scene = session.world().scene();
+  ASSERT_EQ(session.world().bodies().count(), 1u);
+  ASSERT_EQ(scene.solids.size(), 1u);
+  EXPECT_EQ(scene.name, "ball.obj");
+  EXPECT_NEAR(centre(session.world(), 0).x, scene.view.target.x, 1e-6);
+  EXPECT_LT(scene.view.distance, 4) << "it is 1 m large";
+  EXPECT_EQ(std::ranges::count(report(), '\n'), 1) << report();
+  expect_finite_after(120);
+  EXPECT_LT(centre(session.world(), 0).y, 0.6) << "it has fallen";
+  session.bodies.drop();
+  EXPECT_EQ(session.world().bodies().count(), 2u) << "another one of its kind";
+  EXPECT_EQ(&session.world().model(1), &session.world().model(0));
+  session.simulation.undo();
+  session.simulation.undo();
+  EXPECT_EQ(session.world().scene().key, "pair");
+  EXPECT_EQ(session.world().frame(), 5) << "the scene before is back";
+}
+
+TEST_F(ImportTest, LetsAMeshJoinTheSceneBeforeItsOwn) {
+  const auto ball = folder.write("ball.obj", obj_of({}));
+  load(ball);
+  EXPECT_EQ(joined, 0);
+  ASSERT_TRUE(import.can_join());
+  run(session, 3);
+  session.bodies.drop(2);  // goes with the scene of the mesh
+  import.join_scene_before();
+  EXPECT_EQ(session.world().scene().key, "pair");
+  EXPECT_EQ(session.world().bodies().count(), 3u);
+  EXPECT_FALSE(import.can_join());
+  EXPECT_EQ(session.simulation.notice.text(), "");
+  EXPECT_EQ(std::ranges::count(report(), '\n'), 1) << report();
+  drop({ball.string(), folder.write("other.obj", obj_of({.rows = 12})).string()});
+  EXPECT_EQ(session.world().bodies().count(), 2u) << "together, and nothing else";
+  import.join_scene_before();
+  EXPECT_EQ(session.world().bodies().count(), 5u);
+  drop({ball.string()});
+  session.simulation.undo();
+  EXPECT_FALSE(import.can_join()) << "its scene was left";
+}
+
+TEST_F(ImportTest, AppliesTheOptionsOfTheCommandLineToTheSceneOfAMesh) {
+  import.lone_options = [](softbody::Scene & scene) { scene.collision.tolerance = 0.02f;
+};
+session.settings.set_integrator({.key = "xpbd"});
+load(folder.write("ball.obj", obj_of({})));
+EXPECT_EQ(session.world().collision().tolerance, 0.02f);
+EXPECT_EQ(session.simulated()->integrator_choice().key, "xpbd");
+}  // namespace THIS_FILE
+
+TEST_F(ImportTest, ClosesTheReportAfterAWhileUnlessItRefuses) {
+  load(folder.write("ball.obj", obj_of({})));
+  for (int seconds = 0; seconds < 10; ++seconds) session.let_pass(0.5);
+  EXPECT_EQ(import.report().size(), 1u);
+  drop({(folder.path() / "none.obj").string()});
+  for (int seconds = 0; seconds < 100; ++seconds) session.let_pass(0.5);
+  EXPECT_EQ(import.report().size(), 1u);
+  EXPECT_TRUE(refused());
+  EXPECT_FALSE(import.can_join());
+}
+
 TEST_F(ImportTest, AddsAMeshClearOfEverythingAndSaysWhere) {
   run(session, 5);
-  load(folder.write("seamed.obj", obj_of({.scale = 0.001, .bump = 0.3, .seam = true})));
+  join(folder.write("seamed.obj", obj_of({.scale = 0.001, .bump = 0.3, .seam = true})));
   ASSERT_EQ(session.world().bodies().count(), 3u);
   EXPECT_FALSE(refused());
   EXPECT_EQ(session.world().frame(), 5) << "the world was not restarted";
@@ -104,14 +171,13 @@ TEST_F(ImportTest, AddsAMeshClearOfEverythingAndSaysWhere) {
     for (std::size_t j = 0; j < first; ++j)
       EXPECT_GT(glm::distance(here, glm::dvec3(p.x[j], p.y[j], p.z[j])), session.world().collision().tolerance);
   }
-  load(folder.write("points.obj", "v 0 0 0\n"));
+  join(folder.write("points.obj", "v 0 0 0\n"));
   EXPECT_EQ(joined, 1) << "it was refused";
   expect_finite_after(30);
 }
 
 TEST_F(ImportTest, ReportsAnOpenMesh) {
   load(folder.write("bowl.obj", obj_of({.scale = 500, .open = true})));
-  ASSERT_EQ(session.world().bodies().count(), 3u);
   EXPECT_FALSE(last().mesh.closed);
   EXPECT_NE(report().find("open"), std::string::npos) << report();
   expect_finite_after(30);
@@ -121,7 +187,6 @@ TEST_F(ImportTest, AppliesSizeAndUpAxis) {
   import.size = 0.25f;
   import.z_is_up = true;
   load(folder.write("flat.obj", "v 0 0 0\nv 4 0 0\nv 4 1 0\nv 0 1 0\nv 0 0 2\nf 1 3 2\nf 1 4 3\nf 1 2 5\nf 2 3 5\n"));
-  ASSERT_EQ(session.world().bodies().count(), 3u);
   glm::dvec3 lo(1e9), hi(-1e9);
   for (const glm::dvec3& v : last().mesh.vertices) lo = glm::min(lo, v), hi = glm::max(hi, v);
   EXPECT_NEAR(hi.x - lo.x, 0.25, 1e-6);
@@ -130,9 +195,9 @@ TEST_F(ImportTest, AppliesSizeAndUpAxis) {
 
 TEST_F(ImportTest, SharesMaterialsAndRemovesMeshesAtAReset) {
   const auto file = folder.write("ball.obj", obj_of({}));
-  load(file);
+  join(file);
   run(session, 4);
-  load(file);
+  join(file);
   ASSERT_EQ(session.world().bodies().count(), 4u);
   EXPECT_EQ(session.world().scene().materials.size(), 2u);
   session.simulation.reset();
@@ -145,7 +210,7 @@ TEST_F(ImportTest, SharesMaterialsAndRemovesMeshesAtAReset) {
 
 TEST_F(ImportTest, SavesTheMeshWithTheScene) {
   import.weld = 0.001;
-  load(folder.write("ball.obj", obj_of({.bump = 0.1})));
+  join(folder.write("ball.obj", obj_of({.bump = 0.1})));
   ASSERT_EQ(session.scenes.save(folder.path() / "with mesh.toml", {}), "");
   const softbody::Scene saved = softbody::load_scene(folder.path() / "with mesh.toml");
   EXPECT_EQ(saved.bodies.back().mesh.file.weld, 0.001);
@@ -199,7 +264,7 @@ TEST_F(ImportTest, GivesUpWhatTheUserCancels) {
   EXPECT_EQ(session.world().bodies().count(), 2u);
   EXPECT_TRUE(import.report().empty()) << report();
   load(folder.write("small.obj", obj_of({})));
-  EXPECT_EQ(session.world().bodies().count(), 3u) << "the next one is read";
+  EXPECT_EQ(session.world().bodies().count(), 1u) << "the next one is read";
 }
 
 TEST_F(ImportTest, MakesTheBodyBesideTheWindow) {
@@ -221,7 +286,7 @@ TEST_F(ImportTest, ReportsOnEachFileOfABatch) {
   const std::string ball = folder.write("BALL.OBJ", obj_of({})).string(), none = (folder.path() / "none.obj").string(),
                     stl = (folder.path() / "model.stl").string();
   drop({none, ball, stl, ball});
-  EXPECT_EQ(session.world().bodies().count(), 4u);
+  EXPECT_EQ(session.world().bodies().count(), 2u) << "together";
   ASSERT_EQ(import.report().size(), 4u) << report();
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(import.report()[i].refused, i % 2 == 0) << report();
   for (int i = 0; i < 3; ++i) drop({ball});
@@ -250,12 +315,14 @@ TEST_F(ImportTest, AsksWhetherMeshesWithTheSameVerticesAreFramesToPlay) {
   std::vector<std::string> files;
   for (const int number : {10, 9, 1})
     files.push_back(folder.write("frame_" + std::to_string(number) + ".obj", two_triangles(number)).string());
-  drop({rest, files[0], files[1], files[2]});  // the rest shape of an export is no frame
+  const std::string scene = folder.write("scene.toml", "[ground]\n[dropper]\n").string();
+  drop({rest, files[0], scene, files[1], files[2]});  // what an export writes beside them is no frame
   EXPECT_NE(import.question().find("3 files; those read so far"), std::string::npos) << import.question();
   EXPECT_EQ(session.world().bodies().count(), 2u) << "nothing happens before the answer";
   import.play();
   EXPECT_EQ(import.question(), "");
   EXPECT_FALSE(session.simulated());
+  EXPECT_EQ(session.world().scene().solids.size(), 1u);
   for (const float gap : {1.0f, 9.0f, 10.0f, 1.0f}) {
     EXPECT_EQ(session.world().positions().z[3], gap) << "in the order of their numbers";
     session.advance(tick);
@@ -266,7 +333,7 @@ TEST_F(ImportTest, AsksWhetherMeshesWithTheSameVerticesAreFramesToPlay) {
   session.simulation.undo();
   session.simulation.undo();
   EXPECT_TRUE(session.simulated());
-  drop({files[0], files[1]});
+  drop({files[0], files[1], scene});
   import.import_each();
   wait();
   EXPECT_EQ(import.question(), "");
@@ -286,7 +353,7 @@ TEST_F(ImportTest, LosesNoFileThatIsDroppedWhileOthersAreCheckedOrAsk) {
   import.drop({late});  // before it is known that the others are no frames
   wait();
   EXPECT_EQ(import.question(), "");
-  EXPECT_EQ(session.world().bodies().count(), 5u) << report();
+  EXPECT_EQ(session.world().bodies().count(), 3u) << report();
   EXPECT_EQ(import.path, late) << "in the order in which they were dropped";
   const std::string one = folder.write("one.obj", two_triangles(1)).string(),
                     two = folder.write("two.obj", two_triangles(2)).string();
@@ -294,11 +361,11 @@ TEST_F(ImportTest, LosesNoFileThatIsDroppedWhileOthersAreCheckedOrAsk) {
   ASSERT_NE(import.question(), "");
   drop({late, late});
   EXPECT_NE(import.question(), "") << "the later files wait";
-  EXPECT_EQ(session.world().bodies().count(), 5u);
+  EXPECT_EQ(session.world().bodies().count(), 3u);
   import.import_each();
   EXPECT_EQ(import.path, one);
   wait();
-  EXPECT_EQ(session.world().bodies().count(), 9u) << report();
+  EXPECT_EQ(session.world().bodies().count(), 4u) << report();
   EXPECT_EQ(import.path, late);
 }
 
@@ -336,8 +403,8 @@ TEST_F(ImportTest, ReportsWhyAFileIsRefused) {
   EXPECT_NE(import.problem(), "");
   load(folder.write("none.obj", obj_of({})));
   EXPECT_EQ(import.problem(), "") << "mended";
-  EXPECT_EQ(session.world().bodies().count(), 3u);
+  EXPECT_EQ(session.world().bodies().count(), 1u);
 }
 
-}  // namespace THIS_FILE
+}  // namespace app
 }  // namespace app

@@ -54,6 +54,42 @@ TEST(LiveComparison, MeasuresTheRecallOfAWorldThatStandsStillAfterEveryChange) {
   EXPECT_EQ(rig.comparison.missed(), nullptr);
 }
 
+TEST(LiveComparison, SumsWhatEachMethodFoundOverAllStatesSinceTheStart) {
+  Rig rig;
+  rig.comparison.choice.on = true;
+  const std::size_t paper = compare::method_index("multi-level-sb");
+  const auto sum = [&] { return rig.comparison.sum(paper); };
+  const auto next_state = [&] {
+    ++rig.revision;
+    return rig.wait([&] { return rig.comparison.report().id == rig.revision && rig.comparison.scored_row(paper); });
+  };
+  rig.change([](softbody::Scene& s) {
+    s.collision.cell_size = glm::vec3(0.13f);
+    s.collision.buckets = 1'000'003;
+  });
+  EXPECT_EQ(sum().recall(), 1) << "of no contact";
+  std::size_t found = 0, truth = 0;
+  for (std::size_t states = 1; states <= 3; ++states) {
+    rig.world.step();
+    ASSERT_TRUE(next_state());
+    truth += rig.comparison.report().true_contacts;
+    found += rig.comparison.report().true_contacts - rig.comparison.scored_row(paper)->missed.size();
+    ASSERT_TRUE(rig.wait([&] { return !rig.comparison.awaits_report(rig.revision); })) << "each state counts once";
+    EXPECT_EQ(sum().states, states);
+    EXPECT_EQ(sum().found, found);
+    EXPECT_EQ(sum().truth, truth);
+  }
+  EXPECT_LT(found, truth);
+  rig.change([](softbody::Scene& s) { s.method = "octree"; });
+  EXPECT_EQ(sum().states, 3u) << "another driver changes no sum";
+  rig.change([](softbody::Scene& s) { s.collision.levels = 2; });
+  EXPECT_EQ(sum().states, 0u);
+  ASSERT_TRUE(next_state());
+  EXPECT_EQ(sum().states, 1u);
+  rig.comparison.restart(rig.world, ++rig.revision);
+  EXPECT_EQ(sum().states, 0u);
+}
+
 TEST(LiveComparison, TimesAllMethodsAgainAndAgainWhileAskedTo) {
   Rig rig;
   rig.comparison.choice.on = true;

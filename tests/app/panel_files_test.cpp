@@ -52,6 +52,26 @@ TEST(FilesPanel, SetsTheWeldDistanceOfTheNextMesh) {
   EXPECT_EQ(rig.session.import.weld, 0.02 / double{rig.session.import.size}) << "exactly the typed millimetres";
 }
 
+TEST(ImportReport, OffersToLetTheMeshJoinTheSceneBefore) {
+  const TemporaryFolder folder;
+  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  PanelRig rig;
+  rig.session.import.drop({folder.write("mine.obj", mesh).string()});
+  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.import.busy(); }));
+  EXPECT_EQ(rig.session.world().scene().name, "mine.obj");
+  open_only(rig, "Files");
+  EXPECT_FALSE(rig.widget("Copy").enabled) << "no option makes this scene";
+  rig.tasks.clear();
+  rig.click("Into the scene before");
+  EXPECT_EQ(rig.session.world().scene().name, "Touching pair");
+  EXPECT_EQ(rig.session.world().bodies().count(), 3u);
+  EXPECT_EQ(rig.tasks, std::vector{ui::WindowTask::show_joined});
+  EXPECT_FALSE(rig.shows("Into the scene before"));
+  rig.frames(3);
+  rig.click("Close import report");
+  EXPECT_FALSE(rig.shows("Import report"));
+}
+
 TEST(ImportReport, ListsEveryFileBelowTheStatus) {
   PanelRig rig;
   rig.resize(800, 600);

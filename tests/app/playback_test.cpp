@@ -15,6 +15,7 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "app/files/obj_writer.h"
 #include "app/session/player.h"
 #include "engine/camera.h"
 #include "tests/app/scenes.h"
@@ -209,6 +210,69 @@ TEST_F(PlaybackTest, MakesASceneWhoseToleranceSuitsTheData) {
                                    "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
                                    "property float z\nend_header\n0 0 0\n3 0 4\n");
   EXPECT_NEAR(files::open_recording({points}).scene.collision.tolerance, 0.05, 1e-6) << "a hundredth of the diagonal";
+}
+
+/// A world and a frame of it in a folder, with its surroundings.
+class SurroundingsTest : public PlaybackTest {
+ protected:
+  SurroundingsTest() {
+    world.step();
+    const collide::Frame at = world.positions();
+    const files::ObjWriter writer(world);
+    writer.write_surroundings(folder.path());
+    folder.write("frame_0001.obj", writer.frame({at.x, at.y, at.z}));
+  }
+  static softbody::Scene scene_of_world() {
+    softbody::Scene scene = touching_pair();
+    scene.name = "\xff";  // as of a file
+    scene.method = "multi-level-sb";
+    scene.collision.tolerance = 0.07f;
+    scene.collision.self_collision = false;
+    scene.view.azimuth = 77;
+    return scene;
+  }
+  files::Opened open(const char* frame = "frame_0001.obj") { return files::open_recording({folder.path() / frame}); }
+
+  softbody::World world{scene_of_world(), {}};
+};
+
+TEST_F(SurroundingsTest, KeepSolidsCameraAndHowContactsAreFound) {
+  const files::Opened opened = open();
+  EXPECT_EQ(opened.scene.name, "frame_0001.obj");
+  EXPECT_EQ(opened.scene.solids, world.scene().solids);
+  EXPECT_EQ(opened.scene.view, world.scene().view);
+  EXPECT_EQ(opened.scene.method, "multi-level-sb");
+  EXPECT_EQ(opened.scene.collision, world.scene().collision);
+  EXPECT_TRUE(opened.scene.bodies.empty());
+  EXPECT_EQ(opened.recording->frame(0)->y[0], world.positions().y[0]) << "the bodies stay at their solids";
+}
+
+TEST_F(SurroundingsTest, AreThoseOfFramesOfThisProgramAlone) {
+  for (const char* name : {"walk_0001.obj", "frame_left.obj", "frame_0001.ply.obj"}) {
+    std::filesystem::copy(folder.path() / "frame_0001.obj", folder.path() / name);
+    EXPECT_TRUE(open(name).scene.solids.empty()) << name;
+  }
+}
+
+TEST_F(SurroundingsTest, MayBeWrittenByHandAndPlayNoBodies) {
+  folder.write("scene.toml", "[[body]]\nposition = [0, 9, 0]\n[ground]\nheight = -2\n[[caption]]\ntext = \"no\"\n");
+  const files::Opened opened = open();
+  EXPECT_EQ(opened.scene.solids.size(), 1u);
+  EXPECT_TRUE(opened.scene.bodies.empty());
+  EXPECT_TRUE(opened.scene.captions.empty());
+  EXPECT_FALSE(opened.scene.dropper);
+  folder.write("scene.toml", "[ground]\nheight = 0\nfriction = 77\n");
+  expect_refusal("scene.toml:3", [&] { open(); });
+}
+
+/// Tolerances and cells of what is played may be larger than a scene file allows.
+TEST_F(SurroundingsTest, AreLeftOutWhereNoSceneFileHoldsThem) {
+  files::Opened opened = files::open_recording({write("large.obj", 1, 9e14f)});
+  opened.scene.collision.tolerance = 50;
+  const session::Player player(opened.recording, opened.scene, 1);
+  const tests::TemporaryFolder empty;
+  files::ObjWriter(player).write_surroundings(empty.path());
+  EXPECT_TRUE(std::filesystem::is_empty(empty.path()));
 }
 
 }  // namespace THIS_FILE

@@ -11,6 +11,7 @@
 
 #include "app/window/scene_mouse.h"
 #include "softbody/model/body_model.h"
+#include "tests/app/recorded_bodies.h"
 #include "tests/app/scenes.h"
 #include "tests/support/world_test_access.h"
 
@@ -103,7 +104,7 @@ TEST(Pick, HitsBodiesWhereTheyAreDrawn) {
 
 class SceneMouseTest : public testing::Test {
  protected:
-  explicit SceneMouseTest(const softbody::Scene& scene = without_solids()) : session(scene, {}, 1) {}
+  explicit SceneMouseTest(const files::Opened& opened = without_solids()) : session(opened, {}, 1) {}
   void frame(int times = 1) {
     for (int i = 0; i < times; ++i) {
       session.advance(tick);
@@ -259,6 +260,24 @@ TEST_F(SolidDrag, MovesEachKindOfSolidInThePlaneThatFacesTheCamera) {
     EXPECT_EQ(place(i), before);
     EXPECT_FALSE(session.simulation.can_undo()) << "one step a drag";
   }
+}
+
+class RecordedSolid : public SceneMouseTest {
+ protected:
+  static files::Opened scene() {
+    files::Opened balls = opened(std::make_shared<RecordedBalls>(6));
+    balls.scene.solids = {{softbody::SolidSphere{.centre = {0, 5, 0}, .radius = 1}}};
+    return balls;
+  }
+  RecordedSolid() : SceneMouseTest(scene()) {}
+};
+
+TEST_F(RecordedSolid, StaysWhereTheBodiesHaveMetIt) {
+  camera = camera_at({0, 5, 0}, 8);
+  move(pixel_of(camera, {0, 5, 0}));
+  EXPECT_FALSE(mouse.can_drag());
+  drag({40, 20});
+  EXPECT_EQ(session.world().scene().solids, scene().scene.solids);
 }
 
 TEST_F(SolidDrag, OpensTheSectionOfTheSolidAndChangesNothingByAClick) {

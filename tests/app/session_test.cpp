@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "tests/app/scenes.h"
@@ -74,6 +75,22 @@ TEST(Session, TakesNoWaitForASlowPicture) {
   for (int i = 0; i < 40; ++i) session.advance(0.04, true);
   EXPECT_EQ(session.simulation.history.frame_ms.size(), 20u);
   EXPECT_LT(session.simulation.history.frame_ms.median(15), 17);
+}
+
+TEST(Session, SaysWhatTakesTheTimeBetweenPictures) {
+  Session session(touching_pair(), {}, 1);
+  session::StepHistory& history = session.simulation.history;
+  const auto slowest = [&](float detect, float solve) {
+    for (int i = 0; i < 20; ++i) {
+      history.frame_ms.push(i, 100);  // six frames of the world
+      history.detect_ms.push(i, detect);
+      history.solve_ms.push(i, solve);
+    }
+    return std::string(session.slowest_part());
+  };
+  EXPECT_EQ(slowest(5, 1), "drawing") << "100 - 6 (5 + 1) ms";
+  EXPECT_EQ(slowest(8, 1), "detection");
+  EXPECT_EQ(slowest(1, 8), "solver");
 }
 
 TEST(Session, AgesItsNoticeWhileItWaits) {

@@ -2,7 +2,10 @@
 #include <map>
 #include <utility>
 
+#include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
+
+#include <GLFW/glfw3.h>
 
 namespace app {
 namespace THIS_FILE {
@@ -15,12 +18,11 @@ bool wait_until(PanelRig& rig, const Condition& condition) {
 
 bool has_ended(const session::SweepState& state) { return !state.running; }
 
-/// Pauses, opens the window and starts a sweep.
+/// Pauses, and opens the window, which starts a sweep.
 void sweep(PanelRig& rig) {
   rig.session.simulation.clock.paused = true;
   rig.ui.lower = ui::LowerView::sweep;
   rig.frames(3);
-  rig.click("Sweep");
 }
 
 TEST(SweepView, PlacesAPointForEachConfigurationByItsTimeAndError) {
@@ -105,6 +107,25 @@ TEST(SweepView, SweepsItsFrameWhileItIsClosedAndTheWorldChanges) {
   EXPECT_EQ(rig.session.sweep().progress, 1.0);
 }
 
+TEST(SweepView, SweepsTheFrameInWhichItIsOpenedUnlessItKnowsIt) {
+  PanelRig rig;
+  sweep(rig);
+  const int frame = rig.session.world().frame();
+  ASSERT_TRUE(wait_until(rig, has_ended));
+  const auto toggle = [&] { handle_key(GLFW_KEY_E, false, rig.session, rig.ui); };
+  const auto opens_with = [&](int swept, bool running) {
+    toggle();
+    toggle();
+    EXPECT_EQ(rig.session.sweep().frame, swept);
+    EXPECT_EQ(rig.session.sweep().running, running);
+  };
+  opens_with(frame, false);
+  rig.session.simulation.clock.single_step();
+  rig.frames(2);
+  EXPECT_EQ(rig.session.sweep().frame, frame) << "it stays open";
+  opens_with(frame + 1, true);
+}
+
 TEST(SweepView, AppliesTheSettingsOfTheClickedPoint) {
   PanelRig rig;
   rig.session.comparison.choice.methods = compare::all_methods();
@@ -139,7 +160,6 @@ TEST(SweepView, KeepsEverythingInPlaceDuringTheSweep) {
   rig.ui.lower = ui::LowerView::sweep;
   rig.frames(3);
   const auto before = rig.recorder.widgets;
-  rig.click("Sweep");
   ASSERT_TRUE(wait_until(rig, [](const session::SweepState& state) { return state.progress > 0.3; }));
   rig.expect_in_place(before, "Coverage");  // whose sentence changes
 }

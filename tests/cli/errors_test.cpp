@@ -83,6 +83,11 @@ TEST(Errors, SayInOneLineWhatIsWrongWithTheCommandLine) {
   for (const auto& [arguments, says] : std::vector<std::pair<Words, Words>>{
            {{"simulate", "--scene", "dorp", "--frames", "2"}, {"'dorp'", "drop"}},
            {{"simulate", "--scene", "cube.obj", "--frames", "2"}, {"--scene cube.obj", "--mesh"}},
+           {{"simulate", "--tolerence", "0.1"},
+            {"--tolerence", "; did you mean --tolerance? See sbcollide simulate --help"}},
+           {{"simulate", "--frame=3"}, {"did you mean --frames?"}},
+           {{"simulat"}, {"did you mean simulate?"}},
+           {{"detect", mesh, "--no-resue", "--tolerance", "1"}, {"did you mean --no-reuse?"}},
            {{"simulate", "--scene", "cube.ply", "--frames", "2"}, {"--scene cube.ply", "--mesh"}},
            {{"--mesh", "none.obj"}, {"--mesh", "none.obj"}},
            {{"simulate", "--scene", "none.toml", "--frames", "2"}, {"none.toml", "cannot be read"}},

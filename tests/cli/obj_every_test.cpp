@@ -22,8 +22,8 @@ TEST(ObjEvery, ReadsBackWithTheContactsOfTheSimulation) {
     const Words tolerance{"--tolerance", "0.07"};
     const nlohmann::json run =
         simulate(with(tolerance, {"--scene", scene, "--frames", "60", "--obj-every", "20", "--out", folder.path()}));
-    ASSERT_EQ(file_names(folder.path()),
-              (std::set<std::string>{"frame_0020.obj", "frame_0040.obj", "frame_0060.obj", "rest_0020.obj"}));
+    ASSERT_EQ(file_names(folder.path()), (std::set<std::string>{"frame_0020.obj", "frame_0040.obj", "frame_0060.obj",
+                                                                "rest_0020.obj", "scene.toml"}));
     Words files{"--rest", folder.path() / "rest_0020.obj"};
     for (const char* frame : {"frame_0020.obj", "frame_0040.obj", "frame_0060.obj"})
       files.push_back(folder.path() / frame);
@@ -84,8 +84,8 @@ TEST(ObjEvery, WritesTheBodiesAtRestWhenTheyChange) {
   const TemporaryFolder folder;
   const auto scene = folder.write("two.toml", "[[body]]\n[[body]]\nposition = [3, 3, 0]\nappear = 3\n");
   simulate({"--scene", scene.string(), "--frames", "5", "--obj-every", "2", "--out", folder.path().string()});
-  EXPECT_EQ(file_names(folder.path()),
-            (std::set<std::string>{"frame_0002.obj", "frame_0004.obj", "rest_0002.obj", "rest_0004.obj", "two.toml"}));
+  EXPECT_EQ(file_names(folder.path()), (std::set<std::string>{"frame_0002.obj", "frame_0004.obj", "rest_0002.obj",
+                                                              "rest_0004.obj", "scene.toml", "two.toml"}));
 }
 
 TEST(ObjEvery, NeverReplacesTheSceneOrItsMeshes) {
@@ -106,6 +106,21 @@ TEST(ObjEvery, NeverReplacesTheSceneOrItsMeshes) {
   std::filesystem::create_symlink("scene.toml", folder.path() / "frame_0002.obj");
   expect_refused({"simulate", "--scene", scene, "--frames", "2", "--obj-every", "2", "--out", folder.path()},
                  {"frame_0002.obj", "is the input " + scene.string()});
+}
+
+TEST(ObjEvery, ReplacesOnlyASceneThatARecordingWrote) {
+  const TemporaryFolder folder;
+  const Words record{"simulate", "--frames", "1", "--obj-every", "1", "--out", folder.path(), "--scene"};
+  for (const double tolerance : {0.04, 0.05}) {
+    ASSERT_EQ(run(with(record, {"A", "--tolerance", std::to_string(tolerance)})).status, 0);
+    EXPECT_NE(read_file(folder.path() / "scene.toml").find(fmt::format("tolerance = {}", tolerance)),
+              std::string::npos);
+  }
+  const std::string mine = "[[body]]\n";
+  const auto scene = folder.write("scene.toml", mine);
+  for (const std::string& of : {std::string("A"), scene.string()})
+    expect_refused(with(record, {of}), {"scene.toml", "name another file or folder"});
+  EXPECT_EQ(read_file(scene), mine);
 }
 
 }  // namespace THIS_FILE

@@ -13,6 +13,7 @@ TEST(Play, RefusesBadFilesAndWhatDoesNotGoWithThem) {
   const auto write = [&](const char* name, const std::string& text) { return folder.write(name, text).string(); };
   const std::string triangle = write("good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const Words play{"--play", triangle};
+  write("scene.toml", "[ground]\nfriction = -1\n");
   for (const auto& [arguments, says] : std::vector<std::pair<Words, Words>>{
            {{"--play"}, {"--play"}},
            {{"--play", "none.obj"}, {"none.obj", "cannot be"}},
@@ -28,6 +29,7 @@ TEST(Play, RefusesBadFilesAndWhatDoesNotGoWithThem) {
            {with(play, {"simulate", "--frames", "2"}), {"--play", "window"}},
            {with(play, {"--bodies", "parts"}), {"--bodies parts", "components"}},
            {{"--bodies", "one"}, {"--bodies", "--play"}},
+           {{"--play", write("frame_1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")}, {"scene.toml:2", "friction"}},
            {with(play, {"--tolerance", "-1"}), {"--tolerance"}},
            {with(play, {"--method", "magic"}), {"--method magic"}}})
     expect_refused(arguments, says);

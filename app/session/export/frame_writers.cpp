@@ -39,6 +39,7 @@ class MotionWriter : public FrameWriter {
       if (bodies_) folder_ = new_folder(parent_, "motion");
       bodies_ = frame.bodies;
       files::write_file(folder_ / files::rest_shape_name, bodies_->at_rest());
+      bodies_->write_surroundings(folder_);
     }
     files::write_file(folder_ / fmt::format("frame_{:05}.obj", frame.number), frame.bodies->frame(frame.positions));
   }

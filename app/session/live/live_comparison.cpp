@@ -9,6 +9,7 @@ void LiveComparison::exchange(const softbody::BodiesInMotion& world, std::uint64
   auto report = comparison_.take();
   compare::add_new_methods(choice.methods);
   method_ms_.resize(choice.methods.size());
+  sums_.resize(choice.methods.size());
   if (report && report->id >= first_wanted_) keep(std::move(*report));
   if (!wants_report(revision) || !comparison_.ready(rests)) return;
   compare::FrameSnapshot snapshot;
@@ -54,6 +55,14 @@ compare::MethodSet LiveComparison::chosen() const {
 }
 
 void LiveComparison::keep(compare::CompareReport report) {
+  for (std::size_t i = 0; i < report.rows.size(); ++i) {
+    const compare::CompareRow& row = report.rows[i];
+    const bool counted = report.id == report_.id && i < report_.rows.size() && report_.rows[i].scored;
+    if (!row.scored || counted) continue;
+    ++sums_[i].states;
+    sums_[i].truth += report.true_contacts;
+    sums_[i].found += report.true_contacts - row.missed.size();
+  }
   report_ = std::move(report);
   ++reports_;
   if (const compare::CompareRow* row = driver_row()) recall_.push(report_.frame, static_cast<float>(row->recall));
@@ -84,6 +93,7 @@ void LiveComparison::detection_changed(const softbody::BodiesInMotion& world, st
 
 void LiveComparison::forget_times() {
   recall_.clear();
+  sums_.assign(sums_.size(), {});
   for (TimeSeries& times : method_ms_) times.clear();
 }
 

@@ -49,6 +49,10 @@ class SweepWorker {
   /// Copies the world's present frame and sweeps the methods over it; the world may change or end meanwhile. Does
   /// nothing while a sweep is running. The state reports errors.
   void start(const softbody::BodiesInMotion& world, const compare::MethodSet& methods);
+  /// Returns true if the latest sweep is of the world's present frame.
+  bool knows(const softbody::BodiesInMotion& world) const {
+    return state_.scene == world.scene().name && state_.frame == world.frame();
+  }
   /// Ends the sweep after the current step. The results so far stay.
   void cancel() { sweep_.cancel(); }
   /// Returns true if the sweep is cancelled and its current step still runs.

@@ -35,8 +35,8 @@ void draw_open(Widgets& w, const session::Import& import) {
   ImGui::BeginDisabled(import.busy());
   if (field_with_button(
           w, "File to open", import.path, "mesh.obj or scene.toml",
-          "An OBJ or PLY file, which joins the scene as a soft body, or a scene file, which replaces "
-          "it. You can also drop files on the window.",
+          "An OBJ or PLY file, which opens alone as a soft body, or a scene file. You can also drop files on the "
+          "window.",
           [](Session& s, UiState&) -> std::string& { return s.import.path; }, "Load", "Reads the file."))
     w.ask([](Session& s) { s.import.load(); });
   ImGui::EndDisabled();
@@ -212,7 +212,8 @@ void draw_files(Widgets& w, const Session& session, const UiState& ui) {
   if (has_solver) draw_mesh_settings(w, session.import);
   softbody::Scene used = session.scenes.with_added_bodies();
   used.view = ui.view;
-  const bool saved = session::options_make(used, session.simulation.loaded.scene);
+  const session::LoadedScene& loaded = session.simulation.loaded;
+  const bool saved = (!has_solver || !loaded.file.name().empty()) && session::options_make(used, loaded.scene);
   if (has_solver) draw_save(w, session, ui, saved);
   draw_command(w, session, used, saved);
 }

@@ -6,6 +6,7 @@ namespace app::ui {
 
 std::vector<WindowTask> carry_out(const Requests& requests, session::Session& session, UiState& ui) {
   std::vector<WindowTask> for_window;
+  const bool had_sweep = ui.lower == LowerView::sweep && !session.sweep().scene.empty();
   for (const Request& request : requests)
     if (const auto* task = std::get_if<WindowTask>(&request))
       for_window.push_back(*task);
@@ -14,6 +15,8 @@ std::vector<WindowTask> carry_out(const Requests& requests, session::Session& se
   const Tour::Camera camera = ui.tour.update(session, &ui.view);
   if (camera.overview) for_window.push_back(WindowTask::show_as_before_tour);
   if (camera.framing) for_window.push_back(WindowTask::show_highlight);
+  if (ui.lower == LowerView::sweep && !had_sweep && !session.sweep_worker.knows(session.world()))
+    session.sweep_worker.start(session.world(), session.comparison.shown_methods());
   session.comparison.choice.on = ui.lower == LowerView::comparison;
   session.comparison.choice.with_paper = ui.marks_story();
   session.comparison.choice.with_misses = ui.overlays.missed;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t median_count = session::LiveComparison::times_per_state;  // measurements of a median
 
-enum ColumnIndex { name, time, recall, contacts, tests, hashes, precision, plot, misses, column_count };
+enum ColumnIndex { name, time, recall, so_far, contacts, tests, hashes, precision, plot, misses, column_count };
 
 struct Column {
   const char* label;
@@ -25,11 +25,14 @@ struct Column {
 
 constexpr std::array<Column, column_count> columns{{
     {"Method", 220, false, ""},
-    {"Time", 112, true,
+    {"Time", 106, true,
      "Time to find all contacts from scratch on one core: median of the last 15 measurements (§3). While the frame "
      "stays the same, caches are warm. The panel's Detect is one search as the program runs."},
-    {"Recall", 96, true,
+    {"Recall", 90, true,
      "Share of the true contacts that the method found. 1: none missed. The dot is the method's status light."},
+    {"Since start", 90, true,
+     "Recall over all frames that were compared since the scene started or the settings changed: the sum of the "
+     "contacts found over that of the true ones."},
     {"Contacts", 72, true, "Number of pairs of vertices found closer than the tolerance (§2.3, §2.4)."},
     {"Pair tests", 96, true, "Number of distances between vertices that were evaluated (§2.3)."},
     {"Hashes", 80, true, "Number of evaluations of the hash function (§2.2)."},
@@ -41,11 +44,17 @@ constexpr std::array<Column, column_count> columns{{
 constexpr float min_plot_width = 70, column_gap = 10;
 constexpr float window_padding = 7, frame_padding = 1, row_gap = 1;  // above and below
 
+/// Returns false for the precision while that of all methods is 1.
+bool is_shown(std::size_t column, const Session& session) {
+  const auto finds_false_ones = [](const compare::CompareRow& row) { return row.scored && row.precision < 1; };
+  return column != precision || std::ranges::any_of(session.comparison.report().rows, finds_false_ones);
+}
+
 /// Returns the smallest width that all columns need, in design pixels.
 float min_content_width() {
   float width = min_plot_width;
   for (const Column& column : columns) width += column.width;
-  return width;
+  return width - columns[precision].width;
 }
 
 /// The ends of the columns, in screen coordinates, and the row that is being drawn.
@@ -53,12 +62,12 @@ struct Grid {
   std::array<float, column_count> left{}, right{};
   float top = 0, height = ImGui::GetFrameHeight();
 
-  Grid(const Widgets& w, float start, float width) {
+  Grid(const Widgets& w, const Session& session, float start, float width) {
     float rest = width;
-    for (const Column& column : columns) rest -= w.px(column.width);
+    for (std::size_t i = 0; i < column_count; ++i) rest -= is_shown(i, session) ? w.px(columns[i].width) : 0;
     for (std::size_t i = 0; i < column_count; ++i) {
       left[i] = start;
-      start += columns[i].width > 0 ? w.px(columns[i].width) : rest;
+      if (is_shown(i, session)) start += columns[i].width > 0 ? w.px(columns[i].width) : rest;
       right[i] = start - w.px(column_gap);
     }
   }
@@ -151,7 +160,14 @@ void draw_time(const Widgets& w, const Session& session, const Grid& grid, const
   grid.text(time, fmt::format("{:.2f} ms", median));
 }
 
-void draw_score(Widgets& w, const Grid& grid, const Row& row) {
+/// Draws a recall or a precision, in red if it is below 1.
+void draw_share(const Grid& grid, ColumnIndex column, double share) {
+  if (share < 1) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
+  grid.text(column, fmt::format("{:.4f}", rounded_down(share)));
+  if (share < 1) ImGui::PopStyleColor();
+}
+
+void draw_score(Widgets& w, const Session& session, const Grid& grid, const Row& row) {
   const compare::CompareRow& found = *row.measured;
   grid.text(tests, grouped(found.counters.pair_tests));
   grid.text(hashes, grouped(found.counters.hashes), found.counters.hashes == 0);
@@ -159,17 +175,19 @@ void draw_score(Widgets& w, const Grid& grid, const Row& row) {
   const StatusLight light = status_light(found.coverage);
   ImGui::SetCursorScreenPos({grid.left[recall] + w.px(4), grid.text_top()});
   w.dot(light.colour);
+  const session::LiveComparison::Sum& sum = session.comparison.sum(row.index);
   if (row.is_reference) {
     grid.text(recall, "reference", true);
   } else {
-    const bool misses_some = found.recall < 1;
-    if (misses_some) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
-    grid.text(recall, fmt::format("{:.4f}", rounded_down(found.recall)));
-    if (misses_some) ImGui::PopStyleColor();
-    grid.text(precision, fmt::format("{:.4f}", rounded_down(found.precision)));
+    draw_share(grid, recall, found.recall);
+    draw_share(grid, so_far, sum.recall());
+    if (is_shown(precision, session)) draw_share(grid, precision, found.precision);
   }
   const std::string tip = std::string(light.sentence) + " Missed: " + grouped(found.missed.size()) + ".";
   grid.cell(w, recall, row.label("Recall of"), tip);
+  grid.cell(w, so_far, row.label("Recall since start of"),
+            fmt::format("Missed: {} of {} true contacts in {} frames.", grouped(sum.truth - sum.found),
+                        grouped(sum.truth), grouped(sum.states)));
 }
 
 /// Draws why the row has no score, beside its time if there is one.
@@ -195,7 +213,7 @@ void draw_row(Widgets& w, const Session& session, const UiState& ui, Grid& grid,
   draw_name(w, grid, row);
   draw_time(w, session, grid, row, scale);
   if (row.scored())
-    draw_score(w, grid, row);
+    draw_score(w, session, grid, row);
   else
     draw_reason(session, grid, row);
   const TimeSeries& times = session.comparison.method_ms()[row.index];
@@ -211,6 +229,7 @@ void draw_row(Widgets& w, const Session& session, const UiState& ui, Grid& grid,
 void draw_header(Widgets& w, const Session& session, Grid& grid) {
   grid.next_row();
   for (std::size_t i = time; i < column_count; ++i) {
+    if (!is_shown(i, session)) continue;
     const auto at = static_cast<ColumnIndex>(i);
     grid.text(at, columns[i].label, true);
     grid.cell(w, at, std::string("Column ") + columns[i].label, columns[i].tooltip);
@@ -257,7 +276,7 @@ void draw_compare(Widgets& w, const Session& session, const UiState& ui, const S
   ImGui::PopStyleVar();
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(2), w.px(frame_padding)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {w.px(6), w.px(2)});
-  Grid grid(w, ImGui::GetCursorScreenPos().x, width);
+  Grid grid(w, session, ImGui::GetCursorScreenPos().x, width);
   draw_header(w, session, grid);
   const Scale scale = common_scale(session);
   const compare::CompareReport& report = session.comparison.report();

@@ -11,9 +11,15 @@ void draw_question(Widgets& w, const session::Import& import) {
                w.px(80)))
     w.ask([](Session& s) { s.import.play(); });
   ImGui::SameLine();
-  if (w.button("Import", "Each file joins the scene as a soft body.", w.px(80)))
+  if (w.button("Import", "All files together, as soft bodies in a scene of their own.", w.px(80)))
     w.ask([](Session& s) { s.import.import_each(); });
-  ImGui::SameLine();  // "Close" follows
+}
+
+/// Draws a button behind what was drawn last if it fits into the line, else below.
+bool button_behind(Widgets& w, const char* label, const char* tooltip, float width) {
+  const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  if (ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width <= end) ImGui::SameLine();
+  return w.button(label, tooltip, width);
 }
 
 }  // namespace
@@ -21,7 +27,7 @@ void draw_question(Widgets& w, const session::Import& import) {
 void draw_import_report(Widgets& w, const session::Import& import) {
   const bool asks = !import.question().empty();
   for (const session::Import::FileReport& report : import.report()) {
-    for (const std::string& line : report.lines) w.wrapped_text("Import report", line, report.refused);
+    w.wrapped_text("Import report", report.text, report.refused);
     if (&report != &import.report().back()) ImGui::Separator();
   }
   if (asks) draw_question(w, import);
@@ -30,8 +36,14 @@ void draw_import_report(Widgets& w, const session::Import& import) {
     if (w.button("Cancel###Cancel import", "Reads no further, and forgets the files that wait.", w.px(80)))
       w.ask([](Session& s) { s.import.cancel(); });
   }
+  if (import.can_join() && !import.busy() &&
+      button_behind(w, "Into the scene before", "Lets the mesh fall in the scene that was shown before it.",
+                    w.px(150))) {
+    w.ask([](Session& s) { s.import.join_scene_before(); });
+    w.ask(WindowTask::show_joined);
+  }
   if ((asks || (!import.report().empty() && !import.busy())) &&
-      w.button("Close###Close import report", "Closes this report.", w.px(80)))
+      button_behind(w, "Close###Close import report", "Closes this report.", w.px(80)))
     w.ask([](Session& s) { s.import.dismiss_report(); });
 }
 
