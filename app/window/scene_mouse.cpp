@@ -85,6 +85,7 @@ void SceneMouse::press(const MouseInput& in, Session& session, ui::UiState& ui, 
     if (const auto solid = pick_movable(ray, session.world().scene())) {
       drag_ = Drag::solid;
       ui.solid = solid->index;
+      ui.open_section("Solids");
       held_solid_ = {solid->index, session.world().scene().solids[solid->index],
                      glm::dvec3(ray.origin) + solid->distance * glm::dvec3(ray.direction),
                      session.simulation.world_number()};

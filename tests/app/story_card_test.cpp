@@ -78,7 +78,7 @@ TEST(FloatingBox, IsMovedByTheMouseWithinTheScene) {
   rig.frames(3);
   const ui::WidgetRecorder::Widget before = rig.widget("Close lights");
   const auto drag = [&](float x, float y) {
-    const ui::WidgetRecorder::Widget at = rig.widget("Step light");
+    const ui::WidgetRecorder::Widget at = rig.widget("Live recall");
     rig.move(at.max.x - 4, at.max.y - 4);
     rig.press();
     rig.move(at.max.x - 4 + x, at.max.y - 4 + y);
@@ -89,10 +89,10 @@ TEST(FloatingBox, IsMovedByTheMouseWithinTheScene) {
   EXPECT_NEAR(rig.widget("Close lights").min.x, before.min.x + 60, 1.5f);
   EXPECT_NEAR(rig.widget("Close lights").min.y, before.min.y + 200, 1.5f);
   drag(4000, 4000);
-  EXPECT_LE(rig.widget("Step light").max.x, rig.interface.scene_area().max.x);
-  EXPECT_LE(rig.widget("Step light").max.y, rig.interface.scene_area().max.y);
+  EXPECT_LE(rig.widget("Live recall").max.x, rig.interface.scene_area().max.x);
+  EXPECT_LE(rig.widget("Live recall").max.y, rig.interface.scene_area().max.y);
   rig.resize(900, 600);
-  EXPECT_LE(rig.widget("Step light").max.y, rig.interface.scene_area().max.y);
+  EXPECT_LE(rig.widget("Live recall").max.y, rig.interface.scene_area().max.y);
 }
 
 TEST(TimeLine, GoesBackInTime) {
