@@ -8,7 +8,7 @@
 
 #include <fmt/core.h>
 
-#include "app/ui/shortcuts.h"
+#include "app/ui/state/shortcuts.h"
 
 namespace app::ui {
 namespace {

@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 #include "app/ui/panel/panel.h"
-#include "app/ui/shortcuts.h"
+#include "app/ui/state/shortcuts.h"
 #include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
 

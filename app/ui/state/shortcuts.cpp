@@ -1,4 +1,4 @@
-#include "app/ui/shortcuts.h"
+#include "app/ui/state/shortcuts.h"
 
 #include <GLFW/glfw3.h>
 
