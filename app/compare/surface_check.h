@@ -1,6 +1,6 @@
 #pragma once
 // Checks one step, copied from the world, with the surface oracle: what is inside what, what passed through what, and
-// which of these overlaps the detector's contacts do not show.
+// where surfaces overlap without a contact that the detector found.
 
 #include <optional>
 #include <string>

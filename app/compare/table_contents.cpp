@@ -91,7 +91,7 @@ BucketContents TableContents::bucket(std::uint32_t number) const {
 std::string cell_text(const Cell& cell) { return fmt::format("({}, {}, {})", cell[0], cell[1], cell[2]); }
 
 std::string sharing_text(const Sharing& sharing) {
-  return fmt::format("{} / {}", grouped(sharing.same_cell), grouped(sharing.aliased));
+  return fmt::format("{} near, {} by chance", grouped(sharing.same_cell), grouped(sharing.aliased));
 }
 
 std::string bodies_text(const CellGroup& group, const BucketContents& bucket, const collide::DebugGeometry& debug,

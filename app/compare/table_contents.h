@@ -67,7 +67,7 @@ std::string bodies_text(const CellGroup& group, const BucketContents& bucket, co
 /// Returns "(0, -1, 2)".
 std::string cell_text(const Cell& cell);
 
-/// Returns "12 / 3": the pairs in the same cell, and the aliased ones.
+/// Returns "12 near, 3 by chance": the pairs in the same cell, and the aliased ones.
 std::string sharing_text(const Sharing& sharing);
 
 }  // namespace app::compare

@@ -410,8 +410,8 @@ constexpr std::array rows{
         &Overlays::surface_contacts, add_surface_contacts, surface_contacts_legend, 2, OverlayBasis::picture, true},
     OverlayRow{
         "true-surfaces", "True surfaces", '9',
-        "Checks the surfaces exactly: how many vertices are inside other bodies, and which of these overlaps have no "
-        "contact. The latter are drawn.",
+        "Checks the surfaces exactly: counts the vertices inside other bodies, and hatches where surfaces overlap and "
+        "the method found no contact.",
         &Overlays::true_surfaces, add_marks},
 };
 

@@ -1,12 +1,14 @@
 #include "app/ui/parts.h"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include <fmt/core.h>
 
-#include "app/ui/shortcuts.h"
+#include "app/ui/state/shortcuts.h"
 
 namespace app::ui {
 namespace {
@@ -15,15 +17,11 @@ constexpr float key_width = 86, between_columns = 24;  // design pixels
 
 using Entries = std::vector<HelpLine>;  // an entry without input and text is an empty line
 
-Entries keyboard() {
+Entries all_entries() {
   Entries entries;
   for (const Shortcut& shortcut : shortcuts())
     if (!shortcut.keys_text.empty()) entries.push_back({shortcut.keys_text, shortcut.text});
-  return entries;
-}
-
-Entries overlays_and_mouse() {
-  Entries entries;
+  entries.push_back({"", ""});
   for (const render::OverlayRow& row : render::overlay_table)
     entries.push_back({std::string_view(&row.shortcut, 1), row.label});
   entries.push_back({"", ""});
@@ -39,7 +37,7 @@ float width_of(const Widgets& w, const Entries& entries) {
 }
 
 /// Draws the entries from `left` (x) on.
-void draw_entries(Widgets& w, const Entries& entries, float left) {
+void draw_entries(Widgets& w, std::span<const HelpLine> entries, float left) {
   ImGui::BeginGroup();
   for (const HelpLine& e : entries) {
     ImGui::SetCursorPosX(left);
@@ -56,10 +54,11 @@ void draw_entries(Widgets& w, const Entries& entries, float left) {
 
 void draw_help(Widgets& w, const ScreenRect& area) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const Entries keys = keyboard(), others = overlays_and_mouse();
-  const float first = width_of(w, keys), both = first + w.px(between_columns) + width_of(w, others);
-  const float needed = both + 2 * ImGui::GetStyle().WindowPadding.x + ImGui::GetStyle().ScrollbarSize;
-  const bool narrow = display.x < needed;
+  const Entries entries = all_entries();
+  const float border = 2 * ImGui::GetStyle().WindowPadding.x + ImGui::GetStyle().ScrollbarSize;
+  const float width = width_of(w, entries), gap = w.px(between_columns);
+  const float count = std::clamp(std::floor((display.x - border + gap) / (width + gap)), 1.0f, 3.0f);
+  const float content = count * (width + gap) - gap, needed = content + border;
   ImVec2 middle{0.5f * (area.min.x + area.max.x), 0.5f * display.y};
   if (area.max.x - area.min.x < needed) middle.x = 0.5f * display.x;
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
@@ -69,20 +68,21 @@ void draw_help(Widgets& w, const ScreenRect& area) {
   ImGui::Begin("Help", &open,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                    ImGuiWindowFlags_NoSavedSettings);
-  const float left = ImGui::GetCursorPosX();
-  ImGui::PushTextWrapPos(left + (narrow ? first : both));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, w.px(3)});
+  float left = ImGui::GetCursorPosX();
+  ImGui::PushTextWrapPos(left + content);
   ImGui::TextUnformatted(
       "Soft spheres fall on a solid sphere. In every frame a method finds all pairs of vertices that are closer than "
       "the tolerance. With vertex-vertex contact, these pairs push the bodies apart, as in the paper. With surface "
       "contact, faces and edges do. The panel has all settings.");
   ImGui::PopTextWrapPos();
   ImGui::Spacing();
-  draw_entries(w, keys, left);
-  if (narrow)
-    ImGui::Spacing();
-  else
-    ImGui::SameLine();
-  draw_entries(w, others, narrow ? left : left + first + w.px(between_columns));
+  const auto length = static_cast<std::size_t>(std::ceil(static_cast<float>(entries.size()) / count));
+  for (std::size_t first = 0; first < entries.size(); first += length, left += width + gap) {
+    if (first > 0) ImGui::SameLine();
+    draw_entries(w, std::span(entries).subspan(first, std::min(length, entries.size() - first)), left);
+  }
+  ImGui::PopStyleVar();
   ImGui::Spacing();
   if (w.button("Close", "Closes the help (F1 or Esc).", w.px(80))) open = false;
   ImGui::End();

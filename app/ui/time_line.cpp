@@ -27,7 +27,8 @@ void draw_frames(Widgets& w, const session::Player& player) {
   int frame = player.frame();
   const int last = player.recording()->frame_count() - 1;
   const Disabled off(last == 0);
-  if (w.slider("Time line", frame, 0, last, fmt::format("frame %d of {}", grouped(std::uint64_t(last))).c_str(),
+  if (w.slider("Time line", frame, 0, last,
+               last == 0 ? "the only frame" : fmt::format("frame %d of {}", grouped(std::uint64_t(last))).c_str(),
                "Drag it to any frame; frames count from 0. It pauses there."))
     w.ask([frame](Session& s) { s.simulation.rewind_to(frame); });
 }

@@ -13,7 +13,7 @@
 
 #include "app/base/background.h"
 #include "app/base/timings.h"
-#include "app/ui/shortcuts.h"
+#include "app/ui/state/shortcuts.h"
 #include "app/ui/user_interface.h"
 #include "app/ui/views/scene_labels.h"
 #include "app/window/frame_schedule.h"

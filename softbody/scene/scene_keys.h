@@ -26,7 +26,7 @@ inline constexpr Key gravity("gravity", "m/s\u00b2", {-max_gravity, max_gravity}
 inline constexpr Key method("collision.method", "", {}, "How contacts are found.", {"Method"});
 inline constexpr Key levels("collision.levels", "", {0, collide::max_levels},
                             "Level n cuts the box of a body into 2^n boxes (\u00a72.1; the paper uses 3).",
-                            {"Subdivision", nullptr, 0, collide::max_levels});
+                            {"Level", nullptr, 0, collide::max_levels});
 inline constexpr Key buckets("collision.buckets", "", {1, collide::max_buckets},
                              "The number of buckets of the hash table (\u00a72.2; the paper uses 101 and 1001). If "
                              "there are few, different cells share a bucket (aliasing).",

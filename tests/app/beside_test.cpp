@@ -188,7 +188,7 @@ TEST(Difference, NamesWhatDiffersAndLeavesTheRestToTheFirst) {
 
 TEST(BesidePanel, BeginsAndEndsTheSecondWorldAndChoosesWhoseSettingsItShows) {
   PanelRig rig;
-  rig.click("Beside");
+  rig.click("A second world beside it");
   rig.frames(3);  // the strip finds its height
   ASSERT_TRUE(rig.session.simulation.beside());
   EXPECT_EQ(rig.session.simulation.world(Half::second).method().key, collide::paper_method);

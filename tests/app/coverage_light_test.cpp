@@ -34,7 +34,7 @@ TEST(CoverageLight, FitsOneLineWithEveryMethodInANarrowWindow) {
       rig.change([&](softbody::Scene& scene) { scene.collision.cell_size = glm::vec3(cell); });
       ASSERT_TRUE(rig.frames_until([&] { return rig.session.comparison.driver_row() != nullptr; }));
       rig.frames(2);
-      for (const char* light : {"Coverage", "Live recall", "Step light"})
+      for (const char* light : {"Coverage", "Live recall"})
         EXPECT_LT(rig.widget(light).max.y - rig.widget(light).min.y, 20) << light << " of " << method.key;
     }
 }

@@ -51,11 +51,11 @@ TEST(BucketView, GroupsEntriesByCellsAndSelectsACell) {
   PanelRig rig;
   rig.change([](softbody::Scene& scene) { scene.collision.buckets = 7; });  // few, so that cells share
   rig.session.simulation.clock.paused = true;
-  EXPECT_FALSE(rig.recorder.find("Same cell / aliased"));
+  EXPECT_FALSE(rig.recorder.find("Pairs"));
   rig.session.inspector.select_bucket(fullest_bucket(rig.session).bucket);
   rig.frames(3);
-  EXPECT_TRUE(rig.recorder.find("Same cell / aliased"));
-  EXPECT_TRUE(rig.recorder.find("All buckets"));
+  EXPECT_TRUE(rig.recorder.find("Pairs"));
+  EXPECT_TRUE(rig.recorder.find("All pairs"));
   ASSERT_GT(rig.session.inspector.bucket()->groups.size(), 1u);
   const compare::Cell second = rig.session.inspector.bucket()->groups[1].cell;
   rig.click("Cell " + compare::cell_text(second));
@@ -81,7 +81,7 @@ TEST(BucketView, ShowsVerticesIfTheMethodHashesThem) {
   rig.session.inspector.select_bucket(fullest_bucket(rig.session).bucket);
   rig.frames(2);
   EXPECT_TRUE(rig.session.inspector.bucket()->vertices);
-  EXPECT_TRUE(rig.recorder.find("Same cell / aliased"));
+  EXPECT_TRUE(rig.recorder.find("Pairs"));
 }
 
 TEST(BucketView, ShowsThePresentStateUntilTheBucketIsDeselected) {

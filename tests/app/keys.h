@@ -1,7 +1,7 @@
 #pragma once
 // Keys pressed in tests.
 
-#include "app/ui/shortcuts.h"
+#include "app/ui/state/shortcuts.h"
 
 namespace app {
 

@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 
 #include "app/ui/panel/panel.h"
-#include "app/ui/shortcuts.h"
+#include "app/ui/state/shortcuts.h"
 #include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
 
@@ -17,7 +17,7 @@ namespace THIS_FILE {
 
 TEST(Tooltip, StandsBesideThePanelAndAboveTheComparison) {
   PanelRig rig;
-  for (const char* label : {"Reset", "Tolerance", "Contacts", "Detect"}) {
+  for (const char* label : {"Reset", "Tolerance", "Contacts", "Hash table"}) {
     rig.hover(label);
     EXPECT_GE(rig.widget("Tooltip").min.x, ui::panel_width) << label;
     EXPECT_LE(rig.widget("Tooltip").max.x, 1280) << label;
@@ -38,7 +38,7 @@ TEST(Tooltip, KeepsOffTheLightsAndTheComparison) {
       rig.move(0.5f * (widget.min.x + widget.max.x), 0.5f * (widget.min.y + widget.max.y));
       rig.frames(30);
       if (!rig.shows("Tooltip")) continue;
-      for (const char* result : {"Coverage", "Live recall", "Step light", "Column Time", "Drive Multi-Level SB, exact"})
+      for (const char* result : {"Coverage", "Live recall", "Column Time", "Drive Multi-Level SB, exact"})
         if (rig.shows(result)) {
           EXPECT_FALSE(overlap(rig.area("Tooltip"), rig.area(result))) << widget.label << " covers " << result;
         }
@@ -316,20 +316,43 @@ TEST(Layout, LeavesTheMiddleOfTheSceneFreeWithAllPartsShown) {
   }
 }
 
-TEST(Help, SeparatesItsColumns) {
-  for (const float scale : {1.0f, 2.0f}) {
-    PanelRig rig(scale);
-    rig.ui.help = true;
-    rig.frames(3);
-    float first_ends = 0;
-    for (const ui::Shortcut& shortcut : ui::shortcuts())
-      first_ends = std::max(first_ends, rig.widget(fmt::format("Help {}", shortcut.text)).max.x);
-    const float keys =
-        rig.widget(fmt::format("Help {}", ui::shortcuts()[0].text)).min.x;  // the keys' column is as wide for each text
-    const float width = keys - rig.widget("Close").min.x;
-    for (const render::OverlayRow& row : render::overlay_table)
-      EXPECT_GT(rig.widget(fmt::format("Help {}", row.label)).min.x - width, first_ends) << row.label;
-  }
+TEST(Tooltip, WaitsForTheMouseWhereAKeyBringsAWidgetToIt) {
+  PanelRig rig;
+  rig.move(1100, 300);
+  handle_key('G', false, rig.session, rig.ui);
+  ASSERT_TRUE(rig.frames_until([&] { return rig.shows("Tour claims"); }));
+  const ImVec2 at = rig.middle("Tour claims");
+  handle_key('G', false, rig.session, rig.ui);
+  rig.frames(3);
+  rig.move(at.x, at.y);
+  handle_key('G', false, rig.session, rig.ui);
+  rig.frames(40);
+  ASSERT_TRUE(rig.shows("Tour claims"));
+  EXPECT_FALSE(rig.shows("Tooltip"));
+  rig.move(at.x + 5, at.y);
+  rig.frames(40);
+  EXPECT_TRUE(rig.shows("Tooltip"));
+}
+
+TEST(Help, FitsItsColumnsIntoTheWindow) {
+  for (const float scale : {1.0f, 2.0f})
+    for (const glm::vec2 size : {glm::vec2(800, 600), glm::vec2(1280, 720)}) {
+      PanelRig rig(scale);
+      rig.ui.panel = rig.ui.lights = false;
+      rig.ui.help = true;
+      rig.resize(static_cast<int>(size.x * scale), static_cast<int>(size.y * scale));
+      std::vector<ui::ScreenRect> entries;
+      for (const auto& [label, min, max, enabled] : rig.recorder.widgets)
+        if (label.starts_with("Help ")) entries.push_back({min, max});
+      EXPECT_GT(entries.size(), ui::shortcuts().size());
+      const ui::ScreenRect close = rig.area("Close");
+      EXPECT_LE(close.max.y, size.y * scale);
+      for (std::size_t i = 0; i < entries.size(); ++i) {
+        EXPECT_LE(entries[i].max.x, size.x * scale);
+        EXPECT_LE(entries[i].max.y, close.min.y);
+        for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(overlap(entries[i], entries[j])) << i << " and " << j;
+      }
+    }
 }
 
 }  // namespace THIS_FILE

@@ -47,46 +47,33 @@ TEST(DetectionPanel, ChoosesEveryContactSurface) {
     rig.click("Contact surface");
     rig.click(std::ranges::find(all, surface, &softbody::ContactSurfaceInfo::value)->name);
     EXPECT_EQ(rig.session.world().scene().contact_surface, surface);
-    rig.frames(3);
+    rig.open("Numbers");
     EXPECT_EQ(rig.shows("  surfaces of two bodies"), surface == softbody::ContactSurface::surfaces);
   }
 }
 
-TEST(DetectionPanel, EnablesWhatTheMethodOrAViewOrTheComparisonUses) {
+TEST(DetectionPanel, HasTheSettingsOfOneHashTableAndSaysWhoseItIs) {
   PanelRig rig;
-  rig.ui.hash_table = false;
+  const std::size_t paper = compare::method_index(collide::paper_method);
+  const float buckets = rig.area("Buckets").min.y;
   for (const collide::Method& method : collide::method_table()) {
     rig.session.settings.set_method(method.key);
     rig.frames(2);
-    EXPECT_EQ(rig.widget("Subdivision").enabled, method.uses_levels) << method.key;
-    for (const char* label : {"Buckets", "Auto", "x prime", "y prime", "z prime", "Default primes"})
-      EXPECT_EQ(rig.widget(label).enabled, method.uses_hash) << method.key;
-    EXPECT_TRUE(rig.widget("Tolerance").enabled);
+    EXPECT_EQ(rig.shows("Level"), method.uses_levels || !method.uses_hash) << method.key;
+    EXPECT_EQ(rig.area("Buckets").min.y, buckets) << "nothing moves";
+    for (const char* label : {"Buckets", "Cell size", "Tolerance"}) EXPECT_TRUE(rig.widget(label).enabled) << label;
+    rig.hover("Hashing of");
+    EXPECT_EQ(rig.recorder.tooltip.find("has no hash table") == std::string::npos, method.uses_hash) << method.key;
+    const bool compared = rig.frames_until([&] { return rig.session.comparison.scored_row(paper) != nullptr; });
+    EXPECT_TRUE(compared || method.uses_hash) << method.key;
   }
-  rig.session.settings.set_method(collide::default_method);
-  const auto enabled = [&] {
-    rig.frames(2);
-    return rig.widget("Buckets").enabled;
-  };
-  ASSERT_FALSE(enabled());
-  for (bool* shown :
-       {&rig.ui.hash_table, &rig.ui.overlays.boxes, &rig.ui.overlays.cells, &rig.ui.overlays.missed, &rig.ui.story}) {
-    *shown = true;
-    EXPECT_TRUE(enabled());
-    *shown = false;
-    EXPECT_FALSE(enabled());
-  }
-  rig.ui.lower = ui::LowerView::comparison;
-  EXPECT_TRUE(enabled());
 }
 
 TEST(DetectionPanel, DragsEverySliderToItsEnds) {
   PanelRig rig;
   rig.session.settings.set_method("multi-level-sb");
   rig.frames(2);
-  rig.click("Auto");
   const auto& settings = [&]() -> const collide::Settings& { return rig.session.world().collision(); };
-  EXPECT_TRUE(rig.session.world().scene().collision.cell_size);
   using namespace softbody::scene_key;
   struct Row {
     const char* label;
@@ -94,7 +81,7 @@ TEST(DetectionPanel, DragsEverySliderToItsEnds) {
     std::function<double()> value;
   };
   for (const auto& [label, least, most, value] :
-       {Row{"Subdivision", 0, collide::max_levels, [&] { return settings().levels; }},
+       {Row{"Level", 0, collide::max_levels, [&] { return settings().levels; }},
         Row{"Cell size", cell_size.slider.least, cell_size.slider.most,
             [&] { return double{settings().cell_size->x}; }},
         Row{"Tolerance", tolerance.slider.least, tolerance.slider.most, [&] { return double{settings().tolerance}; }},
@@ -105,6 +92,11 @@ TEST(DetectionPanel, DragsEverySliderToItsEnds) {
     EXPECT_NEAR(value(), least, 1e-5) << label;
   }
   EXPECT_EQ(settings().cell_size->y, settings().cell_size->x);
+  rig.open("Detection");
+  for (const bool automatic : {true, false, true}) {
+    rig.click("Automatic cell size");
+    EXPECT_EQ(rig.session.world().scene().collision.cell_size.has_value(), !automatic);
+  }
   rig.click("Self-collision");
   EXPECT_FALSE(settings().self_collision);
   rig.click("Restore settings");
@@ -113,19 +105,9 @@ TEST(DetectionPanel, DragsEverySliderToItsEnds) {
   EXPECT_FALSE(rig.session.world().scene().collision.cell_size);
 }
 
-TEST(DetectionPanel, OffersThePapersBucketSizes) {
-  PanelRig rig;
-  for (const char* preset : {"101", "1,001", "1,009"}) {
-    rig.click("Bucket presets");
-    rig.click(preset);
-    std::string digits(preset);
-    std::erase(digits, ',');
-    EXPECT_EQ(std::to_string(rig.session.world().collision().buckets), digits);
-  }
-}
-
 TEST(DetectionPanel, TakesPrimesAndWarnsOfThoseThatSpoilTheHash) {
   PanelRig rig;
+  rig.open("Detection");
   const auto& primes = [&]() -> const auto& { return rig.session.world().collision().primes; };
   ASSERT_FALSE(rig.recorder.find("Primes warning"));
   rig.type("x prime", "7");
@@ -134,12 +116,6 @@ TEST(DetectionPanel, TakesPrimesAndWarnsOfThoseThatSpoilTheHash) {
   EXPECT_EQ(primes(), (std::array<std::uint32_t, 3>{7, 1001, 4294967295}));
   EXPECT_TRUE(rig.recorder.find("Primes warning"));
   EXPECT_TRUE(rig.recorder.find("Buckets warning"));
-  rig.session.settings.set_method("bounding-box");
-  rig.ui.hash_table = false;
-  rig.frames(2);
-  EXPECT_FALSE(rig.recorder.find("Primes warning")) << "the method hashes nothing";
-  rig.session.settings.set_method("grid-hash");
-  rig.frames(2);
   rig.type("y prime", "0");
   EXPECT_EQ(primes()[1], 1u) << "the smallest allowed";
   rig.click("Default primes");

@@ -13,14 +13,11 @@ namespace THIS_FILE {
 
 using tests::TemporaryFolder;
 
-/// Opens a section and folds those above it, so that it is visible.
-void open_only(PanelRig& rig, std::string_view section) { rig.click_each({"Numbers", "Show", "Detection", section}); }
-
 TEST(FilesPanel, LoadsTheNamedFile) {
   const TemporaryFolder folder;
   const auto file = folder.write("lone.toml", "name = \"Lone\"\n[[body]]\n");
   PanelRig rig;
-  open_only(rig, "Files");
+  rig.open("Files");
   rig.type("File to open", file.string());
   EXPECT_EQ(rig.session.import.path, file.string());
   rig.click("Load");
@@ -41,7 +38,7 @@ TEST(FilesPanel, LoadsTheNamedFile) {
 
 TEST(FilesPanel, SetsTheWeldDistanceOfTheNextMesh) {
   PanelRig rig;
-  open_only(rig, "Files");
+  rig.open("Files");
   EXPECT_EQ(rig.session.import.weld, softbody::MeshFile{}.weld);
   rig.drag("Weld distance", -2000);
   EXPECT_EQ(rig.session.import.weld, session::Import::min_weld);
@@ -59,7 +56,7 @@ TEST(ImportReport, OffersToLetTheMeshJoinTheSceneBefore) {
   rig.session.import.drop({folder.write("mine.obj", mesh).string()});
   ASSERT_TRUE(rig.frames_until([&] { return !rig.session.import.busy(); }));
   EXPECT_EQ(rig.session.world().scene().name, "mine.obj");
-  open_only(rig, "Files");
+  rig.open("Files");
   EXPECT_FALSE(rig.widget("Copy").enabled) << "no option makes this scene";
   rig.tasks.clear();
   rig.click("Into the scene before");
@@ -78,7 +75,7 @@ TEST(ImportReport, ListsEveryFileBelowTheStatus) {
   rig.session.import.drop(std::vector<std::string>(20, "/none/with a path that takes more than one line here.stl"));
   rig.frames(40);
   EXPECT_EQ(std::ranges::count(rig.recorder.widgets, "Import report", &ui::WidgetRecorder::Widget::label), 20);
-  const float status_end = rig.widget("Step light").max.y;
+  const float status_end = rig.widget("Live recall").max.y;
   const auto first = std::ranges::find(rig.recorder.widgets, "Import report", &ui::WidgetRecorder::Widget::label);
   EXPECT_GT(first->min.y, status_end) << "a long report scrolls";
 }
@@ -88,7 +85,7 @@ TEST(FilesPanel, SavesASceneAndAsksBeforeItReplacesAFile) {
   const std::string file = folder.write("mine.toml", "# mine\n").string();
   const auto method = [&] { return softbody::load_scene(file).method; };
   PanelRig rig;
-  open_only(rig, "Files");
+  rig.open("Files");
   rig.session.settings.set_method("grid-hash");
   rig.type("Scene file", file);
   for (const char* answer : {"Cancel", "Replace"}) {
@@ -118,7 +115,7 @@ TEST(FilesPanel, SavesASceneAndAsksBeforeItReplacesAFile) {
 
 TEST(FilesPanel, CopiesCommandsForTheSettingsInUse) {
   PanelRig rig;
-  open_only(rig, "Files");
+  rig.open("Files");
   rig.session.simulation.clock.paused = true;
   rig.session.settings.set_method("grid-hash");
   const std::string frames = " --frames " + std::to_string(rig.session.world().frame());
@@ -138,7 +135,7 @@ TEST(FilesPanel, CopiesCommandsForTheSettingsInUse) {
 TEST(ExportPanel, RequestsAPictureAndRecords) {
   const TemporaryFolder folder;
   PanelRig rig;
-  open_only(rig, "Export");
+  rig.open("Export");
   rig.type("Output folder", folder.path().string());
   EXPECT_EQ(rig.session.exporter.folder, folder.path().string());
   rig.click("Picture");

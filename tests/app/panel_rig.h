@@ -118,6 +118,11 @@ class PanelRig {
     const ImVec2 at = middle(label);
     click_at(at.x, at.y);
   }
+  /// Opens a section of the panel.
+  void open(const char* section) {
+    ui.open_section(section);
+    frames(2);
+  }
   void click_each(std::initializer_list<std::string_view> labels) {
     for (const std::string_view label : labels) click(label);
   }

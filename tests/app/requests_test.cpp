@@ -31,7 +31,11 @@ TEST(CarryOut, TellsTheSessionWhatTheWindowWants) {
             session, state);
   const session::CompareChoice& choice = session.comparison.choice;
   EXPECT_TRUE(choice.on && choice.with_misses && choice.with_paper && session.surfaces.on);
-  carry_out({[](Session&, ui::UiState& ui) { ui = {}; }}, session, state);
+  carry_out({[](Session&, ui::UiState& ui) {
+              ui = {};
+              ui.panel = false;
+            }},
+            session, state);
   EXPECT_FALSE(choice.on || choice.with_misses || choice.with_paper || session.surfaces.on);
 }
 

@@ -281,12 +281,11 @@ TEST_F(RecordedSolid, StaysWhereTheBodiesHaveMetIt) {
 }
 
 TEST_F(SolidDrag, OpensTheSectionOfTheSolidAndChangesNothingByAClick) {
-  ui.sections["World"] = false;
   session.bodies.select(0);
   move(pixel_of(camera, middles[0]));
   drag({2, 1});
   EXPECT_EQ(ui.solid, 0u);
-  EXPECT_TRUE(ui.sections["World"]);
+  EXPECT_TRUE(ui.sections.at("Solids") && ui.sections.at("More"));
   EXPECT_EQ(place(0), glm::dvec3(-1.5, 1.5, 0));
   EXPECT_FALSE(session.simulation.can_undo());
   EXPECT_FALSE(session.bodies.selected()) << "as a click beside the bodies";

@@ -1,4 +1,4 @@
-#include "app/ui/shortcuts.h"
+#include "app/ui/state/shortcuts.h"
 
 #include <gtest/gtest.h>
 
@@ -45,6 +45,17 @@ TEST(Shortcuts, ActAsTheHelpSays) {
   EXPECT_TRUE(task('Q') == ui::WindowTask::quit);
   EXPECT_FALSE(tap('Z'));
   EXPECT_FALSE(tap('/')) << "only some keyboards have it on the key of ?";
+}
+
+TEST(Shortcuts, ShowTheCardInPlaceOfTheViewsBelowTheScene) {
+  Session session(touching_pair(), {}, 1);
+  ui::UiState ui;
+  for (const int key : {'V', 'E', 'W', 'V', 'W'}) {
+    handle_key(key, false, session, ui);
+    EXPECT_EQ(ui.shows_story(), key == 'W');
+  }
+  handle_key('W', false, session, ui);
+  EXPECT_FALSE(ui.shows_story() || ui.story_at_start);
 }
 
 TEST(Shortcuts, SayWhatTheyDid) {

@@ -218,7 +218,7 @@ TEST_F(SimulationUndo, TakesChangesOfOneSettingThatFollowEachOtherAsOne) {
     }
   };
   drag_gravity();
-  simulation.change_scene("Subdivision", [](softbody::Scene& scene) { scene.collision.levels = 6; });
+  simulation.change_scene("Level", [](softbody::Scene& scene) { scene.collision.levels = 6; });
   set_gravity(7);
   simulation.undo();
   EXPECT_EQ(gravity(), 5);

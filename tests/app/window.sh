@@ -81,7 +81,7 @@ has_size() { [ "$(xdotool getwindowgeometry --shell "$window" | grep -E 'WIDTH|H
 start
 keys d 1 2 3 4 5 6 m m m m m m space n s s space bracketleft bracketright t t v v e e F1 Escape h h c shift+d b
 keys Delete r ctrl+z ctrl+y r
-click 30 369              # a checkbox of the panel
+click 24 377              # a checkbox of the panel
 click 700 400             # the scene
 sleep 2                   # now the first body is above the middle of the scene
 xdotool mousemove 800 160; sleep 0.3; xdotool mousedown 1; sleep 0.3
@@ -110,15 +110,16 @@ cd "$folder" || exit 1
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' >mesh.obj
 preferences=$XDG_CONFIG_HOME/sbcollide/preferences.toml
 grep -q '^width = 1280$' "$preferences" || fail "the window's size was not kept"
-# Folds all sections of the panel but one, so that its fields stand below the headings above it, 29 pixels each.
-mapfile -t sections < <(sed -n 's/^    {"\([^"]*\)", [a-z]*, [a-z]*, draw_.*/\1/p' "$sources/app/ui/panel/panel.cpp")
+# Folds all sections of the panel but one, so that its fields stand below the headings above it, 25 pixels each.
+mapfile -t sections < <(sed -n 's/^    {"\([^"]*\)", [a-z]*, draw_.*/\1/p' "$sources/app/ui/panel/panel.cpp")
 open_only() {
   local i open
+  printf 'width = 1280\nheight = 950\n[[section]]\nname = "More"\nopen = true\n' >"$preferences"
   for i in "${!sections[@]}"; do
     open=false
-    [ "${sections[i]}" = "$1" ] && open=true && field=$((248 + 29 * i)) && save=$((field + 4 * 29))
+    [ "${sections[i]}" = "$1" ] && open=true && field=$((602 + 25 * i)) && save=$((field + 4 * 29))
     printf '[[section]]\nname = "%s"\nopen = %s\n' "${sections[i]}" $open
-  done >"$preferences"
+  done >>"$preferences"
 }
 open_only Files
 start

@@ -1,4 +1,4 @@
-// The panel's part for bodies: drop, throw, and the selected body.
+// The panel's section on bodies: how they are dropped and thrown, and the selected one.
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
@@ -14,22 +14,13 @@ namespace {
 
 void draw_drop_and_throw(Widgets& w, const Session& session) {
   if (!session.simulated()) return;
-  const float gap = ImGui::GetStyle().ItemSpacing.x;
-  const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
-  const Disabled off(!session.bodies.can_drop());
-  if (w.button("Drop", "Drops another body from above (D).", width)) w.ask([](Session& s) { s.bodies.drop(); });
-  ImGui::SameLine();
-  if (w.button("Drop 20", "Drops twenty bodies side by side (Shift+D).", width))
-    w.ask([](Session& s) { s.bodies.drop(session::BodyControls::many_drops); });
-  ImGui::SameLine();
-  if (w.button("Throw", "Throws a body from the camera, by B to where the mouse points, else to the middle.", width))
-    w.ask(WindowTask::throw_body);
-  ImGui::SameLine();
-  ImGui::SetNextItemWidth(-FLT_MIN);
+  w.row_label("Throw", w.px(label_column));
   double speed = session.bodies.throw_speed;
   if (w.slider("Throw speed", speed, session::BodyControls::min_throw_speed, session::BodyControls::max_throw_speed,
                "%.0f m/s", "How fast bodies are thrown.", true))
     w.ask([speed](Session& s) { s.bodies.throw_speed = speed; });
+  if (w.button("Drop 20", "Drops twenty bodies side by side (Shift+D).", -FLT_MIN, session.bodies.can_drop()))
+    w.ask([](Session& s) { s.bodies.drop(session::BodyControls::many_drops); });
 }
 
 const char* state_text(const softbody::World& world, softbody::BodyId id) {
@@ -77,7 +68,7 @@ void draw_no_selection(Widgets& w, bool can_pull) {
 
 }  // namespace
 
-void draw_bodies(Widgets& w, const Session& session) {
+void draw_bodies(Widgets& w, const Session& session, const UiState&) {
   draw_drop_and_throw(w, session);
   const bool has_solver = session.simulated();
   const auto& body = session.bodies.selected();

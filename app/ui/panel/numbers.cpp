@@ -51,9 +51,6 @@ void draw_curves(Widgets& w, const Session& session, const UiState& ui) {
     w.curve("Solve", fmt::format("{:.2f} ms", report.solve_ms), history.solve_ms, {0, ms}, solve_colour,
             {"Time to move the bodies by a frame.", "ms"});
   draw_picture_rate(w, session, ui);
-  w.figure("  resolution", fmt::format("{:.0f} %", 100 * double(ui.render_scale)),
-           "Share of the pixels along each side of the scene's picture. It is below 100 % only while the scene moves "
-           "and the machine is too slow for 30 pictures per second.");
 }
 
 /// Draws the recall, then the contacts with their parts.
@@ -106,12 +103,10 @@ void draw_pair_tests(Widgets& w, const Session& session) {
       compare::all_pair_tests(session.world().bodies(), session.world().collision().self_collision);
   w.figure("Pair tests", grouped(counters.pair_tests),
            "Distances between vertices that were evaluated in this frame (§2.3).");
-  w.figure(
-      "  per vertex, share of all pairs",
-      fmt::format("{}, {} %", ratio(counters.pair_tests, vertices), ratio(100 * counters.pair_tests, all)),
-      fmt::format("Pair tests per vertex ({} vertices) and as a share of all {} pairs. §3 claims a constant number "
-                  "per vertex at best, and all pairs at worst.",
-                  grouped(vertices), grouped(all)));
+  w.figure("  for each vertex", ratio(counters.pair_tests, vertices),
+           fmt::format("Pair tests over vertices ({}). §3 claims a constant number at best.", grouped(vertices)));
+  w.figure("  of all pairs", ratio(100 * counters.pair_tests, all) + " %",
+           fmt::format("Share of all {} pairs that was tested. §3 claims all pairs at worst.", grouped(all)));
 }
 
 void draw_hashes(Widgets& w, const Session& session) {
@@ -121,10 +116,10 @@ void draw_hashes(Widgets& w, const Session& session) {
   const std::uint64_t corners = 8 * paper.boxes.size();
   w.figure("Hash evaluations", grouped(session.world().detection().counters.hashes),
            "Evaluations of the hash function by the driving method in this frame (§2.2).");
-  w.figure("  box corners, vertices",
-           known ? fmt::format("{}, {}", grouped(corners), grouped(vertices)) : fmt::format("-, {}", grouped(vertices)),
-           "The paper's method hashes eight corners per box; Grid Hash hashes each vertex. §3 claims that boxes save "
-           "hashes: true if a box holds more than eight vertices.");
+  w.figure("  corners of boxes", known ? grouped(corners) : "-",
+           "The paper's method hashes eight corners per box. §3 claims that boxes save hashes: true if a box holds "
+           "more than eight vertices.");
+  w.figure("  vertices", grouped(vertices), "Grid Hash hashes each vertex.");
 }
 
 /// Draws the figures of the table that the hash table's view shows.
@@ -150,6 +145,10 @@ void draw_numbers(Widgets& w, const Session& session, const UiState& ui) {
   draw_hashes(w, session);
   draw_table(w, session);
   draw_skipped(w, session);
+  if (ui.render_scale < 1)
+    w.figure("Resolution", fmt::format("{:.0f} %", 100 * double(ui.render_scale)),
+             "Share of the pixels along each side of the scene's picture. It is below 100 % only while the scene moves "
+             "and the machine is too slow for 30 pictures per second.");
 }
 
 }  // namespace app::ui

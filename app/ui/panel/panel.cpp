@@ -7,6 +7,8 @@
 
 #include <fmt/core.h>
 
+#include "app/ui/state/shortcuts.h"
+
 namespace app::ui {
 namespace {
 
@@ -25,9 +27,8 @@ void draw_scene(Widgets& w, const Session& session) {
   const std::filesystem::path from = session.simulation.loaded.file.name();
   const std::string shown = from.has_parent_path() ? from.filename().string() : scene.name;
   w.row_label("Scene", w.px(62));
-  const float help_width = ImGui::GetFrameHeight(), tour_button_width = w.px(52),
-              gap = ImGui::GetStyle().ItemInnerSpacing.x;
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - tour_button_width - 2 * gap);
+  const float tour_button_width = w.px(52), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - tour_button_width - gap);
   if (w.begin_combo("Scene", shown, scene.look_at)) {
     for (const session::SceneChoice& choice : session.scenes.choices())
       if (w.combo_item(choice.name, choice.key == session.simulation.loaded.file.name(), choice.look_at))
@@ -36,61 +37,64 @@ void draw_scene(Widgets& w, const Session& session) {
   }
   ImGui::SameLine(0, gap);
   draw_tour_button(w, tour_button_width);
-  ImGui::SameLine(0, gap);
-  if (w.button("?", "Shows the help: keys and mouse (F1).", help_width)) w.ask([](UiState& ui) { ui.help = !ui.help; });
 }
 
-void draw_time_controls(Widgets& w, const Session& session) {
-  const float gap = ImGui::GetStyle().ItemSpacing.x;
-  const float width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
-  if (w.button("Reset", "Restarts the scene with the present settings and without added bodies (R).", width))
-    w.ask([](Session& s) { s.simulation.reset(); });
-  ImGui::SameLine();
-  if (w.button("Undo", "Undoes the last reset, choice of scene, change of bodies, or drag of a solid (Ctrl+Z).", width,
-               session.simulation.can_undo()))
-    w.ask([](Session& s) { s.simulation.undo(); });
-  ImGui::SameLine();
-  if (w.button("Redo", "Brings back what the last undo took away (Ctrl+Y).", width, session.simulation.can_redo()))
-    w.ask([](Session& s) { s.simulation.redo(); });
+void draw_actions(Widgets& w, const Session& session) {
+  const bool has_solver = session.simulated();
+  const float buttons = has_solver ? 5 : 3, gap = w.px(4);
+  const float width = (ImGui::GetContentRegionAvail().x - (buttons - 1) * gap) / buttons;
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {gap, ImGui::GetStyle().ItemSpacing.y});
+  const auto button = [&](const char* label, const char* tooltip, bool enabled, const auto& asked) {
+    if (w.button(label, tooltip, width, enabled)) w.ask(asked);
+    ImGui::SameLine();
+  };
+  button("Reset", "Restarts the scene with the present settings and without added bodies (R).", true,
+         [](Session& s) { s.simulation.reset(); });
+  button("Undo", "Undoes the last change of a body, a setting or the scene, or a reset (Ctrl+Z).",
+         session.simulation.can_undo(), [](Session& s) { s.simulation.undo(); });
+  button("Redo", "Brings back what the last undo took away (Ctrl+Y).", session.simulation.can_redo(),
+         [](Session& s) { s.simulation.redo(); });
+  if (has_solver) {
+    button("Drop", "Drops another body from above (D); with Shift, twenty.", session.bodies.can_drop(),
+           [](Session& s) { s.bodies.drop(); });
+    button("Throw", "Throws a body from the camera, by B to where the mouse points, else to the middle.",
+           session.bodies.can_drop(), WindowTask::throw_body);
+  }
+  ImGui::PopStyleVar();
+  ImGui::NewLine();
+}
 
-  if (w.checkbox("Slow motion", session.simulation.clock.slow_motion, "Runs the simulation slower than real time (S)."))
-    w.ask([](Session& s) { s.simulation.clock.slow_motion = !s.simulation.clock.slow_motion; });
-  ImGui::SameLine(w.px(label_column + 20));
-  ImGui::SetNextItemWidth(-FLT_MIN);
-  const Disabled off(!session.simulation.clock.slow_motion);
+void draw_overlays(Widgets& w, const Session& session, const UiState& ui) {
+  std::size_t i = 0;
+  for (const render::OverlayRow& row : render::overlay_table) {
+    if (row.needs_solver && !session.simulated()) continue;
+    if (i++ % 2) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.54f);
+    if (w.checkbox(row.label, ui.overlays.*row.shown, fmt::format("{} ({})", row.tooltip, row.shortcut)))
+      w.ask([&row](UiState& state) { state.overlays.*row.shown = !(state.overlays.*row.shown); });
+  }
+}
+
+/// Draws the check boxes of the keys that switch something on and off.
+void draw_switches(Widgets& w, const Session& session, const UiState& ui, bool rare) {
+  for (const Shortcut& key : shortcuts()) {
+    if (!key.is_on || key.rare != rare) continue;
+    if (w.checkbox(key.text, key.is_on(session, ui), fmt::format("{} ({})", key.tooltip, key.keys_text)))
+      std::visit([&](const auto& act) { w.ask(act); }, key.act);
+    ImGui::SameLine();
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().FramePadding.y);
+    const Disabled grey(true);
+    w.right_text(std::string(key.keys_text));
+  }
+}
+
+void draw_time_and_view(Widgets& w, const Session& session, const UiState& ui) {
+  draw_switches(w, session, ui, true);
+  w.row_label("Slow motion", w.px(label_column));
   double percent = 100 * session.simulation.clock.slow_factor;
   if (w.slider("Slow motion speed", percent, 100 * session::SimulationClock::min_slow_factor,
                100 * session::SimulationClock::max_slow_factor, "%.0f %% of real time", "The speed of slow motion.",
                true))
     w.ask([factor = percent / 100](Session& s) { s.simulation.clock.slow_factor = factor; });
-}
-
-void draw_overlays(Widgets& w, const Session& session, const UiState& ui) {
-  std::size_t i = 0;
-  const auto flag = [&](std::string_view label, bool shown, std::string_view tooltip, const auto& change) {
-    if (i++ % 2) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.54f);
-    if (w.checkbox(label, shown, tooltip)) w.ask(change);
-  };
-  for (const render::OverlayRow& row : render::overlay_table)
-    if (!row.needs_solver || session.simulated())
-      flag(row.label, ui.overlays.*row.shown, fmt::format("{} ({})", row.tooltip, row.shortcut),
-           [&row](UiState& state) { state.overlays.*row.shown = !(state.overlays.*row.shown); });
-  if (session.simulated())
-    flag("Beside", session.simulation.beside(),
-         "Simulates a second world beside this one, with other settings: what they cost and what they miss (A).",
-         [](Session& s) { s.simulation.toggle_beside(); });
-  flag("Hash table", ui.hash_table, "Shows the hash table: each square is a bucket (T).",
-       [](Session& s, UiState& state) { state.toggle_hash_table(s); });
-  flag("Error vs run time###Error against run time", ui.lower == LowerView::sweep,
-       "Plots error against run time of the shown methods with many settings, on one frame (E).",
-       [](UiState& state) { state.toggle(LowerView::sweep); });
-  flag("Compare methods", ui.lower == LowerView::comparison,
-       "Shows the cost and the misses of methods side by side, on the same frame (V).",
-       [](UiState& state) { state.toggle(LowerView::comparison); });
-  flag("Paper vs exact###Story", ui.story, "Counts and marks what the paper's method misses, and says why (W).",
-       [](UiState& state) { state.set_story(!state.story); });
-  flag("Status lights", ui.lights, "What to expect of the method and of the time step (L).",
-       [](UiState& state) { state.lights = !state.lights; });
 }
 
 void draw_plan(Widgets& w, const Session& session, const UiState&) {
@@ -114,27 +118,29 @@ void draw_plan(Widgets& w, const Session& session, const UiState&) {
 
 struct Section {
   const char* label;
-  bool open_at_first, needs_solver;
+  bool needs_solver;
   void (*draw)(Widgets& w, const Session& session, const UiState& ui);
 };
-constexpr std::array<Section, 8> sections{{
-    {"Detection", true, false, draw_detection},
-    {"Show", true, false, draw_overlays},
-    {"World", false, true, draw_world},
-    {"Numbers", true, false, draw_numbers},
-    {"Stability", false, true, draw_stability},
-    {"Files", false, false, draw_files},
-    {"Export", false, false, draw_export},
-    {"Stages of a step", false, true, draw_plan},
+constexpr std::array<Section, 10> sections{{
+    {"Solids", true, draw_solids},
+    {"Bodies", false, draw_bodies},
+    {"World", true, draw_world},
+    {"Numbers", false, draw_numbers},
+    {"Stability", true, draw_stability},
+    {"Detection", false, draw_detection},
+    {"Files", false, draw_files},
+    {"Export", false, draw_export},
+    {"Time and view", false, draw_time_and_view},
+    {"Stages of a step", true, draw_plan},
 }};
 
-/// Draws the sections of the panel. Without a solver it leaves out those that need one, and says so.
+/// Draws the sections. Without a solver it leaves out those that need one, and says so.
 void draw_sections(Widgets& w, const Session& session, const UiState& ui) {
   std::string left_out;
   for (const Section& section : sections) {
     if (section.needs_solver && !session.simulated())
       left_out.append(left_out.empty() ? "" : ", ").append(section.label);
-    else if (w.section(section.label, section.open_at_first))
+    else if (w.section(section.label))
       section.draw(w, session, ui);
   }
   if (left_out.empty()) return;
@@ -152,10 +158,20 @@ void draw_panel(Widgets& w, const Session& session, const UiState& ui, const Scr
   ImGui::SetNextWindowContentSize({w.px(panel_width) - 2 * style.WindowPadding.x - style.ScrollbarSize, 0});
   begin_dock("Panel", area, opaque);
   draw_scene(w, session);
-  draw_time_controls(w, session);
-  draw_bodies(w, session);
+  draw_actions(w, session);
+  ImGui::Separator();
+  draw_method(w, session);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {style.FramePadding.x, w.px(2)});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {style.ItemSpacing.x, w.px(4)});
+  ImGui::Separator();
+  ImGui::TextDisabled("Over the bodies");
+  draw_overlays(w, session, ui);
+  ImGui::Separator();
+  ImGui::TextDisabled("Beside the scene");
+  draw_switches(w, session, ui, false);
+  ImGui::PopStyleVar(2);
   ImGui::Spacing();
-  draw_sections(w, session, ui);
+  if (w.section("More")) draw_sections(w, session, ui);
   ImGui::End();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// The panel at the left edge. What is needed first stands at the top, the rest is in sections that fold. Changing
-// numbers never move a widget.
+// The panel at the left edge. What is needed first stands at the top, the rest is in sections that fold, inside one.
+// Changing numbers never move a widget.
 
 #include "app/session/session.h"
 #include "app/ui/state/ui_state.h"
@@ -15,10 +15,15 @@ inline constexpr float panel_width = 330;  // design pixels
 void draw_panel(Widgets& widgets, const Session& session, const UiState& ui, const ScreenRect& area, bool opaque);
 
 // The parts of the panel. Each draws into the current window.
-/// Draws the values of the scene that have a slider in their rows: those of detection, or the others.
-void draw_values(Widgets& widgets, const Session& session, const UiState& ui, bool of_detection);
+/// Where the panel has a value of the scene: with the method, below the line that says whose the settings of hashing
+/// are, or in a section.
+enum class ValuePlace { method, hashing, detection, world };
+/// Draws the values of this place that have a slider in their rows.
+void draw_values(Widgets& widgets, const Session& session, ValuePlace place);
+void draw_method(Widgets& widgets, const Session& session);
 void draw_detection(Widgets& widgets, const Session& session, const UiState& ui);
-void draw_bodies(Widgets& widgets, const Session& session);
+void draw_bodies(Widgets& widgets, const Session& session, const UiState& ui);
+void draw_solids(Widgets& widgets, const Session& session, const UiState& ui);
 void draw_world(Widgets& widgets, const Session& session, const UiState& ui);
 void draw_numbers(Widgets& widgets, const Session& session, const UiState& ui);
 void draw_stability(Widgets& widgets, const Session& session, const UiState& ui);

@@ -58,6 +58,8 @@ void draw_integrator(Widgets& w, const Session& session) {
                               ? "Chosen automatically: " + std::string(last.why) + "."
                               : "The integrator that you chose.";
   w.figure("Active integrator", chosen ? std::string(last.integrator->name) : "next step", why);
+  const session::StepMargin& margin = session.simulation.stability().margin();
+  w.figure("Substep", step_text(margin, world), status_light(margin).sentence);
 }
 
 struct StabilityCurve {
@@ -109,13 +111,14 @@ StatusLight status_light(const session::StepMargin& margin) {
 
 void draw_step_light(Widgets& w, const Session& session) {
   const session::StepMargin& margin = session.simulation.stability().margin();
-  const StatusLight light = status_light(margin);
-  ImGui::BeginGroup();
-  w.dot(light.colour);
-  w.text_line(std::string(light.label).append(": ").append(step_text(margin, session.world())));
-  ImGui::EndGroup();
-  w.register_item("Step light", fmt::format("{} Substeps per frame: {} taken, {} needed.", light.sentence, margin.taken,
-                                            margin.needed));
+  if (const StatusLight light = status_light(margin); light.colour != render::status_green) {
+    ImGui::BeginGroup();
+    w.dot(light.colour);
+    w.text_line(std::string(light.label).append(": ").append(step_text(margin, session.world())));
+    ImGui::EndGroup();
+    w.register_item("Step light", fmt::format("{} Substeps per frame: {} taken, {} needed.", light.sentence,
+                                              margin.taken, margin.needed));
+  }
   const auto& blow_up = session.simulation.stability().blow_up();
   if (!blow_up) return;
   w.wrapped_text("Blow-up",

@@ -1,5 +1,5 @@
-// The panel's widgets for the values of the scene, and its section on detection. What a widget says and where it ends
-// stands in the row of its key.
+// The panel's widgets for the values of the scene, its block on the method, and its section on detection. What a widget
+// says and where it ends stands in the row of its key.
 
 #include <array>
 #include <limits>
@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
+#include "app/render/palette.h"
 #include "app/ui/panel/panel.h"
 #include "app/ui/views/views.h"
 #include "app/ui/widgets/method_mark.h"
@@ -15,8 +16,6 @@
 namespace app::ui {
 namespace {
 
-constexpr std::array<std::uint32_t, 10> bucket_presets{1, 101, 499, 997, 1001, 1009, 10007, 100003, 1000003, 1u << 24};
-
 /// True if surface contact keeps the bodies apart, not the detector's contacts.
 bool uses_surface_contact(const Session& session) {
   return session.simulation.edited().scene().contact_surface == softbody::ContactSurface::surfaces;
@@ -24,8 +23,8 @@ bool uses_surface_contact(const Session& session) {
 
 /// Draws the label of a setting of the hash function. If bucket count and primes do not suit each other, the label has
 /// a mark, and the reason as its tooltip.
-void draw_hash_label(Widgets& w, const std::string& label, float column, const collide::Settings& settings, bool used) {
-  const std::string warning = used ? collide::hash_warning(settings) : "";
+void draw_hash_label(Widgets& w, const std::string& label, float column, const collide::Settings& settings) {
+  const std::string warning = collide::hash_warning(settings);
   if (warning.empty()) return w.row_label(label, column);
   ImGui::PushStyleColor(ImGuiCol_TextDisabled, {0.85f, 0.5f, 0.0f, 1.0f});
   w.row_label(label + "!", column);
@@ -33,20 +32,20 @@ void draw_hash_label(Widgets& w, const std::string& label, float column, const c
   w.register_item(label + " warning", warning);
 }
 
+ValuePlace place_of(const softbody::Key& key) {
+  using namespace softbody::scene_key;
+  if (!softbody::is_of_detection(key)) return ValuePlace::world;
+  if (&key == &levels || &key == &buckets || &key == &cell_size) return ValuePlace::hashing;
+  return &key == &primes || &key == &self_collision ? ValuePlace::detection : ValuePlace::method;
+}
+
 /// Draws the widget for a value by its type. The functions return true if the user has changed it.
 struct ValueWidgets {
   Widgets& w;
   const Session& session;
-  bool needed;                                                        // by what is shown, besides the method
   float usual = session.simulation.loaded.scene.collision.tolerance;  // m: tells how large the bodies are
   const collide::Settings& settings = session.simulation.edited().collision();
 
-  bool uses(const softbody::Key& key) const {
-    using namespace softbody::scene_key;
-    const collide::Method& method = session.simulation.edited().method();
-    if (&key == &levels) return needed || method.uses_levels;
-    return needed || method.uses_hash || (&key != &buckets && &key != &primes && &key != &cell_size);
-  }
   void label(const softbody::Key& key) const { w.row_label(key.slider.text, w.px(label_column)); }
 
   /// more: what the tooltip says besides.
@@ -106,37 +105,21 @@ struct ValueWidgets {
   bool draw(const softbody::Key& key, int& value) const {
     label(key);
     if (&key != &softbody::scene_key::levels) return slide(key, value, key.slider);
+    if (!session.inspector.shown_method().uses_levels) return ImGui::TextDisabled("not used"), false;
     softbody::Slider s = key.slider;
     const std::string format = fmt::format("%d  ({} boxes per body)", grouped(1ull << value));
     s.format = format.c_str();
-    return slide(key, value, s, " Keys [ and ].");
+    return slide(key, value, s, " Keys:\u00a0[\u00a0and\u00a0].");
   }
 
   bool draw(const softbody::Key& key, std::uint32_t& value) const {
-    draw_hash_label(w, key.slider.text, w.px(label_column), settings, uses(key));
-    const float arrow = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
-    const float field_width = w.px(84);
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - arrow - field_width - 2 * gap);
-    bool changed = w.slider("Buckets", value, 1, collide::max_buckets, "", key.summary, true);
-    ImGui::SameLine(0, gap);
-    ImGui::SetNextItemWidth(field_width);
-    changed |= w.number_field("Number of buckets", value, 1, collide::max_buckets, key.summary);
-    ImGui::SameLine(0, gap);
-    if (w.begin_combo("Bucket presets", "", "Common numbers of buckets: the paper's, and primes near them.",
-                      ImGuiComboFlags_NoPreview)) {
-      for (const std::uint32_t preset : bucket_presets) {
-        if (!w.combo_item(grouped(preset), preset == value)) continue;
-        value = preset;
-        changed = true;
-      }
-      ImGui::EndCombo();
-    }
-    return changed;
+    draw_hash_label(w, key.slider.text, w.px(label_column), settings);
+    return w.slider(key.slider.text, value, 1, collide::max_buckets, "%u", key.summary, true);
   }
 
   bool draw(const softbody::Key& key, std::array<std::uint32_t, 3>& value) const {
     static constexpr std::array labels{"x prime", "y prime", "z prime"};
-    draw_hash_label(w, key.slider.text, w.px(62), settings, uses(key));  // three numbers need more room than one
+    draw_hash_label(w, key.slider.text, w.px(62), settings);  // three numbers need more room than one
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(3), ImGui::GetStyle().FramePadding.y});
     const float reset = ImGui::GetFrameHeight(), gap = w.px(3);
     const float field = (ImGui::GetContentRegionAvail().x - reset - 3 * gap) / 3;
@@ -156,20 +139,14 @@ struct ValueWidgets {
 
   bool draw(const softbody::Key& key, std::optional<glm::vec3>& value) const {
     label(key);
-    bool changed = w.checkbox("Auto", !value,
-                              "Makes cells as large as the largest subdivided box at rest plus the tolerance. The "
-                              "paper's method can still miss contacts.");
+    softbody::Slider s = of_lengths(key.slider, 5, 50);
+    const std::string format = std::string(s.format) + (value ? "" : "  (automatic)");
+    s.format = format.c_str();
     const glm::vec3 now = *settings.cell_size;
-    if (changed) value = value ? std::nullopt : std::optional(now);
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(-FLT_MIN);
-    const Disabled off(!value);
     float side = std::max({now.x, now.y, now.z});
-    if (slide(key, side, of_lengths(key.slider, 5, 50))) {
-      value = glm::vec3(side);
-      changed = true;
-    }
-    return changed;
+    if (!slide(key, side, s, " More, Detection: automatic cells.")) return false;
+    value = glm::vec3(side);
+    return true;
   }
 
   bool draw(const softbody::Key& key, float& value) const {
@@ -190,16 +167,10 @@ struct ValueWidgets {
 
 }  // namespace
 
-void draw_values(Widgets& w, const Session& session, const UiState& ui, bool of_detection) {
-  // A setting is enabled if the driving method, the structure shown (§2) or the comparison uses it.
-  const bool structure_shown =
-      ui.hash_table || ui.tour.open() || render::shows(ui.overlays, render::OverlayBasis::table);
-  const bool needed = structure_shown || session.inspector.selected_bucket() || session.comparison.choice.on ||
-                      session.comparison.choice.with_paper || session.comparison.choice.with_misses;
-  const ValueWidgets widgets{w, session, needed};
+void draw_values(Widgets& w, const Session& session, ValuePlace place) {
+  const ValueWidgets widgets{w, session};
   softbody::for_each_value(session.simulation.edited().scene(), [&](const softbody::Key& key, auto value) {
-    if (!key.slider.text || softbody::is_of_detection(key) != of_detection) return;
-    const Disabled off(!widgets.uses(key));
+    if (!key.slider.text || place_of(key) != place) return;
     if (widgets.draw(key, value))
       w.ask([&key, value](Session& s) {
         s.simulation.change_scene(key.slider.text,
@@ -208,8 +179,34 @@ void draw_values(Widgets& w, const Session& session, const UiState& ui, bool of_
   });
 }
 
-void draw_detection(Widgets& w, const Session& session, const UiState& ui) {
-  draw_values(w, session, ui, true);
+void draw_method(Widgets& w, const Session& session) {
+  draw_values(w, session, ValuePlace::method);
+  ImGui::Separator();
+  const collide::Method& owner = session.inspector.shown_method();
+  const bool drives = owner.key == session.simulation.edited().method().key;
+  draw_method_mark(w, owner, ImGui::GetTextLineHeight());
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s, %s", owner.key == collide::paper_method ? "The paper's method" : owner.name.c_str(),
+                      drives ? "driving" : "for comparison");
+  w.register_item("Hashing of", "Whose boxes and hash table these settings shape, and what it finds with them. " +
+                                    (drives ? "" : session.simulation.edited().method().name + " has no hash table."));
+  draw_values(w, session, ValuePlace::hashing);
+  const std::string found = verdict(session.comparison, compare::method_index(owner.key));
+  const bool misses = found.starts_with("misses");
+  if (misses) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::contact_missed_colour));
+  w.figure("Contacts now", found, owner.summary);
+  if (misses) ImGui::PopStyleColor();
+}
+
+void draw_detection(Widgets& w, const Session& session, const UiState&) {
+  const std::optional<glm::vec3> cell_size = session.simulation.edited().scene().collision.cell_size;
+  if (w.checkbox("Automatic cell size", !cell_size,
+                 "Makes cells as large as the largest subdivided box at rest plus the tolerance. The paper's method "
+                 "can still miss contacts."))
+    w.ask([size = cell_size ? std::nullopt : session.simulation.edited().collision().cell_size](Session& s) {
+      s.simulation.change_scene("Cell size", [&](softbody::Scene& scene) { scene.collision.cell_size = size; });
+    });
+  draw_values(w, session, ValuePlace::detection);
   ImGui::SameLine(w.px(label_column + 46));
   if (w.button("Restore settings", "Restores the method and settings of the scene file.",
                ImGui::GetContentRegionAvail().x))

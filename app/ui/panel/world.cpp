@@ -1,4 +1,4 @@
-// The panel's section on gravity, materials and solids, which can be changed while the world runs.
+// The panel's sections on solids, gravity and materials, which can be changed while the world runs.
 
 #include <algorithm>
 #include <cassert>
@@ -107,6 +107,8 @@ struct ShapeWidgets {
   void operator()(const char*, auto) {}
 };
 
+}  // namespace
+
 void draw_solids(Widgets& w, const Session& session, const UiState& ui) {
   const std::vector<softbody::Solid>& solids = session.world().scene().solids;
   if (solids.empty()) {
@@ -139,14 +141,10 @@ void draw_solids(Widgets& w, const Session& session, const UiState& ui) {
   if (solid != solids[index]) w.ask([index, solid](Session& s) { s.settings.set_solid(index, solid); });
 }
 
-}  // namespace
-
 void draw_world(Widgets& w, const Session& session, const UiState& ui) {
-  draw_values(w, session, ui, false);
+  draw_values(w, session, ValuePlace::world);
   ImGui::Separator();
   draw_material(w, session, ui);
-  ImGui::Separator();
-  draw_solids(w, session, ui);
   if (w.button("Restore world", "Restores gravity, materials and solids of the scene file.",
                ImGui::GetContentRegionAvail().x))
     w.ask([](Session& s) { s.settings.restore_world(); });

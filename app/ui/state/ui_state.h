@@ -54,7 +54,13 @@ struct UiState : Remembered {
   /// True if the card is on the screen. The views below the scene say the same.
   bool shows_story() const { return marks_story() && lower == LowerView::none; }
   void toggle(LowerView part) { lower = lower == part ? LowerView::none : part; }
-  void set_story(bool on) { story = story_at_start = on; }
+  /// The card takes the place of the views below the scene.
+  void set_story(bool on) {
+    story = story_at_start = on;
+    if (on) lower = LowerView::none;
+  }
+  /// Opens a section of the panel that stands under *More*.
+  void open_section(const char* name) { sections["More"] = sections[name] = true; }
   /// A hash table that is put away takes its bucket with it.
   void toggle_hash_table(Session& session) {
     hash_table = !hash_table;
@@ -63,7 +69,8 @@ struct UiState : Remembered {
   /// Brings the values of a solid into sight.
   void show_solid(std::size_t index) {
     solid = index;
-    scrolls_to_solid = sections["World"] = true;
+    scrolls_to_solid = true;
+    open_section("Solids");
   }
   std::string save_as = "scene.toml";  // the file that the scene is saved to ...
   session::FieldNotice save_problem;   // ... why it was not written ...

@@ -108,9 +108,10 @@ std::vector<TourFigure> figures_of_bucket(const TourContext& v) {
   if (const std::size_t shown = TourContext::shown_cells(bucket).size(); shown < bucket.groups.size())
     figures.push_back({"Cells not shown", grouped(bucket.groups.size() - shown),
                        "Other cells of this bucket, each with no more boxes than those in orange."});
-  figures.push_back({"Meetings: same cell / aliased", sharing_text(bucket.sharing),
-                     "Pairs of boxes that meet in this bucket: as neighbours, and by the modulo alone."});
-  figures.push_back({"In the whole table", sharing_text(v.f.table.sharing()), "The same, summed over all buckets."});
+  figures.push_back({"Pairs in this bucket", sharing_text(bucket.sharing),
+                     "Pairs of boxes that the bucket brings together: near ones of the same cell, and those of other "
+                     "cells, by the modulo alone (aliasing)."});
+  figures.push_back({"In all buckets", sharing_text(v.f.table.sharing()), "The same, summed over all buckets."});
   return figures;
 }
 

@@ -48,11 +48,10 @@ void draw_bucket(Widgets& w, const Session& session) {
   const compare::CellGroup* chosen = bucket->group(session.inspector.selected_cell());
   for (const compare::CellGroup& group : bucket->groups) draw_group(w, session, *bucket, group, &group == chosen);
   ImGui::EndChild();
-  w.figure("Same cell / aliased", sharing_text(bucket->sharing),
-           "Pairs of entries in this bucket: of the same cell, and of different cells with the same hash (aliasing, "
-           "§2.2). Aliased pairs cost tests and are not near.");
-  w.figure("All buckets", sharing_text(session.inspector.table().sharing()),
-           "The same pairs, summed over all buckets.");
+  w.figure("Pairs", sharing_text(bucket->sharing),
+           "Pairs of entries in this bucket: near ones of the same cell, and by chance, of different cells with the "
+           "same hash (aliasing, §2.2). The latter cost tests for nothing.");
+  w.figure("All pairs", sharing_text(session.inspector.table().sharing()), "The same pairs, summed over all buckets.");
   if (close || another)
     w.ask([to = close ? std::nullopt : std::optional(number)](Session& s) { s.inspector.select_bucket(to); });
 }

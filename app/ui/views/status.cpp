@@ -13,13 +13,11 @@ namespace app::ui {
 namespace {
 
 std::string missed_text(const Session& session) {
-  const compare::CompareReport& report = session.comparison.report();
-  if (report.id != 0 && !report.reference)
-    return "Misses of the driving method: not measured, " + report.reference_note;
-  const compare::CompareRow* row = session.comparison.driver_row();
-  if (!row) return "Misses of the driving method: measuring";
-  return fmt::format("The driving method misses {} of {} (recall {:.4f})", grouped(row->missed.size()),
-                     grouped(report.true_contacts), rounded_down(row->recall));
+  const session::LiveComparison& comparison = session.comparison;
+  std::string text = "Contacts now: " + verdict(comparison, comparison.driver());
+  const compare::CompareRow* row = comparison.driver_row();
+  if (row && row->recall < 1) text += fmt::format(" (recall {:.4f})", rounded_down(row->recall));
+  return text;
 }
 
 /// Draws the lines of a legend one below another, or one behind another where they fit.
@@ -86,6 +84,17 @@ std::string shown_method_text(const Session& session) {
   const collide::Method& shown = session.inspector.shown_method();
   const bool drives = shown.key == session.world().method().key;
   return shown.name + (drives ? ", driving" : ", for comparison");
+}
+
+std::string verdict(const session::LiveComparison& comparison, std::size_t method) {
+  const compare::CompareReport& report = comparison.report();
+  if (report.id != 0 && !report.reference) return "not measured";
+  if (method < report.rows.size() && !report.rows[method].not_run.empty()) return "not run";
+  const compare::CompareRow* row = comparison.scored_row(method);
+  if (!row) return "being measured";
+  if (report.true_contacts == 0) return "finds none, misses none";
+  if (row->missed.empty()) return "finds all " + grouped(report.true_contacts);
+  return fmt::format("misses {} of {}", grouped(row->missed.size()), grouped(report.true_contacts));
 }
 
 double rounded_down(double share) { return std::floor(share * 1e4) / 1e4; }

@@ -34,6 +34,8 @@ void draw_step_light(Widgets& widgets, const Session& session);
 /// driving method has no table.
 std::string shown_method_text(const Session& session);
 
+/// Returns "misses 3 of 12", "finds all 12" and the like, or why that is not known.
+std::string verdict(const session::LiveComparison& comparison, std::size_t method);
 /// Rounds down to four digits, so that one missed contact of a million is not shown as a recall of 1.
 double rounded_down(double share);
 /// Returns "Measured against ...", with the reason if that is not brute force.

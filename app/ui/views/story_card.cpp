@@ -4,6 +4,7 @@
 
 #include "app/render/palette.h"
 #include "app/ui/state/ui_state.h"
+#include "app/ui/views/status.h"
 #include "app/ui/widgets/method_mark.h"
 
 namespace app::ui {
@@ -14,16 +15,6 @@ std::optional<std::size_t> exact_method(const Session& session) {
   const std::size_t driver = session.comparison.driver();
   if (collide::method_table()[driver].exact) return driver;
   return session.comparison.report().reference;
-}
-
-/// Returns "misses 8 of 69", or why that is not known.
-std::string verdict(const session::LiveComparison& comparison, std::size_t method) {
-  const compare::CompareRow* row = comparison.scored_row(method);
-  const std::size_t contacts = comparison.report().true_contacts;
-  if (!row) return comparison.report().id == 0 || comparison.report().reference ? "measuring" : "not measured";
-  if (contacts == 0) return "no contacts yet";
-  if (row->missed.empty()) return fmt::format("finds all {}", grouped(contacts));
-  return fmt::format("misses {} of {}", grouped(row->missed.size()), grouped(contacts));
 }
 
 void draw_method(Widgets& w, const session::LiveComparison& comparison, std::size_t method, const char* remark) {
@@ -99,11 +90,11 @@ std::string StoryCard::sentence(const Session& session) const {
   const compare::CompareRow* row = session.comparison.paper_row();
   if (row && !row->missed.empty()) return reason(row->coverage);
   if (last_)
-    return fmt::format("Last missed: {} of {} contacts in frame {}, {}.", grouped(last_->missed),
-                       grouped(last_->contacts), last_->frame,
+    return fmt::format("The paper's method last missed contacts in frame {} ({} of {}): {}.", last_->frame,
+                       grouped(last_->missed), grouped(last_->contacts),
                        last_->coverage == collide::Coverage::exceeded
-                           ? "some in cells that the corners of boxes skipped"
-                           : "across a face of the grid");
+                           ? "some boxes were larger than a cell, and their corners skipped cells"
+                           : "a face of the grid lay between the vertices");
   if (session.world().all_at_rest()) return "The boxes of each contact of this frame share a bucket.";
   return "Both look for all vertices that come closer than the tolerance. Watch what happens where bodies touch across "
          "a face of the grid.";

@@ -86,7 +86,7 @@ void draw_true_surfaces(Widgets& w, const Session& session) {
   draw_distance(w, session.world());
   draw_overlaps(w, session.surfaces.report().figures);
   draw_missed(w, session);
-  if (w.section("Passages", false)) draw_crossings(w, session.surfaces.report().figures, session.surfaces.sums());
+  if (w.section("Passages")) draw_crossings(w, session.surfaces.report().figures, session.surfaces.sums());
 }
 
 }  // namespace app::ui

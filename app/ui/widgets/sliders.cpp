@@ -110,8 +110,8 @@ bool Widgets::type(const Number<Value>& n) {
     const double nearest = std::clamp(*number, static_cast<double>(n.min), static_cast<double>(n.max));
     n.value = static_cast<Value>(nearest);
     if (std::abs(*number - nearest) > std::abs(nearest) * static_cast<double>(std::numeric_limits<Value>::epsilon()))
-      input_.field_problem =
-          fmt::format("{}: {:.40} is beyond the limits and becomes {}", n.label, text, field_text(n.value, n.format));
+      input_.field_problem = fmt::format("{}: {:.40} is outside {} to {} and becomes {}", n.label, text, n.min, n.max,
+                                         field_text(n.value, n.format));
   } else {
     n.value = kept;
     input_.field_problem = fmt::format("{}: \"{:.40}\" is not a {}; the value stays {}", n.label, text,
@@ -134,9 +134,7 @@ template <class Value>
 bool Widgets::slider(std::string_view label, Value& value, std::type_identity_t<Value> min,
                      std::type_identity_t<Value> max, const char* format, std::string_view tooltip, bool logarithmic) {
   assert(min > 0 || !logarithmic || !std::is_integral_v<Value>);
-  assert(*format || (std::is_same_v<Value, std::uint32_t>));
-  // The field for typing shows the value even where `format` hides it.
-  const Number<Value> n{label, value, min, max, *format ? format : "%u"};
+  const Number<Value> n{label, value, min, max, format};
   const Value now = value;
   const bool double_clicked = opens_field() && input_.pressed == label;
   if (double_clicked) value = static_cast<Value>(input_.value_before);
@@ -144,7 +142,7 @@ bool Widgets::slider(std::string_view label, Value& value, std::type_identity_t<
     const HiddenGrab hide;
     const OpenByDoubleClick opens;
     return drag_or_type(n, [&](const char* id) {
-      return ImGui::SliderScalar(id, imgui_type<Value>, &value, &min, &max, double_clicked ? n.format : format,
+      return ImGui::SliderScalar(id, imgui_type<Value>, &value, &min, &max, format,
                                  clamped | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
     });
   }();

@@ -107,8 +107,7 @@ void InputState::update(float min_move) {
   last_results = std::exchange(results, {});
   const ImVec2 at = ImGui::GetIO().MousePos;
   if (ImGui::IsAnyMouseDown()) {
-    clicked = true;
-    clicked_at = at;
+    wait_for_mouse(at);
   } else if (std::max(std::abs(at.x - clicked_at.x), std::abs(at.y - clicked_at.y)) > min_move) {
     clicked = false;
   }
@@ -127,6 +126,8 @@ void Widgets::register_item(std::string_view label, std::string_view tooltip) {
 void Widgets::tooltip_if_hovered(std::string_view label, std::string_view tooltip) {
   if (tooltip.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   if (input_.hovered != label || input_.clicked) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.MouseDelta.x == 0 && io.MouseDelta.y == 0) input_.wait_for_mouse(io.MousePos);  // a key brought the widget
     input_.hovered = label;
     input_.seconds = 0;
   } else {  // the first frame may follow a long wait
@@ -170,12 +171,15 @@ bool Widgets::checkbox(std::string_view label, bool value, std::string_view tool
   return register_item(ImGui::Checkbox(std::string(label).c_str(), &value), label, tooltip);
 }
 
-bool Widgets::section(std::string_view label, bool open_at_first) {
+bool Widgets::section(std::string_view label) {
   const std::string name(label);
   const auto stored = sections_.find(name);
-  if (stored != sections_.end()) ImGui::SetNextItemOpen(stored->second);
-  const bool open = ImGui::CollapsingHeader(name.c_str(), open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-  if (stored == sections_.end() || open != stored->second) ask([name, open](UiState& ui) { ui.sections[name] = open; });
+  const bool was_open = stored != sections_.end() && stored->second;
+  ImGui::SetNextItemOpen(was_open);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, px(2)});
+  const bool open = ImGui::CollapsingHeader(name.c_str());
+  ImGui::PopStyleVar();
+  if (open != was_open) ask([name, open](UiState& ui) { ui.sections[name] = open; });
   return register_item(open, label, "");
 }
 
@@ -189,10 +193,9 @@ bool Widgets::text_field(std::string_view label, const std::string& value, const
   return register_item(ImGui::IsItemDeactivated() && is_pressed(ImGuiKey_Enter), label, tooltip);
 }
 
-bool Widgets::begin_combo(std::string_view label, std::string_view preview, std::string_view tooltip,
-                          ImGuiComboFlags flags) {
-  const bool open = ImGui::BeginCombo(fmt::format("##{}", label).c_str(), std::string(preview).c_str(),
-                                      flags | ImGuiComboFlags_HeightLarge);
+bool Widgets::begin_combo(std::string_view label, std::string_view preview, std::string_view tooltip) {
+  const bool open =
+      ImGui::BeginCombo(fmt::format("##{}", label).c_str(), std::string(preview).c_str(), ImGuiComboFlags_HeightLarge);
   // While the list is open, the last item is inside it, so the combo itself is recorded only when closed.
   if (!open) register_item(label, tooltip);
   if (open && is_pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();

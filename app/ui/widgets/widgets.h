@@ -53,6 +53,8 @@ struct InputState {
   static constexpr float tooltip_delay = 0.4f;  // s
   /// Begins a frame.
   void update(float min_move);
+  /// Shows no tooltip until the mouse leaves this place.
+  void wait_for_mouse(const ImVec2& at) { clicked = true, clicked_at = at; }
 
   bool clicked = false;                           // a button is down, or the mouse has not moved since one was
   ImVec2 clicked_at{};                            // where the mouse was then
@@ -127,11 +129,10 @@ class Widgets {
   bool checkbox(std::string_view label, bool value, std::string_view tooltip);
   /// Draws a title with a close button, whose label is "Close " and the title's identifier. True if it is clicked.
   bool closable_heading(std::string_view label, std::string_view tooltip);
-  /// Draws the heading of a section that folds. True if it is open.
-  bool section(std::string_view label, bool open_at_first);
-  /// Draws a slider for an int, a float, a std::uint32_t or a double. A double-click opens a field for typing. `format`
-  /// may be empty for a std::uint32_t: then only that field shows the value. Precondition of a logarithmic slider for
-  /// whole numbers: min > 0.
+  /// Draws the heading of a section that folds, closed at first. True if it is open.
+  bool section(std::string_view label);
+  /// Draws a slider for an int, a float, a std::uint32_t or a double. A double-click opens a field for typing.
+  /// Precondition of a logarithmic slider for whole numbers: min > 0.
   template <class Value>
   bool slider(std::string_view label, Value& value, std::type_identity_t<Value> min, std::type_identity_t<Value> max,
               const char* format, std::string_view tooltip, bool logarithmic = false);
@@ -147,8 +148,7 @@ class Widgets {
   bool text_field(std::string_view label, const std::string& value, const char* hint, std::string_view tooltip,
                   std::string& (*place)(session::Session&, UiState&));
   /// A list to choose from. If true, it is open: combo_item() for each item and ImGui::EndCombo() must follow.
-  bool begin_combo(std::string_view label, std::string_view preview, std::string_view tooltip,
-                   ImGuiComboFlags flags = 0);
+  bool begin_combo(std::string_view label, std::string_view preview, std::string_view tooltip);
   bool combo_item(std::string_view label, bool selected, std::string_view tooltip = "");
 
   /// Draws a grey label; the next widget begins at `column` and takes the rest of the line.

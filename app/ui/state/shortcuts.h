@@ -16,6 +16,10 @@ struct Shortcut {
   bool repeats = false;       // also acts repeatedly while the key is held
   int mods = 0;               // GLFW_MOD_* that must be down
   bool needs_solver = false;  // left out where the motion is recorded
+  // What switches something on and off has a check box with this tooltip on the panel, below *More* if it is rare.
+  bool (*is_on)(const Session& session, const UiState& ui) = nullptr;
+  std::string_view tooltip{};
+  bool rare = false;
 };
 
 /// All shortcuts except the overlays' digits, which are in overlay_table.

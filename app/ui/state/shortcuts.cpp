@@ -1,4 +1,4 @@
-#include "app/ui/shortcuts.h"
+#include "app/ui/state/shortcuts.h"
 
 #include <GLFW/glfw3.h>
 
@@ -10,7 +10,7 @@ namespace app::ui {
 namespace {
 
 void change_levels(Session& session, int by) {
-  session.simulation.change_scene("Subdivision", [by](softbody::Scene& scene) {
+  session.simulation.change_scene("Level", [by](softbody::Scene& scene) {
     scene.collision.levels = std::clamp(scene.collision.levels + by, 0, collide::max_levels);
   });
 }
@@ -40,7 +40,9 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_N, GLFW_KEY_PERIOD, "N or .", "Single step",
              [](Session& s, UiState&) { s.simulation.clock.single_step(); }, true},
     Shortcut{GLFW_KEY_S, 0, "S", "Slow motion",
-             [](Session& s, UiState&) { s.simulation.clock.slow_motion = !s.simulation.clock.slow_motion; }},
+             [](Session& s, UiState&) { s.simulation.clock.slow_motion = !s.simulation.clock.slow_motion; }, false, 0,
+             false, [](const Session& s, const UiState&) { return s.simulation.clock.slow_motion; },
+             "Runs the simulation slower than real time.", true},
     Shortcut{GLFW_KEY_R, 0, "R", "Reset the scene", [](Session& s, UiState&) { s.simulation.reset(); }},
     Shortcut{GLFW_KEY_Z, 0, "", redo_text, [](Session& s, UiState&) { s.simulation.redo(); }, false,
              GLFW_MOD_CONTROL | GLFW_MOD_SHIFT},
@@ -69,22 +71,34 @@ constexpr std::array shortcut_table{
              }},
     Shortcut{GLFW_KEY_LEFT, 0, "Left", "Tour: previous page", [](Session&, UiState& ui) { ui.tour.back(); }},
     Shortcut{GLFW_KEY_RIGHT, 0, "Right", "Tour: next page", [](Session&, UiState& ui) { ui.tour.next(); }},
-    Shortcut{GLFW_KEY_A, 0, "A", "A second world beside this one",
-             [](Session& s, UiState&) { s.simulation.toggle_beside(); }, false, 0, true},
-    Shortcut{GLFW_KEY_V, 0, "V", "Compare the methods",
-             [](Session&, UiState& ui) { ui.toggle(LowerView::comparison); }},
-    Shortcut{GLFW_KEY_E, 0, "E", "Error against run time", [](Session&, UiState& ui) { ui.toggle(LowerView::sweep); }},
+    Shortcut{GLFW_KEY_A, 0, "A", "A second world beside it", [](Session& s, UiState&) { s.simulation.toggle_beside(); },
+             false, 0, true, [](const Session& s, const UiState&) { return s.simulation.beside() != nullptr; },
+             "Simulates a second world beside this one with other settings: what these cost, and what they miss."},
+    Shortcut{GLFW_KEY_V, 0, "V", "Methods side by side",
+             [](Session&, UiState& ui) { ui.toggle(LowerView::comparison); }, false, 0, false,
+             [](const Session&, const UiState& ui) { return ui.lower == LowerView::comparison; },
+             "Shows what each method costs and misses on the same frame."},
+    Shortcut{GLFW_KEY_E, 0, "E", "Error against run time", [](Session&, UiState& ui) { ui.toggle(LowerView::sweep); },
+             false, 0, false, [](const Session&, const UiState& ui) { return ui.lower == LowerView::sweep; },
+             "Plots error against run time of the shown methods with many settings, on one frame."},
+    Shortcut{GLFW_KEY_T, 0, "T", "Hash table", [](Session& s, UiState& ui) { ui.toggle_hash_table(s); }, false, 0,
+             false, [](const Session&, const UiState& ui) { return ui.hash_table; },
+             "Shows the hash table: each square is a bucket."},
     Shortcut{GLFW_KEY_W, 0, "W", "What the paper's method misses",
-             [](Session&, UiState& ui) { ui.set_story(!ui.story); }},
-    Shortcut{GLFW_KEY_L, 0, "L", "Status lights", [](Session&, UiState& ui) { ui.lights = !ui.lights; }},
-    Shortcut{GLFW_KEY_T, 0, "T", "Hash table", [](Session& s, UiState& ui) { ui.toggle_hash_table(s); }},
+             [](Session&, UiState& ui) { ui.set_story(!ui.shows_story()); }, false, 0, false,
+             [](const Session&, const UiState& ui) { return ui.shows_story(); },
+             "A card counts what the paper's method misses, marks it in the scene, and says why.", true},
+    Shortcut{GLFW_KEY_L, 0, "L", "Status lights", [](Session&, UiState& ui) { ui.lights = !ui.lights; }, false, 0,
+             false, [](const Session&, const UiState& ui) { return ui.lights; },
+             "Say what to expect of the method and of the time step.", true},
     Shortcut{GLFW_KEY_C, 0, "C", "Reset the camera", WindowTask::reset_camera},
     Shortcut{GLFW_KEY_P, 0, "P", "Take a picture", [](Session& s, UiState&) { s.exporter.picture_requested = true; }},
     Shortcut{GLFW_KEY_H, 0, "H", "Hide or show the panel", [](Session&, UiState& ui) { ui.panel = !ui.panel; }},
     Shortcut{GLFW_KEY_X, GLFW_KEY_F11, "X or F11", "Nothing but the scene",
              [](Session&, UiState& ui) { ui.clean = !ui.clean; }},
-    Shortcut{GLFW_KEY_F1, '?', "F1 or ?", "This help", [](Session&, UiState& ui) { ui.help = !ui.help; }},
-    Shortcut{GLFW_KEY_ESCAPE, 0, "Esc", "Close help, tour or card, clear selection",
+    Shortcut{GLFW_KEY_F1, '?', "F1 or ?", "Help", [](Session&, UiState& ui) { ui.help = !ui.help; }, false, 0, false,
+             [](const Session&, const UiState& ui) { return ui.help; }, "Lists keys and mouse.", true},
+    Shortcut{GLFW_KEY_ESCAPE, 0, "Esc", "Close help, tour, card; select nothing",
              [](Session& s, UiState& ui) {
                if (ui.popup_open) return;  // the key closes this list and nothing else
                if (ui.clean || ui.help) return void(ui.clean = ui.help = false);
@@ -104,8 +118,8 @@ constexpr std::array mouse_table{
     HelpLine{"Background", "Drag: orbit"},
     HelpLine{"Right drag", "Pan"},
     HelpLine{"Wheel", "Zoom"},
-    HelpLine{"Drop files", "Mesh: adds a body. TOML: opens a scene"},
-    HelpLine{"", "Meshes with the same vertices: plays them"},
+    HelpLine{"Drop files", "Mesh: a body. TOML: a scene"},
+    HelpLine{"", "Meshes alike: plays them as frames"},
 };
 
 /// Returns a request for `action`, or for the reason where it needs a solver and there is none. `what`: the action.
