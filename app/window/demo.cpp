@@ -145,11 +145,14 @@ class Demo {
   /// Begins a frame of the Gui and handles the input of mouse and keyboard.
   void handle_input(double elapsed) {
     graphics_->gui.begin_frame();
-    std::vector<ui::WindowTask> tasks = ui::carry_out(requests_by_keys(), session_, ui_);
-    const ui::Requests drawn = interface_.draw(session_, ui_, graphics_->gui.scale(), seconds_);
-    std::ranges::copy(ui::carry_out(drawn, session_, ui_), std::back_inserter(tasks));
+    std::vector<ui::WindowTask> tasks;
+    const auto carry_out = [&](const ui::Requests& requests) {
+      std::ranges::copy(ui::carry_out(requests, session_, ui_), std::back_inserter(tasks));
+    };
+    carry_out(requests_by_keys());
+    carry_out(interface_.draw(session_, ui_, graphics_->gui.scale(), seconds_));
     const engine::Viewport viewport = scene_viewport();
-    move_by_mouse(viewport);
+    carry_out(move_by_mouse(viewport));
     follow_tour();
     for (const ui::WindowTask task : tasks) perform(task, viewport.size);
     camera_.advance(elapsed);
@@ -281,16 +284,18 @@ class Demo {
     return {{lo.x, graphics_->window.framebuffer_size().y - hi.y}, glm::max(hi - lo, 0)};
   }
 
-  /// Begins with the scene's own camera, and moves it by the mouse.
-  void move_by_mouse(const engine::Viewport& viewport) {
+  /// Begins with the scene's own camera, and moves it by the mouse. Returns what the mouse asks for.
+  ui::Requests move_by_mouse(const engine::Viewport& viewport) {
     if (shown_scene_ != session_.world().scene().key) {
       if (!shown_scene_.empty()) ui_.story = false;  // another scene was asked for
       shown_scene_ = session_.world().scene().key;
       reset_camera(viewport.size);
     }
     refit(viewport.size);
-    mouse_.update(read_mouse(top_left(viewport), !graphics_->gui.wants_mouse()), session_, ui_, camera_, viewport.size);
+    const MouseInput input = read_mouse(top_left(viewport), !graphics_->gui.wants_mouse());
+    ui::Requests requests = mouse_.update(input, session_, camera_, viewport.size);
     if (mouse_.can_drag()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    return requests;
   }
 
   void reset_camera(glm::ivec2 size) {

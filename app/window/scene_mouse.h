@@ -5,7 +5,7 @@
 #include <array>
 #include "app/render/pick.h"
 #include "app/session/session.h"
-#include "app/ui/state/ui_state.h"
+#include "app/ui/state/requests.h"
 #include "engine/camera.h"
 
 namespace app::window {
@@ -31,8 +31,9 @@ MouseInput read_mouse(glm::vec2 origin, bool over_scene);
 
 class SceneMouse {
  public:
-  /// Call it once a frame, before the camera advances. `size`: of the viewport.
-  void update(const MouseInput& input, Session& session, ui::UiState& ui, engine::Camera& camera, glm::ivec2 size);
+  /// Moves the camera, and returns what the mouse asks for. Call it once a frame, before the camera advances. `size`:
+  /// of the viewport.
+  ui::Requests update(const MouseInput& input, const Session& session, engine::Camera& camera, glm::ivec2 size);
 
   /// Continues a drag that orbits the camera, to `at`, between two frames, when the session must not be used.
   void orbit_between_frames(glm::vec2 at, engine::Camera& camera, glm::ivec2 size);
@@ -51,9 +52,11 @@ class SceneMouse {
     std::uint64_t world_number;  // of the Simulation
   };
 
-  void press(const MouseInput& input, Session& session, ui::UiState& ui, engine::Camera& camera, glm::ivec2 size);
-  void drag(const MouseInput& input, Session& session, engine::Camera& camera, glm::ivec2 size);
-  void release(Session& session);
+  void press(const MouseInput& input, const Session& session, const engine::Camera& camera, glm::ivec2 size,
+             ui::Requests& requests);
+  void drag(const MouseInput& input, const Session& session, engine::Camera& camera, glm::ivec2 size,
+            ui::Requests& requests);
+  void release(const Session& session, ui::Requests& requests);
 
   Drag drag_ = Drag::none;
   std::array<bool, 3> down_{};  // as in the last frame

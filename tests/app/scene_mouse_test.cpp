@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "app/ui/state/ui_state.h"
 #include "app/window/scene_mouse.h"
 #include "softbody/model/body_model.h"
 #include "tests/app/scenes.h"
@@ -107,7 +108,9 @@ class SceneMouseTest : public testing::Test {
   void frame(int times = 1) {
     for (int i = 0; i < times; ++i) {
       session.advance(tick);
-      mouse.update(input, session, ui, camera, size);
+      for (const ui::WindowTask task : carry_out(mouse.update(input, session, camera, size), session, ui))
+        if (task == ui::WindowTask::show_selected_body)
+          window::focus_on(*session.bodies.selected(), session, camera, size);
       camera.advance(tick);
       input.moved = {};
       input.double_click = false;
