@@ -74,7 +74,7 @@ ui::Requests SceneMouse::update(const MouseInput& in, const Session& session, en
   return requests;
 }
 
-void SceneMouse::orbit_between_frames(glm::vec2 at, engine::Camera& camera, glm::ivec2 size) {
+void SceneMouse::orbit_between_pictures(glm::vec2 at, engine::Camera& camera, glm::ivec2 size) {
   if (drag_ != Drag::orbit) return;
   camera.rotate(at - last_at_, size);
   orbited_ += at - last_at_;
@@ -110,8 +110,8 @@ void SceneMouse::press(const MouseInput& in, const Session& session, const engin
   }
 }
 
-// A button goes down or up at the end of a frame. With the buttons of the last frame, the way to a press is no drag,
-// and the way to a release is one.
+// A button goes down or up at the end of the way. With the buttons before it, the way to a press is no drag, and the
+// way to a release is one.
 void SceneMouse::drag(const MouseInput& in, const Session& session, engine::Camera& camera, glm::ivec2 size,
                       ui::Requests& requests) {
   drag_length_ += glm::length(in.moved);

@@ -10,12 +10,12 @@
 
 namespace app::window {
 
-/// The mouse in one frame. Buttons change at the end of the frame. Pixels are the framebuffer's; `at` is measured from
-/// the viewport's top left corner.
+/// The mouse since the last picture. Buttons change at the end of its way. Pixels are the framebuffer's; `at` is
+/// measured from the viewport's top left corner.
 struct MouseInput {
   glm::vec2 at{0.0f}, moved{0.0f};
   std::array<bool, 3> down{};  // left, right, middle
-  bool double_click = false;   // of the left button, in this frame
+  bool double_click = false;   // of the left button
   float wheel = 0;             // steps
   bool over_scene = true;      // false: a window of the user interface has the mouse
 };
@@ -31,12 +31,12 @@ MouseInput read_mouse(glm::vec2 origin, bool over_scene);
 
 class SceneMouse {
  public:
-  /// Moves the camera, and returns what the mouse asks for. Call it once a frame, before the camera advances. `size`:
-  /// of the viewport.
+  /// Moves the camera, and returns what the mouse asks for. Call it for each picture, before the camera advances.
+  /// `size`: of the viewport.
   ui::Requests update(const MouseInput& input, const Session& session, engine::Camera& camera, glm::ivec2 size);
 
-  /// Continues a drag that orbits the camera, to `at`, between two frames, when the session must not be used.
-  void orbit_between_frames(glm::vec2 at, engine::Camera& camera, glm::ivec2 size);
+  /// Continues a drag that orbits the camera, to `at`, between two pictures, when the session must not be used.
+  void orbit_between_pictures(glm::vec2 at, engine::Camera& camera, glm::ivec2 size);
 
   /// True if a body or a solid that can be dragged is under the mouse, or is dragged.
   bool can_drag() const { return can_drag_; }
@@ -59,12 +59,12 @@ class SceneMouse {
   void release(const Session& session, ui::Requests& requests);
 
   Drag drag_ = Drag::none;
-  std::array<bool, 3> down_{};  // as in the last frame
+  std::array<bool, 3> down_{};  // at the last picture
   bool can_drag_ = false, pressed_on_body_ = false;
   std::optional<HeldSolid> held_solid_;
   float drag_length_ = 0;  // pixels, since the left button went down
   std::optional<glm::vec2> at_;
-  glm::vec2 last_at_{0.0f}, orbited_{0.0f};  // pixels; the second is the way of orbit_between_frames() since update()
+  glm::vec2 last_at_{0.0f}, orbited_{0.0f};  // pixels; the second is the way of orbit_between_pictures() since update()
 };
 
 }  // namespace app::window

@@ -149,7 +149,7 @@ TEST_F(SceneMouseTest, ContinuesToOrbitBetweenFrames) {
     button(0, true);
     if (between) {
       const engine::Orbit before = camera.orbit();
-      mouse.orbit_between_frames({60, 20}, camera, size);
+      mouse.orbit_between_pictures({60, 20}, camera, size);
       camera.finish_glide();
       EXPECT_NE(camera.orbit().azimuth, before.azimuth);
     }
@@ -162,7 +162,7 @@ TEST_F(SceneMouseTest, ContinuesToOrbitBetweenFrames) {
   EXPECT_NEAR(whole.azimuth, parts.azimuth, 1e-5);
   EXPECT_NEAR(whole.elevation, parts.elevation, 1e-5);
   const engine::Orbit before = camera.orbit();
-  mouse.orbit_between_frames({400, 300}, camera, size);  // there is no drag
+  mouse.orbit_between_pictures({400, 300}, camera, size);  // there is no drag
   camera.finish_glide();
   EXPECT_EQ(camera.orbit().azimuth, before.azimuth);
 }
