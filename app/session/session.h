@@ -3,7 +3,7 @@
 
 #include "app/session/body_controls.h"
 #include "app/session/detection_inspector.h"
-#include "app/session/exporter.h"
+#include "app/session/export/exporter.h"
 #include "app/session/import.h"
 #include "app/session/live/live_comparison.h"
 #include "app/session/live/price_monitor.h"

@@ -16,9 +16,9 @@
 #include "app/ui/state/shortcuts.h"
 #include "app/ui/user_interface.h"
 #include "app/ui/views/scene_labels.h"
-#include "app/window/frame_schedule.h"
-#include "app/window/frame_timer.h"
 #include "app/window/graphics.h"
+#include "app/window/picture_schedule.h"
+#include "app/window/picture_timer.h"
 #include "app/window/preferences.h"
 #include "app/window/scene_mouse.h"
 #include "app/window/scene_picture.h"
@@ -83,9 +83,9 @@ class Demo {
       const bool was_hidden = std::exchange(hidden_, graphics_->window.minimised());
       if (hidden_) continue;  // poll() has slept; the world waits until the window is shown
       if (was_hidden) schedule_.input(now());
-      const bool interrupted = was_hidden || wait > FrameSchedule::max_running_wait;
+      const bool interrupted = was_hidden || wait > PictureSchedule::max_running_wait;
       waited_ = interrupted || wait > 0;
-      frame_or_wait(elapsed, interrupted);
+      draw_or_wait(elapsed, interrupted);
     }
     store_preferences(true);
     // A search for a mesh's equilibrium could keep the program running for minutes after its window is closed.
@@ -94,23 +94,23 @@ class Demo {
   }
 
  private:
-  /// Draws a frame if something has changed. After an interruption the world, the camera and the tooltips go on as if
+  /// Draws a picture if something has changed. After an interruption the world, the camera and the tooltips go on as if
   /// no time had passed; hints and notices age.
-  void frame_or_wait(double elapsed, bool interrupted) {
+  void draw_or_wait(double elapsed, bool interrupted) {
     const double moving = interrupted ? std::min(elapsed, 1.0 / 60) : elapsed;
     seconds_ += elapsed - moving;
     if (interrupted) session_.let_pass(elapsed - moving);
-    if (schedule_.due(now()) || session_.news() != shown_ || graphics_->window.context_lost()) return frame(moving);
+    if (schedule_.due(now()) || session_.news() != shown_ || graphics_->window.context_lost()) return draw(moving);
     seconds_ += moving;
     session_.let_pass(moving);
     store_preferences();
   }
 
-  void frame(double elapsed) {
+  void draw(double elapsed) {
     if (graphics_->window.context_lost()) recreate_graphics();
     try {
-      draw_frame(elapsed);
-    } catch (const std::runtime_error&) {  // calls fail in a lost context; the next frame has another
+      draw_picture(elapsed);
+    } catch (const std::runtime_error&) {  // calls fail in a lost context; the next picture has another
       if (!graphics_->window.context_lost()) throw;
       recreate_graphics();
     }
@@ -146,21 +146,24 @@ class Demo {
   /// Begins a frame of the Gui and handles the input of mouse and keyboard.
   void handle_input(double elapsed) {
     graphics_->gui.begin_frame();
-    std::vector<ui::WindowTask> tasks = ui::carry_out(requests_by_keys(), session_, ui_);
-    const ui::Requests drawn = interface_.draw(session_, ui_, graphics_->gui.scale());
-    std::ranges::copy(ui::carry_out(drawn, session_, ui_), std::back_inserter(tasks));
+    std::vector<ui::WindowTask> tasks;
+    const auto carry_out = [&](const ui::Requests& requests) {
+      std::ranges::copy(ui::carry_out(requests, session_, ui_), std::back_inserter(tasks));
+    };
+    carry_out(requests_by_keys());
+    carry_out(interface_.draw(session_, ui_, graphics_->gui.scale()));
     const engine::Viewport viewport = scene_viewport();
-    move_by_mouse(viewport);
+    carry_out(move_by_mouse(viewport));
     follow_tour();
     for (const ui::WindowTask task : tasks) perform(task, viewport.size);
     camera_.advance(elapsed);
   }
 
-  void draw_frame(double elapsed) {
+  void draw_picture(double elapsed) {
     seconds_ += elapsed;
     session_.import.drop(graphics_->window.take_dropped_files());
     const bool has_joined = session_.import.update();
-    // Handles all waiting input in this frame, a click at a time, so that a slow world does not delay typing and
+    // Handles all waiting input before this picture, a click at a time, so that a slow world does not delay typing and
     // clicks.
     handle_input(elapsed);
     if (has_joined) perform(ui::WindowTask::show_joined, scene_viewport().size);  // once the scene's camera is set up
@@ -187,13 +190,13 @@ class Demo {
     graphics_->canvas.add_timing(elapsed, 1e-3 * drawing_ms);
     store_preferences();
     const Activity next = activity(moving, has_news);
-    ui_.picture_interval = seconds_to_next_frame(next);
+    ui_.picture_interval = seconds_to_next_picture(next);
     schedule_.drawn(now(), next);
     timer_.limit_rate();
   }
 
-  /// Returns what goes on after the frame that was just drawn. has_news: of the interface, whose windows take another
-  /// frame to fit their contents.
+  /// Returns what goes on after the picture that was just drawn. has_news: of the interface, whose windows take another
+  /// picture to fit their contents.
   Activity activity(bool moving, bool has_news) const {
     return {.moving = moving || session_.exporter.recording() || ImGui::IsAnyMouseDown(),
             .counting =
@@ -203,7 +206,7 @@ class Demo {
             .has_news = has_news};
   }
 
-  /// Takes long steps beside the window. Meanwhile the camera can move; clicks and keys wait for the next frame.
+  /// Takes long steps beside the window. Meanwhile the camera can move; clicks and keys wait for the next picture.
   void advance(double elapsed) {
     if (session_.simulation.step_ms() < long_step_ms) return session_.advance(elapsed, waited_);
     present(scene_viewport());
@@ -211,13 +214,13 @@ class Demo {
                 [&, last = now()]() mutable { move_camera_only(now() - std::exchange(last, now())); });
   }
 
-  /// Moves the camera and draws the last frame's bodies again. Uses nothing that a step writes.
+  /// Moves the camera and draws the last picture's bodies again. Uses nothing that a step writes.
   void move_camera_only(double elapsed) {
     if (graphics_->window.poll()) schedule_.input(now());
     const engine::Viewport viewport = scene_viewport();
     if (!drawn_ || graphics_->window.minimised() || viewport.size.x <= 0 || viewport.size.y <= 0) return;
     if (graphics_->window.left_button_down())
-      mouse_.orbit_between_frames(graphics_->window.cursor() - top_left(viewport), camera_, viewport.size);
+      mouse_.orbit_between_pictures(graphics_->window.cursor() - top_left(viewport), camera_, viewport.size);
     camera_.advance(elapsed);
     if (camera_ == std::exchange(drawn_->camera, camera_)) return;
     graphics_->canvas.update(viewport.size, true, false, [&](const engine::Viewport& whole) {
@@ -297,15 +300,17 @@ class Demo {
     return {{low.x / ratio.x, top / ratio.y}, {(low.x + size.x) / ratio.x, (top + size.y) / ratio.y}};
   }
 
-  /// Begins with the scene's own camera, and moves it by the mouse.
-  void move_by_mouse(const engine::Viewport& viewport) {
+  /// Begins with the scene's own camera, and moves it by the mouse. Returns what the mouse asks for.
+  ui::Requests move_by_mouse(const engine::Viewport& viewport) {
     if (shown_scene_ != session_.world().scene().key) {
       shown_scene_ = session_.world().scene().key;
       reset_camera(viewport.size);
     }
     refit(viewport.size);
-    mouse_.update(read_mouse(top_left(viewport), !graphics_->gui.wants_mouse()), session_, ui_, camera_, viewport.size);
+    const MouseInput input = read_mouse(top_left(viewport), !graphics_->gui.wants_mouse());
+    ui::Requests requests = mouse_.update(input, session_, ui_, camera_, viewport.size);
     if (mouse_.can_drag()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    return requests;
   }
 
   void reset_camera(glm::ivec2 size) {
@@ -394,11 +399,11 @@ class Demo {
   glm::ivec2 fitted_{0};               // the viewport's size that camera_ is fitted to
   std::string shown_scene_;            // that camera_ was set up for
   std::optional<ScenePicture> drawn_;  // what the canvas shows
-  session::News shown_;                // by the interface, in the last frame
+  session::News shown_;                // by the interface, in the last picture
   bool hidden_ = false, quits_ = false;
-  bool waited_ = false;  // for events, on purpose, before the present frame
-  FrameTimer timer_;
-  FrameSchedule schedule_{now()};
+  bool waited_ = false;  // for events, on purpose, before the present picture
+  PictureTimer timer_;
+  PictureSchedule schedule_{now()};
   double seconds_ = 0;  // since the window opened
   double recreated_at_ = now() - min_context_seconds;
 };

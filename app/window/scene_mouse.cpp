@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/ui/state/ui_state.h"
+
 namespace app::window {
 namespace {
 
@@ -53,20 +55,21 @@ engine::Ray SceneMouse::ray(const engine::Camera& camera, glm::ivec2 size) const
   return under_.value_or(camera.pick_ray(0.5f * glm::vec2(size), size));
 }
 
-void SceneMouse::update(const MouseInput& in, Session& session, ui::UiState& ui, engine::Camera& camera,
-                        glm::ivec2 size) {
+ui::Requests SceneMouse::update(const MouseInput& in, const Session& session, const ui::UiState& ui,
+                                engine::Camera& camera, glm::ivec2 size) {
   const std::vector<HalfPicture> parts = halves(scene_picture(session, ui, camera, 1), {{0, 0}, size});
   const float line = static_cast<float>(parts.back().viewport.origin.x);
   const bool at_right = held_in_ ? *held_in_ == session::Half::second : in.at.x >= line;
   const HalfPicture& part = at_right ? parts.back() : parts.front();
   const glm::vec2 at(in.at.x - static_cast<float>(part.viewport.origin.x), in.at.y);
   const Aim aim{part.half, part.camera, part.camera.pick_ray(at, part.viewport.size)};
+  ui::Requests requests;
   under_.reset();
   if (in.over_scene) under_ = aim.ray;
-  drag(in, aim, session, camera, size);
+  drag(in, aim, session, camera, size, requests);
   const auto before = std::exchange(down_, in.down);
-  if (in.down[0] && !before[0] && in.over_scene) press(in, aim, session, ui, camera, size);
-  if (!in.down[0]) release(session);
+  if (in.down[0] && !before[0] && in.over_scene) press(in, aim, session, requests);
+  if (!in.down[0]) release(session, requests);
   last_at_ = in.at;
   orbited_ = {};
   const auto something_under = [&] {
@@ -75,17 +78,17 @@ void SceneMouse::update(const MouseInput& in, Session& session, ui::UiState& ui,
   };
   can_drag_ =
       drag_ == Drag::body || drag_ == Drag::solid || (drag_ == Drag::none && in.over_scene && something_under());
+  return requests;
 }
 
-void SceneMouse::orbit_between_frames(glm::vec2 at, engine::Camera& camera, glm::ivec2 size) {
+void SceneMouse::orbit_between_pictures(glm::vec2 at, engine::Camera& camera, glm::ivec2 size) {
   if (drag_ != Drag::orbit) return;
   camera.rotate(at - last_at_, size);
   orbited_ += at - last_at_;
   last_at_ = at;
 }
 
-void SceneMouse::press(const MouseInput& in, const Aim& aim, Session& session, ui::UiState& ui, engine::Camera& camera,
-                       glm::ivec2 size) {
+void SceneMouse::press(const MouseInput& in, const Aim& aim, const Session& session, ui::Requests& requests) {
   drag_length_ = 0;
   drag_ = Drag::orbit;
   held_in_ = aim.half;
@@ -95,36 +98,41 @@ void SceneMouse::press(const MouseInput& in, const Aim& aim, Session& session, u
   if (!under) {
     if (const auto solid = pick_movable(ray, session)) {
       drag_ = Drag::solid;
-      ui.show_solid(solid->index);
+      ask(requests, [index = solid->index](ui::UiState& ui) { ui.show_solid(index); });
       held_solid_ = {solid->index, session.world().scene().solids[solid->index],
                      glm::dvec3(ray.origin) + solid->distance * glm::dvec3(ray.direction),
                      session.simulation.world_number()};
     }
     return;
   }
-  session.bodies.select(under->body);
+  ask(requests, [body = under->body](Session& s) { s.bodies.select(body); });
   if (in.double_click) {
-    focus_on(under->body, session, camera, size);
+    ask(requests, ui::WindowTask::show_selected_body);
   } else if (!session.simulation.clock.paused && session.simulated()) {
-    session.simulation.grab({.body = under->body,
-                             .corners = under->corners,
-                             .weights = glm::dvec3(under->weights),
-                             .target = glm::dvec3(under->point)});
+    ask(requests, [grab = softbody::Grab{.body = under->body,
+                                         .corners = under->corners,
+                                         .weights = glm::dvec3(under->weights),
+                                         .target = glm::dvec3(under->point)}](Session& s) { s.simulation.grab(grab); });
     drag_ = Drag::body;
   }
 }
 
-// A button goes down or up at the end of a frame. With the buttons of the last frame, the way to a press is no drag,
-// and the way to a release is one.
-void SceneMouse::drag(const MouseInput& in, const Aim& aim, Session& session, engine::Camera& camera, glm::ivec2 size) {
+// A button goes down or up at the end of the way. With the buttons before it, the way to a press is no drag, and the
+// way to a release is one.
+void SceneMouse::drag(const MouseInput& in, const Aim& aim, const Session& session, engine::Camera& camera,
+                      glm::ivec2 size, ui::Requests& requests) {
   drag_length_ += glm::length(in.moved);
   if (drag_length_ >= max_click_length) {  // a click moves nothing
     const auto held = grabbed(session.simulation);
-    if (drag_ == Drag::body && held) session.simulation.pull_to(on_facing_plane(aim.ray, aim.camera, held->target));
+    if (drag_ == Drag::body && held)
+      ask(requests,
+          [to = on_facing_plane(aim.ray, aim.camera, held->target)](Session& s) { s.simulation.pull_to(to); });
     // In another world the solids may be others.
     if (drag_ == Drag::solid && session.simulation.world_number() == held_solid_->world_number) {
       const glm::dvec3 way = on_facing_plane(aim.ray, aim.camera, held_solid_->point) - held_solid_->point;
-      session.settings.set_solid(held_solid_->index, session::moved(held_solid_->solid, way));
+      ask(requests, [index = held_solid_->index, solid = session::moved(held_solid_->solid, way)](Session& s) {
+        s.settings.set_solid(index, solid);
+      });
     }
   }
   if (drag_ == Drag::orbit) camera.rotate(in.moved - orbited_, size);
@@ -133,11 +141,11 @@ void SceneMouse::drag(const MouseInput& in, const Aim& aim, Session& session, en
   if (in.wheel != 0) camera.zoom(in.wheel);
 }
 
-void SceneMouse::release(Session& session) {
-  session.simulation.release();
+void SceneMouse::release(const Session& session, ui::Requests& requests) {
+  if (grabbed(session.simulation)) ask(requests, [](Session& s) { s.simulation.release(); });
   held_in_.reset();
   const bool on_scenery = drag_ == Drag::solid || (drag_ == Drag::orbit && !pressed_on_body_);
-  if (on_scenery && drag_length_ < max_click_length) session.bodies.select(std::nullopt);
+  if (on_scenery && drag_length_ < max_click_length) ask(requests, [](Session& s) { s.bodies.select(std::nullopt); });
   drag_ = Drag::none;
 }
 

@@ -6,17 +6,18 @@
 #include <optional>
 
 #include "app/render/pick.h"
+#include "app/ui/state/requests.h"
 #include "app/window/scene_picture.h"
 #include "engine/camera.h"
 
 namespace app::window {
 
-/// The mouse in one frame. Buttons change at the end of the frame. Pixels are the framebuffer's; `at` is measured from
-/// the viewport's top left corner.
+/// The mouse since the last picture. Buttons change at the end of its way. Pixels are the framebuffer's; `at` is
+/// measured from the viewport's top left corner.
 struct MouseInput {
   glm::vec2 at{0.0f}, moved{0.0f};
   std::array<bool, 3> down{};  // left, right, middle
-  bool double_click = false;   // of the left button, in this frame
+  bool double_click = false;   // of the left button
   float wheel = 0;             // steps
   bool over_scene = true;      // false: a window of the user interface has the mouse
 };
@@ -32,11 +33,13 @@ MouseInput read_mouse(glm::vec2 origin, bool over_scene);
 
 class SceneMouse {
  public:
-  /// Call it once a frame, before the camera advances. `size`: of the viewport.
-  void update(const MouseInput& input, Session& session, ui::UiState& ui, engine::Camera& camera, glm::ivec2 size);
+  /// Moves the camera, and returns what the mouse asks for. Call it for each picture, before the camera advances.
+  /// `size`: of the viewport.
+  ui::Requests update(const MouseInput& input, const Session& session, const ui::UiState& ui, engine::Camera& camera,
+                      glm::ivec2 size);
 
-  /// Continues a drag that orbits the camera, to `at`, between two frames, when the session must not be used.
-  void orbit_between_frames(glm::vec2 at, engine::Camera& camera, glm::ivec2 size);
+  /// Continues a drag that orbits the camera, to `at`, between two pictures, when the session must not be used.
+  void orbit_between_pictures(glm::vec2 at, engine::Camera& camera, glm::ivec2 size);
 
   /// True if a body or a solid that can be dragged is under the mouse, or is dragged.
   bool can_drag() const { return can_drag_; }
@@ -58,19 +61,19 @@ class SceneMouse {
     std::uint64_t world_number;  // of the Simulation
   };
 
-  void press(const MouseInput& input, const Aim& aim, Session& session, ui::UiState& ui, engine::Camera& camera,
-             glm::ivec2 size);
-  void drag(const MouseInput& input, const Aim& aim, Session& session, engine::Camera& camera, glm::ivec2 size);
-  void release(Session& session);
+  void press(const MouseInput& input, const Aim& aim, const Session& session, ui::Requests& requests);
+  void drag(const MouseInput& input, const Aim& aim, const Session& session, engine::Camera& camera, glm::ivec2 size,
+            ui::Requests& requests);
+  void release(const Session& session, ui::Requests& requests);
 
   Drag drag_ = Drag::none;
-  std::array<bool, 3> down_{};  // as in the last frame
+  std::array<bool, 3> down_{};  // at the last picture
   bool can_drag_ = false, pressed_on_body_ = false;
   std::optional<HeldSolid> held_solid_;
   float drag_length_ = 0;                 // pixels, since the left button went down
   std::optional<session::Half> held_in_;  // the half in which the left button went down, until it goes up
   std::optional<engine::Ray> under_;
-  glm::vec2 last_at_{0.0f}, orbited_{0.0f};  // pixels; the second is the way of orbit_between_frames() since update()
+  glm::vec2 last_at_{0.0f}, orbited_{0.0f};  // pixels; the second is the way of orbit_between_pictures() since update()
 };
 
 }  // namespace app::window

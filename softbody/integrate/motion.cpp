@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "softbody/integrate/force_stage.h"
-#include "softbody/integrate/implicit/steps.h"
+#include "softbody/integrate/implicit/implicit_steps.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/state/kernels.h"
 

@@ -194,7 +194,7 @@ TEST(BesidePanel, BeginsAndEndsTheSecondWorldAndChoosesWhoseSettingsItShows) {
   EXPECT_EQ(rig.session.simulation.world(Half::second).method().key, collide::paper_method);
   rig.click("Right half");
   const int before = rig.session.world().collision().levels;
-  rig.drag("Subdivision", 60);
+  rig.drag("Level", 60);
   EXPECT_EQ(rig.session.world().collision().levels, before);
   EXPECT_GT(rig.session.simulation.world(Half::second).collision().levels, before);
   rig.click("Ghost");

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "app/ui/state/ui_state.h"
 #include "app/window/scene_mouse.h"
 #include "softbody/model/body_model.h"
 #include "tests/app/recorded_bodies.h"
@@ -108,7 +109,9 @@ class SceneMouseTest : public testing::Test {
   void frame(int times = 1) {
     for (int i = 0; i < times; ++i) {
       session.advance(tick);
-      mouse.update(input, session, ui, camera, size);
+      for (const ui::WindowTask task : carry_out(mouse.update(input, session, ui, camera, size), session, ui))
+        if (task == ui::WindowTask::show_selected_body)
+          window::focus_on(*session.bodies.selected(), session, camera, size);
       camera.advance(tick);
       input.moved = {};
       input.double_click = false;
@@ -147,7 +150,7 @@ TEST_F(SceneMouseTest, ContinuesToOrbitBetweenFrames) {
     button(0, true);
     if (between) {
       const engine::Orbit before = camera.orbit();
-      mouse.orbit_between_frames({60, 20}, camera, size);
+      mouse.orbit_between_pictures({60, 20}, camera, size);
       camera.finish_glide();
       EXPECT_NE(camera.orbit().azimuth, before.azimuth);
     }
@@ -160,7 +163,7 @@ TEST_F(SceneMouseTest, ContinuesToOrbitBetweenFrames) {
   EXPECT_NEAR(whole.azimuth, parts.azimuth, 1e-5);
   EXPECT_NEAR(whole.elevation, parts.elevation, 1e-5);
   const engine::Orbit before = camera.orbit();
-  mouse.orbit_between_frames({400, 300}, camera, size);  // there is no drag
+  mouse.orbit_between_pictures({400, 300}, camera, size);  // there is no drag
   camera.finish_glide();
   EXPECT_EQ(camera.orbit().azimuth, before.azimuth);
 }

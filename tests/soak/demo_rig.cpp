@@ -26,7 +26,8 @@ void DemoRig::frame(bool draw) {
   carry_out({}, session, ui);
   carry_out(interface_.draw(session, ui, gui_.scale()), session, ui);
   const bool over_scene = !gui_.wants_mouse();
-  mouse_.update(app::window::read_mouse({}, over_scene), session, ui, camera_, input.display_size);
+  carry_out(mouse_.update(app::window::read_mouse({}, over_scene), session, ui, camera_, input.display_size), session,
+            ui);
   camera_.advance(input.seconds);
   const app::window::ScenePicture picture = app::window::scene_picture(session, ui, camera_, 1);
   if (draw)

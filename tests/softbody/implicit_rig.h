@@ -5,7 +5,7 @@
 
 #include "softbody/integrate/implicit/attempts.h"
 #include "softbody/integrate/implicit/balance.h"
-#include "softbody/integrate/implicit/steps.h"
+#include "softbody/integrate/implicit/implicit_steps.h"
 #include "softbody/mechanics/make_body_model.h"
 #include "softbody/state/rigid_motion.h"
 #include "tests/softbody/helpers.h"

@@ -1,6 +1,6 @@
 // Implicit steps of a batch: its matrices, what touches it, and the way from its start to its end.
 
-#include "softbody/integrate/implicit/steps.h"
+#include "softbody/integrate/implicit/implicit_steps.h"
 
 #include <gtest/gtest.h>
 

@@ -18,7 +18,7 @@ fs::path new_folder(const fs::path& parent, const std::string& prefix) {
 class PictureWriter : public FrameWriter {
  public:
   explicit PictureWriter(const fs::path& parent) : folder_(new_folder(parent, "pictures")) {}
-  void write(const RecordedFrame& frame) override {
+  void write(const ExportedFrame& frame) override {
     files::write_file(folder_ / fmt::format("picture_{:05}.png", ++count_), engine::encode_png(frame.picture));
   }
   std::string name() const override { return folder_.string(); }
@@ -32,7 +32,7 @@ class PictureWriter : public FrameWriter {
 class MotionWriter : public FrameWriter {
  public:
   explicit MotionWriter(fs::path parent) : parent_(std::move(parent)), folder_(new_folder(parent_, "motion")) {}
-  void write(const RecordedFrame& frame) override {
+  void write(const ExportedFrame& frame) override {
     if (!files::ObjWriter::can_write(frame.positions))
       throw UsageError(fmt::format("frame {}: a body is no longer finite, so that no file can hold it", frame.number));
     if (frame.bodies != bodies_) {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string_view>
 
-#include "app/session/export/recording.h"
+#include "app/session/export/recording_task.h"
 
 namespace app::session {
 

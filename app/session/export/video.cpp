@@ -144,7 +144,7 @@ class VideoWriter : public FrameWriter {
     files::prepare_folder(folder, "");
   }
 
-  void write(const RecordedFrame& frame) override {
+  void write(const ExportedFrame& frame) override {
     const engine::Image& picture = frame.picture;
     if (!ffmpeg_) begin(picture);
     if (picture.width != width_ || picture.height != height_) {

@@ -1,8 +1,9 @@
 #pragma once
-// What the user asks for by the interface and by keys, as values. The interface is drawn from a session and a state
-// that it cannot change; carry_out() is the one place where requests change them.
+// What the user asks for by the interface, by keys and by the mouse in the scene, as values. These see a session and a
+// state that they cannot change; carry_out() is the one place where requests change them.
 
 #include <functional>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -30,8 +31,21 @@ using Request = std::variant<std::function<void(session::Session&, UiState&)>, W
 /// In the order in which they were asked.
 using Requests = std::vector<Request>;
 
+/// Adds a request: a task of the window, or a change of the session, of what the window shows, or of both: a function
+/// of Session&, UiState&, or both in this order.
+template <class Asked>
+void ask(Requests& requests, const Asked& asked) {
+  if constexpr (std::is_invocable_v<Asked, session::Session&>)
+    requests.emplace_back([asked](session::Session& s, UiState&) { asked(s); });
+  else if constexpr (std::is_invocable_v<Asked, UiState&>)
+    requests.emplace_back([asked](session::Session&, UiState& ui) { asked(ui); });
+  else
+    requests.emplace_back(asked);
+}
+
 /// Carries out the requests, in order. Then lets the tour follow the world, and tells the session what the window wants
-/// to have worked out. To be called before and after each drawing. Returns what is left for the window.
+/// to have worked out. To be called for the keys, the interface and the mouse of each picture. Returns what is left for
+/// the window.
 std::vector<WindowTask> carry_out(const Requests& requests, session::Session& session, UiState& ui);
 
 }  // namespace app::ui

@@ -109,17 +109,8 @@ class Widgets {
     input_.update(px(3));
   }
 
-  /// Asks for a task of the window, or for a change of the session, of what the window shows, or of both: a function of
-  /// Session&, UiState&, or both in this order. It is carried out after the drawing.
-  template <class Asked>
-  void ask(const Asked& asked) {
-    if constexpr (std::is_invocable_v<Asked, session::Session&>)
-      requests_.emplace_back([asked](session::Session& s, UiState&) { asked(s); });
-    else if constexpr (std::is_invocable_v<Asked, UiState&>)
-      requests_.emplace_back([asked](session::Session&, UiState& ui) { asked(ui); });
-    else
-      requests_.emplace_back(asked);
-  }
+  /// Asks for what is to be carried out after the drawing, as app::ui::ask() does.
+  void ask(const auto& asked) { ui::ask(requests_, asked); }
 
   /// Converts design pixels to ImGui units.
   float px(float design) const { return design * scale_; }

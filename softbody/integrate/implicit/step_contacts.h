@@ -1,8 +1,8 @@
 #pragma once
 // The search for what may touch the bodies of a batch in an implicit step.
 
+#include "softbody/integrate/implicit/implicit_steps.h"
 #include "softbody/integrate/implicit/moving_axes.h"
-#include "softbody/integrate/implicit/steps.h"
 
 namespace softbody {
 

@@ -1,22 +1,22 @@
 #pragma once
-// Decides when the next frame of the window is drawn. Where nothing changes, the window waits for events.
+// Decides when the next picture of the window is drawn. Where nothing changes, the window waits for events.
 
 #include <algorithm>
 #include <limits>
 
 namespace app::window {
 
-/// What asks for another frame, input aside.
+/// What asks for another picture, input aside.
 struct Activity {
-  bool moving = false;     // the picture or the interface changes with each frame
+  bool moving = false;     // the picture or the interface changes with each picture
   bool counting = false;   // only numbers do: the world takes steps at rest, or a sweep goes on
   bool reporting = false;  // a file is read or written, and the interface says how far
   bool typing = false;     // a text cursor blinks
   bool has_news = false;   // the interface has other texts, and takes another frame to fit them
 };
 
-/// Returns the seconds from one frame to the next that these ask for; infinity if nothing changes.
-inline double seconds_to_next_frame(const Activity& activity) {
+/// Returns the seconds from one picture to the next that these ask for; infinity if nothing changes.
+inline double seconds_to_next_picture(const Activity& activity) {
   constexpr double counting = 1.0 / 30, reporting = 0.25, typing = 0.4;
   double seconds = std::numeric_limits<double>::infinity();
   if (activity.typing) seconds = std::min(seconds, typing);
@@ -26,21 +26,21 @@ inline double seconds_to_next_frame(const Activity& activity) {
 }
 
 /// Times are seconds of one steady clock, given by the caller.
-class FrameSchedule {
+class PictureSchedule {
  public:
   /// Longer waits interrupt the world: it goes on afterwards as if no time had passed.
   static constexpr double max_running_wait = 1.0 / 30;
 
-  explicit FrameSchedule(double now) : due_(now), active_(now) {}
+  explicit PictureSchedule(double now) : due_(now), active_(now) {}
 
-  /// The user did something: the next frame is due. Frames follow each other for a while, because tooltips appear and
-  /// scrolling ends within a second.
+  /// The user did something: the next picture is due. Pictures follow each other for a while, because tooltips appear
+  /// and scrolling ends within a second.
   void input(double now) { due_ = active_ = now; }
-  /// A frame was drawn.
+  /// A picture was drawn.
   void drawn(double now, const Activity& activity) {
     constexpr double settling = 1;
     if (activity.moving) active_ = now;
-    due_ = now - active_ <= settling ? now : now + seconds_to_next_frame(activity);
+    due_ = now - active_ <= settling ? now : now + seconds_to_next_picture(activity);
   }
   bool due(double now) const { return now >= due_; }
   /// Returns how long to wait for events before due() is asked again. `awaits_answer`: a thread may have an answer

@@ -1,4 +1,4 @@
-#include "softbody/integrate/implicit/steps.h"
+#include "softbody/integrate/implicit/implicit_steps.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,5 +1,5 @@
 #pragma once
-// The time between frames: measured, and limited where no monitor sets the pace.
+// The time between pictures: measured, and limited where no monitor sets the pace.
 
 #include <chrono>
 #include <cmath>
@@ -12,17 +12,17 @@ inline double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-class FrameTimer {
+class PictureTimer {
  public:
-  /// Begins a frame and returns the seconds since the last one. Times close to a multiple of 1/60 s are rounded to it:
-  /// no monitor of 60 Hz runs at exactly 60 Hz, and without rounding some frames would show two steps and some none.
+  /// Begins a picture and returns the seconds since the last one. Times close to a multiple of 1/60 s are rounded to
+  /// it: no monitor runs at exactly 60 Hz, and without rounding some pictures would show two steps and some none.
   double tick() {
     const double time = now(), elapsed = time - last_;
     last_ = time;
-    const double frames = std::round(elapsed * 60);
-    return frames >= 1 && std::abs(elapsed * 60 - frames) < 0.2 ? frames / 60 : elapsed;
+    const double periods = std::round(elapsed * 60);
+    return periods >= 1 && std::abs(elapsed * 60 - periods) < 0.2 ? periods / 60 : elapsed;
   }
-  /// Sleeps so that there are at most 125 frames a second. Without a monitor to wait for, frames would follow each
+  /// Sleeps so that there are at most 125 pictures a second. Without a monitor to wait for, pictures would follow each
   /// other at once and load the machine for nothing.
   void limit_rate() const {
     constexpr double min_interval = 1.0 / 125;

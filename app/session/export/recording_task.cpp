@@ -1,4 +1,4 @@
-#include "app/session/export/recording.h"
+#include "app/session/export/recording_task.h"
 
 #include "app/base/text.h"
 

@@ -14,7 +14,7 @@
 namespace app::session {
 
 /// A frame of a recording. Each writer uses its own part; the others stay empty.
-struct RecordedFrame {
+struct ExportedFrame {
   int number = 0;         // of the world
   engine::Image picture;  // pictures and video
   std::shared_ptr<const files::ObjWriter> bodies;
@@ -25,7 +25,7 @@ class FrameWriter {
  public:
   virtual ~FrameWriter() = default;
   /// Writes a frame. Throws std::exception with one line for the user.
-  virtual void write(const RecordedFrame& frame) = 0;
+  virtual void write(const ExportedFrame& frame) = 0;
   /// Completes the result after the last frame. Without this call no incomplete file has the final name.
   virtual void finish() {}
   /// Returns the folder or file that is being written, for the user.
@@ -41,7 +41,7 @@ struct RecordingProgress {
 /// Writes a frame. A question without a frame completes the recording. A task for Background.
 class RecordingTask {
  public:
-  using Question = std::optional<RecordedFrame>;
+  using Question = std::optional<ExportedFrame>;
   using Answer = RecordingProgress;
   static constexpr std::size_t max_waiting = 4;  // frames in memory
 

@@ -1,4 +1,4 @@
-#include "app/session/exporter.h"
+#include "app/session/export/exporter.h"
 
 #include <cassert>
 #include <map>
@@ -139,7 +139,7 @@ void Exporter::record(const Picture& picture) {
   // What is played begins again: all of its frames are written.
   if (simulation_.player() && world.frame() < recorded_frame_) return stop();
   recorded_frame_ = world.frame();
-  RecordedFrame frame;
+  ExportedFrame frame;
   frame.number = world.frame();
   if (recorded_->pictures) {
     try {
