@@ -27,7 +27,7 @@ void draw_meaning(Widgets& w, collide::Coverage coverage, bool active) {
   const StatusLight light = status_light(coverage);
   w.dot(light.colour);
   const std::string text = fmt::format("{}: {}", light.name, light.sentence);
-  active ? w.wrapped_text("Meaning", text) : w.pale_text(text);
+  active ? w.paragraph(text) : w.pale_text(text);
 }
 
 }  // namespace
@@ -70,8 +70,8 @@ void draw_coverage_light(Widgets& w, const Session& session, bool explained) {
   ImGui::BeginGroup();
   w.dot(status_light(now).colour);
   ImGui::BeginGroup();
-  w.wrapped_text("Promise", promise(session.world()));
-  if (!remark.text.empty()) w.wrapped_text("Remark", remark.text);
+  w.paragraph(promise(session.world()));
+  if (!remark.text.empty()) w.paragraph(remark.text);
   ImGui::EndGroup();
   ImGui::EndGroup();
   const bool clicked = ImGui::IsItemClicked();

@@ -50,10 +50,6 @@ ImVec2 tooltip_position(const ImVec2& size, float gap, float max_shift, const st
   return found != places.end() ? *found : ImVec2{x, inside(end.y + gap, size.y, display.y)};
 }
 
-void draw_wrapped(const std::string& text) {
-  ImGui::TextWrapped("%s", wrapped(text, ImGui::GetContentRegionAvail().x).c_str());
-}
-
 /// Draws text in the rest of the line. `align`: 0 is flush left, 1 flush right.
 void draw_text_in_line(const std::string& text, float align) {
   const float space = ImGui::GetContentRegionAvail().x;
@@ -226,22 +222,26 @@ void Widgets::row_label(std::string_view label, float column) {
 
 void Widgets::text_line(const std::string& text) {
   if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x)
-    draw_wrapped(text);
+    paragraph(text);
   else
     draw_text_in_line(text, 0.0f);
 }
 void Widgets::right_text(const std::string& text) { draw_text_in_line(text, 1.0f); }
 
+void Widgets::paragraph(const std::string& text) {
+  ImGui::TextWrapped("%s", wrapped(text, ImGui::GetContentRegionAvail().x).c_str());
+}
+
 void Widgets::wrapped_text(std::string_view label, const std::string& text, bool problem) {
   if (problem) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
-  draw_wrapped(text);
+  paragraph(text);
   if (problem) ImGui::PopStyleColor();
   register_item(label);
 }
 
 void Widgets::pale_text(const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  draw_wrapped(text);
+  paragraph(text);
   ImGui::PopStyleColor();
 }
 

@@ -148,9 +148,11 @@ class Widgets {
   /// text_line() is flush left and wraps text that is too long; right_text() is flush right.
   void text_line(const std::string& text);
   void right_text(const std::string& text);
-  /// Draws text that wraps, in red if it tells of a problem. Has no tooltip.
+  /// Draws text that wraps. It is no widget.
+  void paragraph(const std::string& text);
+  /// The same as a widget without a tooltip, in red if it tells of a problem.
   void wrapped_text(std::string_view label, const std::string& text, bool problem = false);
-  /// Draws grey text that wraps.
+  /// As paragraph(), in grey.
   void pale_text(const std::string& text);
   /// Draws a line with a grey label and its value at the right.
   void figure(std::string_view label, const std::string& value, std::string_view tooltip);
