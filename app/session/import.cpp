@@ -329,9 +329,9 @@ void Import::enter(FileReader::World answer) {
     scenes_.enter(std::move(answer.shown), std::move(answer.opened.scene), answer.path.string(),
                   answer.lone ? opening : "choice of scene");
     add({.text = std::move(answer.what)});
-    joins_ = answer.lone.has_value();
+    joins_ = simulation_.simulated();  // what was dropped with it
     lone_.clear();
-    if (joins_ && may_join) lone_.push_back(std::move(*answer.lone));
+    if (answer.lone && may_join) lone_.push_back(std::move(*answer.lone));
   } catch (const std::exception& error) {
     refuse(error.what());
   }
