@@ -46,12 +46,10 @@ double clear_height(const softbody::BodiesInMotion& world, glm::dvec3 at, double
 /// Returns what was found in a mesh, what was changed, and what may surprise in this scene.
 std::string text_about(const softbody::MeshSource& mesh, const softbody::BodyModel& model,
                        const softbody::Scene& scene) {
-  const softbody::ImportFindings& f = mesh.imported->findings;
   const std::string changed = softbody::remarks(*mesh.imported);
-  std::string text =
-      fmt::format("{}: {} vertices, scaled from {:.4g} to {:.4g} m, {}", mesh.file.path.filename().string(),
-                  grouped(mesh.imported->mesh.vertices.size()), f.file_extent, f.extent,
-                  changed.empty() ? "closed, in one piece, taken as it is" : changed);
+  std::string text = fmt::format("{}: {} vertices, scaled to {:.4g} m, {}", mesh.file.path.filename().string(),
+                                 grouped(mesh.imported->mesh.vertices.size()), mesh.imported->findings.extent,
+                                 changed.empty() ? "closed, in one piece, taken as it is" : changed);
   if (mesh.imported->simulated().vertices.size() > many_particles)
     text += "; so many particles that the world may run slower than real time";
   if (scene.contact_surface != softbody::ContactSurface::vertices) return text;
@@ -329,9 +327,9 @@ void Import::enter(FileReader::World answer) {
     scenes_.enter(std::move(answer.shown), std::move(answer.opened.scene), answer.path.string(),
                   answer.lone ? opening : "choice of scene");
     add({.text = std::move(answer.what)});
-    joins_ = answer.lone.has_value();
+    joins_ = simulation_.simulated();  // what was dropped with it
     lone_.clear();
-    if (joins_ && may_join) lone_.push_back(std::move(*answer.lone));
+    if (answer.lone && may_join) lone_.push_back(std::move(*answer.lone));
   } catch (const std::exception& error) {
     refuse(error.what());
   }

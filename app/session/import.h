@@ -92,10 +92,10 @@ class Import {
   /// Begins to read the file of `path`, which then replaces the present scene: a mesh opens in lone_scene(). problem()
   /// says why a file is refused.
   void load();
-  /// Does the same with files that were dropped on the window, one after another; but meshes behind the first one join
-  /// it, and if `into_scene`, all join the present scene. report() says why one is refused. If they are meshes that fit
-  /// together as frames, question() asks first whether to play them; what an export of motion writes beside them is no
-  /// frame. Files that are dropped meanwhile wait for the answer.
+  /// Does the same with files that were dropped on the window, one after another; but meshes behind the first one or
+  /// behind a scene join it, and if `into_scene`, all join the present scene. report() says why one is refused. If they
+  /// are meshes that fit together as frames, question() asks first whether to play them; what an export of motion
+  /// writes beside them is no frame. Files that are dropped meanwhile wait for the answer.
   void drop(const std::vector<std::string>& files, bool into_scene = false);
   /// Takes what has been read, and begins with the next file that waits. Call it once a frame. Returns true if a mesh
   /// has joined the scene.

@@ -128,6 +128,10 @@ TEST_F(ImportTest, LetsAMeshJoinTheSceneBeforeItsOwn) {
   drop({ball.string()});
   session.simulation.undo();
   EXPECT_FALSE(import.can_join()) << "its scene was left";
+  drop({folder.write("lone.toml", "[[body]]\n").string(), ball.string()});
+  EXPECT_EQ(session.world().scene().key, "lone");
+  EXPECT_EQ(session.world().bodies().count(), 2u) << "dropped together";
+  EXPECT_FALSE(import.can_join());
 }
 
 TEST_F(ImportTest, AppliesTheOptionsOfTheCommandLineToTheSceneOfAMesh) {

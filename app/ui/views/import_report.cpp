@@ -43,7 +43,7 @@ void draw_import_report(Widgets& w, const session::Import& import) {
     w.ask(WindowTask::show_joined);
   }
   if ((asks || (!import.report().empty() && !import.busy())) &&
-      button_behind(w, "Close###Close import report", "Closes this report.", w.px(80)))
+      button_behind(w, "x###Close import report", "Closes this report.", ImGui::GetFrameHeight()))
     w.ask([](Session& s) { s.import.dismiss_report(); });
 }
 
