@@ -15,7 +15,7 @@ std::vector<WindowTask> carry_out(const Requests& requests, session::Session& se
   if (camera.overview) for_window.push_back(WindowTask::show_as_before_tour);
   if (camera.framing) for_window.push_back(WindowTask::show_highlight);
   session.comparison.choice.on = ui.lower == LowerView::comparison;
-  session.comparison.choice.with_paper = ui.marks_story() || ui.panel;
+  session.comparison.choice.with_paper = ui.marks_story() || (ui.panel && !session.world().method().uses_hash);
   session.comparison.choice.with_misses = ui.overlays.missed;
   session.surfaces.on = ui.overlays.true_surfaces;
   return for_window;
