@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t median_count = session::LiveComparison::times_per_state;  // measurements of a median
 
-enum ColumnIndex { name, time, recall, contacts, tests, hashes, plot, misses, column_count };
+enum ColumnIndex { name, time, recall, contacts, tests, hashes, precision, plot, misses, column_count };
 
 struct Column {
   const char* label;
@@ -33,6 +33,7 @@ constexpr std::array<Column, column_count> columns{{
     {"Contacts", 72, true, "Number of pairs of vertices found closer than the tolerance (§2.3, §2.4)."},
     {"Pair tests", 96, true, "Number of distances between vertices that were evaluated (§2.3)."},
     {"Hashes", 80, true, "Number of evaluations of the hash function (§2.2)."},
+    {"Precision", 78, true, "Share of the found contacts that are true. 1: no false contact (§2.3)."},
     {"Latest times", 0, false, "The last measurements of the time. All methods have the same axis."},
     {"Misses", 56, true, "Choose the method whose missed contacts the scene shows (key 6)."},
 }};
@@ -154,8 +155,7 @@ void draw_score(Widgets& w, const Grid& grid, const Row& row) {
   const compare::CompareRow& found = *row.measured;
   grid.text(tests, grouped(found.counters.pair_tests));
   grid.text(hashes, grouped(found.counters.hashes), found.counters.hashes == 0);
-  const auto wrong = std::llround((1 - found.precision) * static_cast<double>(found.contacts));
-  grid.text(contacts, grouped(found.contacts) + (wrong > 0 ? fmt::format(", {} false", wrong) : ""));
+  grid.text(contacts, grouped(found.contacts));
   const StatusLight light = status_light(found.coverage);
   ImGui::SetCursorScreenPos({grid.left[recall] + w.px(4), grid.text_top()});
   w.dot(light.colour);
@@ -166,6 +166,7 @@ void draw_score(Widgets& w, const Grid& grid, const Row& row) {
     if (misses_some) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
     grid.text(recall, fmt::format("{:.4f}", rounded_down(found.recall)));
     if (misses_some) ImGui::PopStyleColor();
+    grid.text(precision, fmt::format("{:.4f}", rounded_down(found.precision)));
   }
   const std::string tip = std::string(light.sentence) + " Missed: " + grouped(found.missed.size()) + ".";
   grid.cell(w, recall, row.label("Recall of"), tip);
