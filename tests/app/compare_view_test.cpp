@@ -154,6 +154,36 @@ TEST(CompareView, ShowsWhatTheChosenMethodMisses) {
   EXPECT_TRUE(rig.session.comparison.missed()->empty()) << "it is exact";
 }
 
+TEST(CompareView, ShowsThePrecisionOnlyIfSomeContactIsFalse) {
+  const auto guest = [] {
+    collide::Method row = *collide::find_method("sorted-grid");
+    row.key = row.name = "generous";
+    row.make = [] {
+      struct Generous : collide::Detector {
+        void detect(const collide::Frame& frame, const collide::Settings& settings, collide::Workers& workers,
+                    collide::Result& result) override {
+          collide::Settings wide = settings;
+          wide.tolerance *= 2;
+          of->detect(frame, wide, workers, result);
+        }
+        std::unique_ptr<collide::Detector> of = collide::find_method("sorted-grid")->make();
+      };
+      return std::make_unique<Generous>();
+    };
+    PanelRig rig;
+    rig.ui.lower = ui::LowerView::comparison;
+    ASSERT_TRUE(wait_until(rig, usual_timed));
+    rig.frames(2);
+    EXPECT_FALSE(rig.shows("Column Precision"));
+    EXPECT_TRUE(rig.shows("Column Since start"));
+    collide::add_method(row);
+    ASSERT_TRUE(wait_until(rig, [](const auto& rows) { return rows.back().scored && rows.back().precision < 1; }));
+    rig.frames(2);
+    EXPECT_TRUE(rig.shows("Column Precision"));
+  };
+  tests::in_a_process_of_its_own(guest);
+}
+
 TEST(CompareView, KeepsEverythingInPlaceWhileItMeasures) {
   for (const float scale : {1.0f, 2.0f}) {
     PanelRig rig(scale);

@@ -64,8 +64,9 @@ TEST(DetectionPanel, HasTheSettingsOfOneHashTableAndSaysWhoseItIs) {
     for (const char* label : {"Buckets", "Cell size", "Tolerance"}) EXPECT_TRUE(rig.widget(label).enabled) << label;
     rig.hover("Hashing of");
     EXPECT_EQ(rig.recorder.tooltip.find("has no hash table") == std::string::npos, method.uses_hash) << method.key;
+    if (method.uses_hash) continue;
     const bool compared = rig.frames_until([&] { return rig.session.comparison.scored_row(paper) != nullptr; });
-    EXPECT_TRUE(compared || method.uses_hash) << method.key;
+    EXPECT_TRUE(compared) << method.key;
   }
 }
 

@@ -18,7 +18,7 @@ std::vector<WindowTask> carry_out(const Requests& requests, session::Session& se
   if (ui.lower == LowerView::sweep && !had_sweep && !session.sweep_worker.knows(session.world()))
     session.sweep_worker.start(session.world(), session.comparison.shown_methods());
   session.comparison.choice.on = ui.lower == LowerView::comparison;
-  session.comparison.choice.with_paper = ui.marks_story() || ui.panel;
+  session.comparison.choice.with_paper = ui.marks_story() || (ui.panel && !session.world().method().uses_hash);
   session.comparison.choice.with_misses = ui.overlays.missed;
   session.price.on = ui.shows_story();
   session.surfaces_beside.on = session.simulation.beside() != nullptr;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t median_count = session::LiveComparison::times_per_state;  // measurements of a median
 
-enum ColumnIndex { name, time, recall, so_far, contacts, tests, hashes, plot, misses, column_count };
+enum ColumnIndex { name, time, recall, so_far, contacts, tests, hashes, precision, plot, misses, column_count };
 
 struct Column {
   const char* label;
@@ -36,6 +36,7 @@ constexpr std::array<Column, column_count> columns{{
     {"Contacts", 72, true, "Number of pairs of vertices found closer than the tolerance (§2.3, §2.4)."},
     {"Pair tests", 96, true, "Number of distances between vertices that were evaluated (§2.3)."},
     {"Hashes", 80, true, "Number of evaluations of the hash function (§2.2)."},
+    {"Precision", 78, true, "Share of the found contacts that are true. 1: no false contact (§2.3)."},
     {"Latest times", 0, false, "The last measurements of the time. All methods have the same axis."},
     {"Misses", 56, true, "Choose the method whose missed contacts the scene shows (key 6)."},
 }};
@@ -43,11 +44,17 @@ constexpr std::array<Column, column_count> columns{{
 constexpr float min_plot_width = 70, column_gap = 10;
 constexpr float window_padding = 7, frame_padding = 1, row_gap = 1;  // above and below
 
+/// Returns false for the precision while that of all methods is 1.
+bool is_shown(std::size_t column, const Session& session) {
+  const auto finds_false_ones = [](const compare::CompareRow& row) { return row.scored && row.precision < 1; };
+  return column != precision || std::ranges::any_of(session.comparison.report().rows, finds_false_ones);
+}
+
 /// Returns the smallest width that all columns need, in design pixels.
 float min_content_width() {
   float width = min_plot_width;
   for (const Column& column : columns) width += column.width;
-  return width;
+  return width - columns[precision].width;
 }
 
 /// The ends of the columns, in screen coordinates, and the row that is being drawn.
@@ -55,12 +62,12 @@ struct Grid {
   std::array<float, column_count> left{}, right{};
   float top = 0, height = ImGui::GetFrameHeight();
 
-  Grid(const Widgets& w, float start, float width) {
+  Grid(const Widgets& w, const Session& session, float start, float width) {
     float rest = width;
-    for (const Column& column : columns) rest -= w.px(column.width);
+    for (std::size_t i = 0; i < column_count; ++i) rest -= is_shown(i, session) ? w.px(columns[i].width) : 0;
     for (std::size_t i = 0; i < column_count; ++i) {
       left[i] = start;
-      start += columns[i].width > 0 ? w.px(columns[i].width) : rest;
+      if (is_shown(i, session)) start += columns[i].width > 0 ? w.px(columns[i].width) : rest;
       right[i] = start - w.px(column_gap);
     }
   }
@@ -153,7 +160,7 @@ void draw_time(const Widgets& w, const Session& session, const Grid& grid, const
   grid.text(time, fmt::format("{:.2f} ms", median));
 }
 
-/// Draws a recall, in red if it is below 1.
+/// Draws a recall or a precision, in red if it is below 1.
 void draw_share(const Grid& grid, ColumnIndex column, double share) {
   if (share < 1) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
   grid.text(column, fmt::format("{:.4f}", rounded_down(share)));
@@ -164,8 +171,7 @@ void draw_score(Widgets& w, const Session& session, const Grid& grid, const Row&
   const compare::CompareRow& found = *row.measured;
   grid.text(tests, grouped(found.counters.pair_tests));
   grid.text(hashes, grouped(found.counters.hashes), found.counters.hashes == 0);
-  const auto wrong = std::llround((1 - found.precision) * static_cast<double>(found.contacts));
-  grid.text(contacts, grouped(found.contacts) + (wrong > 0 ? fmt::format(", {} false", wrong) : ""));
+  grid.text(contacts, grouped(found.contacts));
   const StatusLight light = status_light(found.coverage);
   ImGui::SetCursorScreenPos({grid.left[recall] + w.px(4), grid.text_top()});
   w.dot(light.colour);
@@ -175,6 +181,7 @@ void draw_score(Widgets& w, const Session& session, const Grid& grid, const Row&
   } else {
     draw_share(grid, recall, found.recall);
     draw_share(grid, so_far, sum.recall());
+    if (is_shown(precision, session)) draw_share(grid, precision, found.precision);
   }
   const std::string tip = std::string(light.sentence) + " Missed: " + grouped(found.missed.size()) + ".";
   grid.cell(w, recall, row.label("Recall of"), tip);
@@ -222,6 +229,7 @@ void draw_row(Widgets& w, const Session& session, const UiState& ui, Grid& grid,
 void draw_header(Widgets& w, const Session& session, Grid& grid) {
   grid.next_row();
   for (std::size_t i = time; i < column_count; ++i) {
+    if (!is_shown(i, session)) continue;
     const auto at = static_cast<ColumnIndex>(i);
     grid.text(at, columns[i].label, true);
     grid.cell(w, at, std::string("Column ") + columns[i].label, columns[i].tooltip);
@@ -268,7 +276,7 @@ void draw_compare(Widgets& w, const Session& session, const UiState& ui, const S
   ImGui::PopStyleVar();
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(2), w.px(frame_padding)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {w.px(6), w.px(2)});
-  Grid grid(w, ImGui::GetCursorScreenPos().x, width);
+  Grid grid(w, session, ImGui::GetCursorScreenPos().x, width);
   draw_header(w, session, grid);
   const Scale scale = common_scale(session);
   const compare::CompareReport& report = session.comparison.report();
