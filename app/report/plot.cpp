@@ -72,7 +72,7 @@ std::string colour(const collide::Method& method) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.r), byte(colour.g), byte(colour.b));
 }
 
-const char* integrator_colour(std::size_t i) {
+const char* series_colour(std::size_t i) {
   static constexpr std::array colours{"#000000", "#e69f00", "#0072b2", "#009e73",
                                       "#cc79a7", "#d55e00", "#56b4e9", "#888888"};
   return colours[i % colours.size()];
