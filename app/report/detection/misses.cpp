@@ -14,17 +14,20 @@
 namespace app::report {
 namespace {
 
-constexpr std::array driven_levels{0, 1, 3, 6, 9};
 constexpr std::array driven_cells{0.15, 0.5, 0.75, 1.0, 1.5};  // in units of the automatic cell size
 constexpr int frames_per_look = 10;
 
+std::vector<int> levels_of(const ReportOptions& options) {
+  return options.quick ? std::vector{paper_level} : std::vector{0, 1, 3, 6, 9};
+}
 /// Returns when a run ends, if bodies are awake: the paper's scenes have 800 frames.
 int frames_of(const ReportOptions& options) { return options.quick ? 60 : 800; }
 
 bool is_literal(const DrivenRun& run) { return method_of(run.configuration).key == collide::paper_method; }
 
 /// Returns the paper's method at all levels and cell sizes, then all others but brute force.
-std::vector<compare::Configuration> driving_configurations(const softbody::World& world, bool quick) {
+std::vector<compare::Configuration> driving_configurations(const softbody::Scene& scene, const ReportOptions& options) {
+  const softbody::World world(scene, {.threads = options.cores});
   std::vector<compare::Configuration> all;
   const auto add = [&](std::string_view method, int levels, double cell) {
     collide::Settings& settings =
@@ -32,9 +35,8 @@ std::vector<compare::Configuration> driving_configurations(const softbody::World
     settings.levels = levels;
     settings.cell_size = world.automatic_cell_size(levels) * float(cell);
   };
-  for (const int levels : driven_levels)
-    for (const double cell : driven_cells)
-      if (!quick || levels == paper_level) add(collide::paper_method, levels, cell);
+  for (const int levels : levels_of(options))
+    for (const double cell : driven_cells) add(collide::paper_method, levels, cell);
   for (const collide::Method& method : collide::method_table())
     if (method.exact && method.key != collide::reference_method) add(method.key, paper_level, 1);
   return all;
@@ -63,25 +65,21 @@ DrivenRun drive(softbody::Scene scene, const compare::Configuration& c, const Re
   return run;
 }
 
-const DrivenRun* fastest_rival(std::span<const DrivenRun> runs) {
-  const DrivenRun* fastest = nullptr;
-  for (const DrivenRun& run : runs)
-    if (method_of(run.configuration).group != collide::MethodGroup::paper &&
-        (!fastest || run.detect.median() < fastest->detect.median()))
-      fastest = &run;
-  return fastest;
-}
-
 /// Returns those of a scene that its table and plot show: of the rivals only the fastest.
 std::vector<const DrivenRun*> shown(std::span<const DrivenRun> runs) {
   std::vector<const DrivenRun*> all;
-  for (const DrivenRun& run : runs)
-    if (method_of(run.configuration).group == collide::MethodGroup::paper || &run == fastest_rival(runs))
+  const DrivenRun* fastest = nullptr;
+  for (const DrivenRun& run : runs) {
+    if (method_of(run.configuration).group == collide::MethodGroup::paper)
       all.push_back(&run);
+    else if (!fastest || run.detect.median() < fastest->detect.median())
+      fastest = &run;
+  }
+  if (fastest) all.push_back(fastest);
   return all;
 }
 
-/// Returns the most vertices that a run left inside others, and the depth of the deepest of any run: "417 (0.42 m)".
+/// Returns the most vertices that a run left inside others, and the depth of the deepest of any run (m): "417 (0.42)".
 std::string left_inside(std::span<const DrivenRun> runs, const auto& counts) {
   std::size_t inside = 0;
   double depth = 0;  // m
@@ -90,13 +88,13 @@ std::string left_inside(std::span<const DrivenRun> runs, const auto& counts) {
     inside = std::max(inside, run.totals.inside);
     depth = std::max(depth, run.totals.depth);
   }
-  return grouped(inside) + (inside > 0 ? fmt::format(" ({:.2g} m)", depth) : "");
+  return grouped(inside) + (inside > 0 ? fmt::format(" ({:.2g})", depth) : "");
 }
 
 TableRow left_inside_row(std::span<const DrivenRun> runs) {
   TableRow row{{"scene", runs.front().scene}, {"vertices", grouped(runs.front().vertices)}};
   for (const double cell : driven_cells)
-    row.push_back({fmt::format("cell x {:g}", cell), left_inside(runs, [&](const DrivenRun& run) {
+    row.push_back({fmt::format("x{:g}", cell), left_inside(runs, [&](const DrivenRun& run) {
                      return is_literal(run) && run.configuration.cell == cell;
                    })});
   row.push_back(
@@ -144,8 +142,7 @@ Plot left_inside_against_time(const Page& page, std::span<const DrivenRun> runs)
 }  // namespace
 
 void drive(const softbody::Scene& scene, DetectionResults& results) {
-  const std::vector<compare::Configuration> all = driving_configurations(
-      softbody::World(scene, {.threads = results.options.threads.value_or(1)}), results.options.quick);
+  const std::vector<compare::Configuration> all = driving_configurations(scene, results.options);
   for (const compare::Configuration& c : all) {
     say(scene.key + ", driven by " + method_of(c).name, double(&c - all.data()) / double(all.size()));
     results.runs.push_back(drive(scene, c, results.options, results.timed));
