@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -41,7 +42,7 @@ std::string script(const Plot& plot) {
     text += "EOD\n";
     drawn += fmt::format("{}$d{} with {} linecolor rgb '{}' {}", drawn.empty() ? "plot " : ", ", i, s.style, s.colour,
                          s.title.empty() ? "notitle" : "title " + literal(s.title));
-    if (!s.points.front().label.empty())
+    if (std::ranges::any_of(s.points, [](const Point& p) { return !p.label.empty(); }))
       drawn += fmt::format(", $d{} using 1:2:3 with labels offset 0.9,0.5 font ',8' textcolor rgb '{}' notitle", i,
                            s.colour);
   }

@@ -8,7 +8,7 @@ namespace app::report {
 namespace {
 
 constexpr std::array<std::string_view, 6> driven_scenes{"A", "B", "C", "D", "drop", "container"};
-constexpr std::size_t driven_bodies = 50;                          // at most, of a scene that is asked for
+constexpr std::uint64_t max_driven_vertices = 8'000;               // of a scene that is asked for
 constexpr collide::Index growth_bodies[] = {3, 16, 47, 200, 800};  // and all
 
 /// A sequence of the user's own is one scene only, and often one large body: then brute force may take some seconds.
@@ -77,7 +77,7 @@ void measure_scenes(const ReportOptions& options, DetectionResults& results, col
     SceneResult result = record(scene, options.quick, options.cores);
     if (swept) sweep_frames(result, results, workers);
     if (largest) results.growth = sweep_growth(result, results, workers);
-    if (options.scene ? bodies(scene) <= driven_bodies : std::ranges::count(driven_scenes, scene.key) > 0)
+    if (options.scene ? vertex_count(scene) <= max_driven_vertices : std::ranges::count(driven_scenes, scene.key) > 0)
       drive(scene, results);
     if (swept) results.scenes.push_back(std::move(result));
   }

@@ -17,48 +17,29 @@ namespace {
 constexpr std::array driven_cells{0.15, 0.5, 0.75, 1.0, 1.5};  // in units of the automatic cell size
 constexpr int frames_per_look = 10;
 
-std::vector<int> levels_of(const ReportOptions& options) {
-  return options.quick ? std::vector{paper_level} : std::vector{0, 1, 3, 6, 9};
-}
 /// Returns when a run ends, if bodies are awake: the paper's scenes have 800 frames.
 int frames_of(const ReportOptions& options) { return options.quick ? 60 : 800; }
 
 bool is_literal(const DrivenRun& run) { return method_of(run.configuration).key == collide::paper_method; }
 
-/// Returns the paper's method at all levels and cell sizes, then all others but brute force.
-std::vector<compare::Configuration> driving_configurations(const softbody::Scene& scene, const ReportOptions& options) {
-  const softbody::World world(scene, {.threads = options.cores});
-  std::vector<compare::Configuration> all;
-  const auto add = [&](std::string_view method, int levels, double cell) {
-    collide::Settings& settings =
-        all.emplace_back(compare::Configuration{compare::method_index(method), world.collision(), cell}).settings;
-    settings.levels = levels;
-    settings.cell_size = world.automatic_cell_size(levels) * float(cell);
-  };
-  for (const int levels : levels_of(options))
-    for (const double cell : driven_cells) add(collide::paper_method, levels, cell);
-  for (const collide::Method& method : collide::method_table())
-    if (method.exact && method.key != collide::reference_method) add(method.key, paper_level, 1);
-  return all;
-}
-
-DrivenRun drive(softbody::Scene scene, const compare::Configuration& c, const ReportOptions& options,
-                TimedParts& timed) {
+DrivenRun drive(softbody::Scene scene, const compare::Configuration& c, DetectionResults& results) {
   DrivenRun run{scene.key, c};
   scene.method = method_of(c).key;
   scene.collision = c.settings;
-  softbody::World world(std::move(scene), {.threads = options.threads.value_or(1)});
-  compare::WorldOracle oracle(options.cores);
+  softbody::World world(std::move(scene), {.threads = results.options.threads.value_or(1)});
+  compare::WorldOracle oracle(results.options.cores);
   compare::RunFigures figures;
+  const int frames = frames_of(results.options);
   for (bool ended = false; !ended;) {
     const double start = process_seconds();
     const double ms = time_ms([&] { world.step(); });
-    timed += {.wall = 1e-3 * ms, .processor = process_seconds() - start};
+    results.timed += {.wall = 1e-3 * ms, .processor = process_seconds() - start};
     figures.add(world);
     run.detect.ms.push_back(world.last_step().detect_ms);
-    ended = world.all_at_rest() || world.frame() == frames_of(options);
-    if (ended || world.frame() % frames_per_look == 0)
-      figures.add(collide::oracle::figures_of(world.simulated().positions, oracle.overlaps(world)));
+    ended = world.all_at_rest() || world.frame() == frames;
+    if (!ended && world.frame() % frames_per_look != 0) continue;
+    say(run.scene + ", driven by " + method_of(c).name, double(world.frame()) / frames);
+    figures.add(collide::oracle::figures_of(world.simulated().positions, oracle.overlaps(world)));
   }
   run.vertices = world.bodies().vertex_count();
   run.totals = figures.totals();
@@ -142,11 +123,17 @@ Plot left_inside_against_time(const Page& page, std::span<const DrivenRun> runs)
 }  // namespace
 
 void drive(const softbody::Scene& scene, DetectionResults& results) {
-  const std::vector<compare::Configuration> all = driving_configurations(scene, results.options);
-  for (const compare::Configuration& c : all) {
-    say(scene.key + ", driven by " + method_of(c).name, double(&c - all.data()) / double(all.size()));
-    results.runs.push_back(drive(scene, c, results.options, results.timed));
-  }
+  const softbody::World start(scene, {.threads = results.options.cores});
+  const auto drive_by = [&](std::string_view method, int levels, double cell) {
+    compare::Configuration c{compare::method_index(method), start.collision(), cell};
+    c.settings.levels = levels;
+    c.settings.cell_size = start.automatic_cell_size(levels) * float(cell);
+    results.runs.push_back(drive(scene, c, results));
+  };
+  for (const int levels : results.options.quick ? std::vector{paper_level} : std::vector{0, 1, 3, 6, 9})
+    for (const double cell : driven_cells) drive_by(collide::paper_method, levels, cell);
+  for (const collide::Method& method : collide::method_table())
+    if (method.exact && method.key != collide::reference_method) drive_by(method.key, paper_level, 1);
 }
 
 Table misses_table(const DetectionResults& results) {
