@@ -61,11 +61,14 @@ std::uint64_t vertex_count(const softbody::Scene& scene) {
   return vertices;
 }
 
-void write_report(const ReportOptions& options, const Table& figures, std::string_view page_name, const Page& page) {
+void write_report(const ReportOptions& options, const Table& figures, std::string_view page_name, const Page& page,
+                  const std::vector<std::pair<std::string, Table>>& more_figures) {
   auto files = draw_all(page.plots());
   clear_progress();
   const std::string text = page.markdown(!files.empty());
   files.emplace(files.begin(), options.name + ".csv", figures.csv());
+  for (const auto& [name, table] : more_figures)
+    if (!table.empty()) files.emplace_back(name, table.csv());
   files.emplace_back(page_name, text);
   for (const auto& [name, bytes] : files) files::require_no_input(options.out / name);
   for (const auto& [name, bytes] : files) files::write_file(options.out / name, bytes);

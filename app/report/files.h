@@ -26,8 +26,10 @@ std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options);
 /// Returns the number of vertices of all bodies, also of those that appear later.
 std::uint64_t vertex_count(const softbody::Scene& scene);
 
-/// Writes the figures, the page and its plots into a folder that exists, and prints the path of each file. The page's
-/// warning goes to standard error. Without gnuplot it leaves out the plots and says so there, too.
-void write_report(const ReportOptions& options, const Table& figures, std::string_view page_name, const Page& page);
+/// Writes the figures, the page and its plots into a folder that exists, and prints the path of each file. Further
+/// figures that are not empty go into files of their own. The page's warning goes to standard error. Without gnuplot it
+/// leaves out the plots and says so there, too.
+void write_report(const ReportOptions& options, const Table& figures, std::string_view page_name, const Page& page,
+                  const std::vector<std::pair<std::string, Table>>& more_figures = {});
 
 }  // namespace app::report

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -41,7 +42,7 @@ std::string script(const Plot& plot) {
     text += "EOD\n";
     drawn += fmt::format("{}$d{} with {} linecolor rgb '{}' {}", drawn.empty() ? "plot " : ", ", i, s.style, s.colour,
                          s.title.empty() ? "notitle" : "title " + literal(s.title));
-    if (!s.points.front().label.empty())
+    if (std::ranges::any_of(s.points, [](const Point& p) { return !p.label.empty(); }))
       drawn += fmt::format(", $d{} using 1:2:3 with labels offset 0.9,0.5 font ',8' textcolor rgb '{}' notitle", i,
                            s.colour);
   }
@@ -72,7 +73,7 @@ std::string colour(const collide::Method& method) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.r), byte(colour.g), byte(colour.b));
 }
 
-const char* integrator_colour(std::size_t i) {
+const char* series_colour(std::size_t i) {
   static constexpr std::array colours{"#000000", "#e69f00", "#0072b2", "#009e73",
                                       "#cc79a7", "#d55e00", "#56b4e9", "#888888"};
   return colours[i % colours.size()];

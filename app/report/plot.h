@@ -45,8 +45,8 @@ std::string draw(const Plot& plot, std::string_view terminal);
 std::string colour(const collide::Method& method);
 /// Returns the number of gnuplot's `pointtype`.
 inline int point_type(const collide::Method& method) { return int(compare::style(method).marker); }
-/// Returns the colour of the table's integrator i. People who see few colours can tell them apart, too (Okabe and Ito
-/// 2008).
-const char* integrator_colour(std::size_t i);
+/// Returns the colour of series i where these have none of their own. People who see few colours can tell them apart,
+/// too (Okabe and Ito 2008).
+const char* series_colour(std::size_t i);
 
 }  // namespace app::report

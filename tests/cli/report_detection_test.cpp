@@ -63,6 +63,33 @@ void check_table(const std::filesystem::path& report) {
   }
 }
 
+/// Checks that all methods but brute force have driven the scene, and that those that miss nothing did the same.
+void check_misses(const std::filesystem::path& report) {
+  std::multiset<std::string> methods;
+  std::set<std::string> ends_of_exact;
+  for (Row row : read_csv(report / "misses.csv")) {
+    EXPECT_EQ(row["scene"], "four, 'balls'");
+    EXPECT_GT(number(row["frames"]), 1);
+    EXPECT_GT(number(row["ms"]), 0);
+    EXPECT_GE(number(row["most inside"]), number(row["inside at the end"]));
+    EXPECT_GE(number(row["deepest (m)"]), number(row["depth at the end (m)"]));
+    const bool literal = row["driven by"] == "Multi-Level SB";
+    EXPECT_EQ(row["level"].empty(), !row["driven by"].starts_with("Multi-Level SB"));
+    EXPECT_TRUE(!literal || row["cell x"] != "0.15" || number(row["recall"]) < 0.5);
+    EXPECT_TRUE(literal || row["recall"] == "1") << row["driven by"];
+    if (!literal)
+      ends_of_exact.insert(row["frames"] + "/" + row["most inside"] + "/" + row["deepest (m)"] + "/" +
+                           row["inside at the end"]);
+    methods.insert(row["driven by"]);
+  }
+  EXPECT_EQ(methods.count("Multi-Level SB"), 5u) << "cell sizes";
+  EXPECT_EQ(methods.size(), 5 + collide::method_table().size() - 2);
+  EXPECT_EQ(ends_of_exact.size(), 1u);
+  const std::string text = read_file(report / "report.md");
+  EXPECT_NE(text.find("\n| four, 'balls' | 648 | "), text.npos);
+  EXPECT_NE(text.find("](<misses-four, 'balls'.svg>)"), text.npos);
+}
+
 /// Checks that the page says how it was made and shows its plots.
 void check_page(const std::filesystem::path& report) {
   const std::string text = read_file(report / "report.md");
@@ -96,6 +123,7 @@ TEST(DetectionReport, IsWholeIfQuick) {
   EXPECT_EQ(printed_files(o, out), file_names(out));
   EXPECT_EQ(errors_of(o), "") << "progress is for terminals";
   check_table(out);
+  check_misses(out);
   check_page(out);
 }
 

@@ -7,6 +7,8 @@
 namespace app::report {
 namespace {
 
+constexpr std::array<std::string_view, 6> driven_scenes{"A", "B", "C", "D", "drop", "container"};
+constexpr std::uint64_t max_driven_vertices = 8'000;               // of a scene that is asked for
 constexpr collide::Index growth_bodies[] = {3, 16, 47, 200, 800};  // and all
 
 /// A sequence of the user's own is one scene only, and often one large body: then brute force may take some seconds.
@@ -75,6 +77,8 @@ void measure_scenes(const ReportOptions& options, DetectionResults& results, col
     SceneResult result = record(scene, options.quick, options.cores);
     if (swept) sweep_frames(result, results, workers);
     if (largest) results.growth = sweep_growth(result, results, workers);
+    if (options.scene ? vertex_count(scene) <= max_driven_vertices : std::ranges::count(driven_scenes, scene.key) > 0)
+      drive(scene, results);
     if (swept) results.scenes.push_back(std::move(result));
   }
 }
@@ -91,7 +95,8 @@ void report_detection(const ReportOptions& options) {
     files::prepare_folder(options.out);
     sweep_frames(sequence, results, workers);
   }
-  write_report(options, detection_table(results), "report.md", detection_page(results));
+  write_report(options, detection_table(results), "report.md", detection_page(results),
+               {{"misses.csv", misses_table(results)}});
 }
 
 }  // namespace app::report

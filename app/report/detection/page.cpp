@@ -234,6 +234,7 @@ Page detection_page(const DetectionResults& results) {
     page.text("{}", over_budget(all));
     page.plot(error_against_time(page, scene));
   }
+  add_misses(page, results);
   add_growth(page, results);
   return page;
 }

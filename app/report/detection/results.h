@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/compare/positions.h"
+#include "app/compare/run_figures.h"
 #include "app/compare/sweep.h"
 #include "app/report/page.h"
 #include "app/report/sums.h"
@@ -42,12 +43,22 @@ SceneResult record_sequence(const ReportOptions& options);
 /// Returns the `count` bodies nearest to the middle of all: a smaller pile of the same kind.
 MeasuredState middle_bodies(const MeasuredState& state, collide::Index count);
 
+/// A scene that a method has driven until all bodies slept, or as long as time allows.
+struct DrivenRun {
+  std::string scene;  // its key
+  compare::Configuration configuration;
+  Timings detect{};             // of each frame, as the method ran in it
+  compare::RunTotals totals{};  // with a look at every tenth frame and at the last one
+  collide::Index vertices = 0;  // at the end
+};
+
 struct DetectionResults {
   ReportOptions options{};
   compare::SweepLimits limits{};
   TimedParts timed{};                 // all sweeps
   std::vector<SceneResult> scenes{};  // or the one sequence
   SceneResult growth{};  // piles of more and more bodies, cut out of one state; no states if its scene is too small
+  std::vector<DrivenRun> runs{};  // scene by scene
 };
 
 /// One configuration over all states of a scene.
@@ -86,7 +97,14 @@ inline const collide::Method& method_of(const compare::Configuration& c) { retur
 /// Returns detection.csv: every row of every state. What a method does not use, and what was not measured, is empty.
 Table detection_table(const DetectionResults& results);
 
+/// Drives a scene by the paper's method at many levels and cell sizes, and by all methods that miss nothing.
+void drive(const softbody::Scene& scene, DetectionResults& results);
+/// Returns misses.csv: a row for each run.
+Table misses_table(const DetectionResults& results);
+
 Page detection_page(const DetectionResults& results);
+/// Adds the part on what misses cost, if scenes were driven.
+void add_misses(Page& page, const DetectionResults& results);
 /// Adds the part on what §3 of the paper claims: hashes by level, and growth with the number of bodies.
 void add_growth(Page& page, const DetectionResults& results);
 

@@ -60,7 +60,7 @@ void add_errors(Plot& plot, const WorkCurve& curve, std::size_t number, std::opt
   // around them.
   const bool automatic = curve.integrator->automatic;
   Series series{fmt::format("{}{}", curve.integrator->name, order ? fmt::format(" (order {:.1f})", *order) : ""),
-                integrator_colour(number),
+                series_colour(number),
                 automatic ? "points pointtype 12 pointsize 2.2 linewidth 2"
                           : "linespoints pointtype 7 pointsize 0.8 linewidth 2"};
   for (const WorkPoint& p : curve.points)
@@ -72,7 +72,7 @@ void add_crosses(Plot& plot, const WorkCurve& curve, std::size_t number) {
   // Runs that blow up end early: they would have cost what their steps cost elsewhere on the curve.
   const auto good = std::ranges::find(curve.points, false, &WorkPoint::blew_up);
   const bool known = good != curve.points.end() && good->substeps > 0;
-  Series series{"", integrator_colour(number), "points pointtype 2 pointsize 1 linewidth 2"};
+  Series series{"", series_colour(number), "points pointtype 2 pointsize 1 linewidth 2"};
   for (const WorkPoint& p : curve.points)
     if (p.blew_up)
       series.points.push_back({known ? good->cost() * p.substeps / good->substeps : p.cpu_alone, cross_height(number)});

@@ -58,9 +58,8 @@ Plot step_against_stiffness(const Page& page, const StabilityResults& results) {
   Plot plot = page.plot_of("step against stiffness", "stability-steps", fmt::arg("tried", max_step_tried),
                            fmt::arg("top", 2 * max_step_tried));
   for (std::size_t i = 0; i < results.steps.size(); ++i) {
-    Series found{std::string(results.integrators[i]->name), integrator_colour(i),
-                 "linespoints pointtype 7 linewidth 2"};
-    Series predicted{"", integrator_colour(i), "lines dashtype 2 linewidth 1.5"};
+    Series found{std::string(results.integrators[i]->name), series_colour(i), "linespoints pointtype 7 linewidth 2"};
+    Series predicted{"", series_colour(i), "lines dashtype 2 linewidth 1.5"};
     for (const StableStep& s : results.steps[i]) {
       found.points.push_back({s.stiffness, s.found});
       if (std::isfinite(s.predicted)) predicted.points.push_back({s.stiffness, s.predicted});
