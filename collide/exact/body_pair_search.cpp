@@ -76,6 +76,7 @@ void BodyPairSearch::begin(const Frame& frame, const Settings& settings) {
   cutoff_ = contact_cutoff(settings.tolerance);
   tolerance2_ = settings.tolerance * settings.tolerance;
   if (self_collision_) references_.update(frame, live_, cutoff_);
+  patches_.begin(tolerance2_, cutoff_);
   found_ = 0;
 }
 
@@ -83,6 +84,7 @@ void BodyPairSearch::begin(Thread& own) const {
   own.tree.begin(levels_, cutoff_, tolerance2_, contact_limit);
   own.pairs.clear();
   own.loose.clear();
+  own.patches.boxes.clear();
   own.segments.clear();
   own.checked = 0;
   own.self_contacts = own.pair_tests = own.separated = own.unfolded = own.kept = 0;
@@ -104,7 +106,7 @@ void BodyPairSearch::deal(const RestingContacts& resting, Workers& workers) {
   threads_.resize(static_cast<std::size_t>(parts));
   patch_tasks_ = 0;
   if (loose_.empty()) return;
-  patches_.begin(*frame_, large_, tolerance2_, workers);
+  patches_.take(*frame_, large_, workers);
   for (const Index a : loose_) {
     if (self_collision_) patches_.add(a, a);
     for (const Index b : near_.later_neighbours(a)) {
@@ -118,7 +120,7 @@ void BodyPairSearch::deal(const RestingContacts& resting, Workers& workers) {
 void BodyPairSearch::find_patch_contacts(int thread, int threads) {
   Thread& own = threads_[static_cast<std::size_t>(thread)];
   for (auto task = static_cast<std::size_t>(thread); task < patch_tasks_; task += static_cast<std::size_t>(threads)) {
-    const PatchSearch::Found found = patches_.find(task, contact_limit, own.loose);
+    const PatchSearch::Found found = patches_.find(task, contact_limit, own.patches, own.loose);
     own.pair_tests += found.pair_tests;
     own.self_contacts += found.self_contacts;
     check_contact_limit(own);
@@ -213,8 +215,9 @@ void BodyPairSearch::find_self(Thread& own, Index body) {
   const SelfCollisionCandidates risk =
       reference ? reference->candidates_of(vertices, bounds_[body], own.self) : SelfCollisionCandidates{};
   if (!risk.culled) {
-    own.whole.take(vertices, first);
-    own.tree.within(own.whole, body, own.group, {frame_->bodies->shape[body].get(), first, tolerance2_});
+    own.pair_tests += patches_.find_within(*frame_, body, contact_limit, own.patches, own.group).pair_tests;
+    std::sort(own.group.begin(), own.group.end());
+    return;
   }
   for (const auto& [i, j] : risk.pairs) {
     if (squared_distance(vertices.x[i], vertices.y[i], vertices.z[i], vertices.x[j], vertices.y[j], vertices.z[j]) <
@@ -223,7 +226,7 @@ void BodyPairSearch::find_self(Thread& own, Index body) {
     }
   }
   for (const Index outlier : risk.outliers) contacts_of(vertices, first, outlier, tolerance2_, own.words, own.group);
-  own.unfolded += risk.culled && risk.outliers.empty();
+  own.unfolded += risk.outliers.empty();
   own.pair_tests += risk.pairs.size() + std::uint64_t{risk.outliers.size()} * (vertices.size - 1);
   if (!own.group.empty()) sort_self_contacts(own, body);
 }
@@ -292,13 +295,13 @@ void BodyPairSearch::count(Result& result) const {
   for (const Thread& thread : threads_) {
     result.self_contacts += thread.self_contacts;
     result.counters.pair_tests += thread.pair_tests + thread.tree.pair_tests();
-    result.counters.boxes += thread.tree.leaves();
+    result.counters.boxes += thread.tree.leaves() + thread.patches.boxes.size();
     result.skip(Skip::separated_pairs) += thread.separated;
     result.skip(Skip::unfolded_bodies) += thread.unfolded;
     result.skip(Skip::kept_pairs) += thread.kept;
   }
   const std::uint64_t live = live_.size();
-  result.counters.boxes += live + (loose_.empty() ? 0 : patches_.patches());
+  result.counters.boxes += live + patches_.patches();
   result.skip(Skip::far_pairs) += live * (live - std::min<std::uint64_t>(live, 1)) / 2 - near_.near_box_pairs();
   result.skip(Skip::separated_pairs) += near_.near_box_pairs() - near_.pairs();
   result.skip(Skip::lone_bodies) += near_.isolated_bodies();
@@ -314,12 +317,10 @@ std::vector<DebugGeometry::Box> BodyPairSearch::boxes() const {
     }
   }
   for (const Thread& thread : threads_) {
-    const auto& leaves = thread.tree.leaf_boxes();
-    boxes.insert(boxes.end(), leaves.begin(), leaves.end());
+    for (const auto* some : {&thread.tree.leaf_boxes(), &thread.patches.boxes})
+      boxes.insert(boxes.end(), some->begin(), some->end());
   }
-  if (loose_.empty()) return boxes;
-  const std::vector<DebugGeometry::Box> patches = patches_.boxes();
-  boxes.insert(boxes.end(), patches.begin(), patches.end());
+  patches_.add_boxes(boxes);
   return boxes;
 }
 

@@ -52,7 +52,8 @@ class BodyPairSearch {
     FacingScratch facing;
     CullingReference::Scratch self;
     Words words;
-    VertexSet whole;             // of one body
+    VertexSet whole;  // of one body
+    PatchSearch::Scratch patches;
     std::vector<Contact> pairs;  // of its groups, in order
     std::vector<Contact> loose;  // of the groups of large bodies, in no order
     std::size_t checked = 0;     // how many of both are counted in found_
