@@ -15,6 +15,7 @@ namespace collide::exact {
 namespace {
 
 constexpr std::size_t max_uncounted_pairs = 1u << 16;  // of one thread
+constexpr std::size_t few_share = 16;                  // so many times as many vertices as contacts: these are few
 
 // Of work: the bounds of a vertex; two near bodies, a body, a vertex of a large body; a contact in its order.
 constexpr double bounds_ns = 1, pair_ns = 100, body_ns = 50, patch_ns = 30, contact_ns = 10;
@@ -63,10 +64,40 @@ void BodyPairSearch::find(const Frame& frame, const Settings& settings, const Re
     begin(own);
     find_patch_contacts(part, parts);
     find_part(part, parts, resting);
-    if (!loose_.empty()) rows_.count(part, own.loose);
   });
-  for (Thread& thread : threads_)
+  std::size_t loose = 0;
+  for (Thread& thread : threads_) {
     check_contact_limit(thread);  // the rest, so that no more pass on many threads than on one
+    loose += thread.loose.size();
+  }
+  if (loose < frame_->bodies->vertex_count() / few_share) insert_loose();
+}
+
+/// Sorts the loose contacts, and inserts them into the groups that they belong to: faster than to place rows, if most
+/// rows are empty.
+void BodyPairSearch::insert_loose() {
+  std::vector<Contact>& all = threads_.front().loose;
+  for (const Thread& thread : std::span(threads_).subspan(1))
+    all.insert(all.end(), thread.loose.begin(), thread.loose.end());
+  std::sort(all.begin(), all.end());
+  auto next = all.cbegin();
+  auto body = loose_.begin();
+  for (Thread& thread : threads_) {
+    if (thread.segments.empty()) continue;
+    auto begin = thread.pairs.cbegin();
+    thread.group.clear();
+    for (const Segment& segment : thread.segments) {
+      const auto end = thread.pairs.cbegin() + static_cast<std::ptrdiff_t>(segment.end);
+      thread.group.insert(thread.group.end(), std::exchange(begin, end), end);
+      const Index behind = frame_->bodies->first[*body++ + std::size_t{1}];
+      const auto last = std::lower_bound(next, all.cend(), Contact{behind, 0});
+      thread.group.insert(thread.group.end(), std::exchange(next, last), last);
+    }
+    thread.group.insert(thread.group.end(), begin, thread.pairs.cend());
+    thread.group.swap(thread.pairs);
+    thread.segments.clear();
+  }
+  loose_.clear();
 }
 
 void BodyPairSearch::begin(const Frame& frame, const Settings& settings) {
@@ -114,7 +145,6 @@ void BodyPairSearch::deal(const RestingContacts& resting, Workers& workers) {
     }
   }
   patch_tasks_ = patches_.deal(parts);
-  rows_.begin(frame_->bodies->vertex_count(), parts);
 }
 
 void BodyPairSearch::find_patch_contacts(int thread, int threads) {
@@ -247,7 +277,7 @@ void BodyPairSearch::sort_self_contacts(Thread& own, Index body) {
 /// first vertex: counting, unless the body has far more vertices than contacts.
 void BodyPairSearch::sort_group(Thread& own, Index a, bool runs_ordered) {
   const Index first = frame_->bodies->first[a], size = frame_->bodies->size(a);
-  if (!runs_ordered || own.group.size() < size / 16) {
+  if (!runs_ordered || own.group.size() < size / few_share) {
     std::sort(own.group.begin(), own.group.end());
     return;
   }
@@ -261,6 +291,14 @@ void BodyPairSearch::sort_group(Thread& own, Index a, bool runs_ordered) {
 }
 
 void BodyPairSearch::concatenate(Workers& workers, std::vector<Contact>& pairs) {
+  const int threads = workers.threads_for(contact_ns * static_cast<double>(found_.load()));
+  const auto for_parts = [&](const auto& task) {
+    workers.share(threads, threads_.size(), [&](int, std::size_t part) { task(static_cast<int>(part)); });
+  };
+  if (!loose_.empty()) {
+    rows_.begin(frame_->bodies->vertex_count(), static_cast<int>(threads_.size()));
+    for_parts([&](int part) { rows_.count(part, threads_[static_cast<std::size_t>(part)].loose); });
+  }
   std::size_t total = 0;
   auto large = loose_.begin();
   for (Thread& thread : threads_) {
@@ -275,10 +313,6 @@ void BodyPairSearch::concatenate(Workers& workers, std::vector<Contact>& pairs) 
     total += thread.pairs.size() - begin;
   }
   pairs.resize(total);
-  const int threads = workers.threads_for(contact_ns * static_cast<double>(total));
-  const auto for_parts = [&](const auto& task) {
-    workers.share(threads, threads_.size(), [&](int, std::size_t part) { task(static_cast<int>(part)); });
-  };
   for_parts([&](int part) {
     const Thread& own = threads_[static_cast<std::size_t>(part)];
     auto begin = own.pairs.begin();

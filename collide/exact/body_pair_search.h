@@ -80,6 +80,7 @@ class BodyPairSearch {
   void sort_self_contacts(Thread& own, Index body);
   void sort_group(Thread& own, Index a, bool runs_ordered);
   void check_contact_limit(Thread& own);
+  void insert_loose();
 
   const Frame* frame_ = nullptr;
   bool self_collision_ = true;

@@ -173,6 +173,15 @@ HWY_INLINE hn::Vec<Bytes> first_lanes(const std::uint8_t* patch, std::size_t fir
 #endif
 }
 
+/// ByteUnit::square of differences up to the reach; of others, anything.
+HWY_INLINE hn::Vec<Bytes> square_of(const ByteUnit& unit, hn::Vec<Bytes> difference) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::Set(Bytes(), unit.square[hn::GetLane(difference) % unit.square.size()]);
+#else
+  return hn::TableLookupBytes(hn::LoadDup128(Bytes(), unit.square.data()), difference);
+#endif
+}
+
 /// The bytes of a patch, each repeated for every lane of another patch, plus `add`.
 struct Spread {
   HWY_INLINE Spread(const Patches& patches, Index patch, std::uint8_t add) {
@@ -203,13 +212,11 @@ HWY_INLINE void add_hits(const Patches& patches, Index patch, const Spread& same
   const auto less = [&](const Spread& spread, Index other, std::size_t axis, std::size_t step) HWY_ATTR {
     return hn::Sub(spread.bytes[axis][step], second_lanes(&patches.bytes[axis][other * size], step * byte_lanes));
   };
-  const auto allowed = [masks](Index n, std::size_t word, std::uint64_t bits) {
-    return masked ? bits & masks[n][word] : bits;
-  };
-  if (out.passed.size() < count) out.passed.resize(count);
-  Index passed = 0, vertices = 0;
-  constexpr int most = 2 * ByteUnit::reach - 128;
-  const auto limit = hn::Set(SignedBytes(), std::int8_t{most + 1});
+  // First the pairs of patches with vertices whose bytes are within reach of each other on all axes.
+  if (out.passed.size() < count + std::size_t{1}) out.passed.resize(count + std::size_t{1});
+  GroupHits::Passed* passed = out.passed.data();
+  std::uint64_t vertices = 0;
+  const auto limit = hn::Set(SignedBytes(), std::int8_t{2 * ByteUnit::reach - 128 + 1});
   for (Index n = 0; n < count; ++n) {
     const Index other = offset + others[n];
     vertices += patches.vertices[other];
@@ -221,28 +228,32 @@ HWY_INLINE void add_hits(const Patches& patches, Index patch, const Spread& same
                               HWY_ATTR { return hn::BitCast(SignedBytes(), less(near, other, axis, step)); };
           return hn::Lt(hn::Max(hn::Max(on(0), on(1)), on(2)), limit);
         },
-        [&](std::size_t word, std::uint64_t bits) { any |= allowed(n, word, bits); });
-    out.passed[passed] = n;  // without a branch: few are
-    passed += any != 0;
+        [&](std::size_t word, std::uint64_t bits) {
+          if (masked) bits &= masks[n][word];
+          passed->lanes[word] = bits;
+          any |= bits;
+        });
+    passed->other = other;
+    passed += any != 0;  // without a branch: few are
   }
-  if (list.hits.size() < list.size + 4 * passed) list.hits.resize(2 * (list.size + 4 * passed));
+  // Then those of them that may be closer than the cutoff.
+  const auto size_now = static_cast<std::size_t>(passed - out.passed.data());
+  if (list.hits.size() < list.size + 4 * size_now) list.hits.resize(2 * (list.size + 4 * size_now));
   LaneHits* hits = list.hits.data() + list.size;
-  const auto square = hn::LoadDup128(Bytes(), unit.square.data()), full = hn::Set(Bytes(), ByteUnit::limit);
-  const auto beyond = hn::Set(Bytes(), std::uint8_t{ByteUnit::reach + 1});
-  for (Index k = 0; k < passed; ++k) {
-    const Index n = out.passed[k], other = offset + others[n];
+  const auto full = hn::Set(Bytes(), ByteUnit::limit);
+  for (const GroupHits::Passed& pair : std::span(out.passed).first(size_now)) {
     for_words(
         Bytes(),
         [&](std::size_t step) HWY_ATTR {
           const auto on = [&](std::size_t axis) HWY_ATTR {
-            const auto d = hn::BitCast(SignedBytes(), less(same, other, axis, step));
-            return hn::TableLookupBytes(square, hn::Min(hn::BitCast(Bytes(), hn::Abs(d)), beyond));
+            const auto d = hn::BitCast(SignedBytes(), less(same, pair.other, axis, step));
+            return square_of(unit, hn::BitCast(Bytes(), hn::Abs(d)));
           };
           return hn::Ne(hn::SaturatedAdd(hn::SaturatedAdd(on(0), on(1)), on(2)), full);
         },
         [&](std::size_t word, std::uint64_t bits) {
-          *hits = {Patches::place(patch, static_cast<Index>(4 * word)), Patches::place(other, 0),
-                   allowed(n, word, bits)};
+          *hits = {Patches::place(patch, static_cast<Index>(4 * word)), Patches::place(pair.other, 0),
+                   bits & pair.lanes[word]};
           hits += hits->bits != 0;
         });
   }

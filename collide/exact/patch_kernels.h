@@ -85,7 +85,12 @@ struct GroupHits {
     const KnownPairs::Rows* rows;
   };
   std::vector<NearGroup> near;
-  std::vector<Index> list, passed;  // scratch
+  std::vector<Index> list;  // scratch
+  struct Passed {
+    Index other;
+    KnownPairs::Mask lanes;
+  };
+  std::vector<Passed> passed;  // the same
 };
 
 /// Lists which of some groups are near a group. known: null, or of the body whose first group is `offset` and which

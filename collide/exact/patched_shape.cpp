@@ -17,12 +17,13 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 /// Brings the items below the one that belongs to the place `middle` along the axis before it, and the others behind.
 /// As std::nth_element(), but with a pivot from a sample, and without a branch that nobody can predict.
 void split_at(std::span<trees::Item> items, std::size_t middle, std::size_t axis) {
-  constexpr std::size_t samples = 7;
-  for (int left = 40; items.size() > 2 * samples && left > 0; --left) {  // so that bad samples cost no square
-    std::array<float, samples> sample;
-    for (std::size_t k = 0; k < samples; ++k) sample[k] = items[items.size() * (2 * k + 1) / (2 * samples)].at[axis];
-    std::sort(sample.begin(), sample.end());
-    const float pivot = sample[middle * samples / items.size()];
+  constexpr std::size_t few = 14;
+  for (int left = 40; items.size() > few && left > 0; --left) {  // so that bad samples cost no square
+    const auto sample = [&](std::size_t k) { return items[items.size() * k / 6].at[axis]; };
+    const auto [low_pair, high_pair] = std::pair(std::min(sample(1), sample(3)), std::max(sample(1), sample(3)));
+    const std::array sorted{std::min(low_pair, sample(5)), std::max(low_pair, std::min(high_pair, sample(5))),
+                            std::max(high_pair, sample(5))};
+    const float pivot = sorted[middle * sorted.size() / items.size()];
     const auto part = [&](const auto& is_low) {
       trees::Item* low = items.data();
       for (trees::Item& item : items) {
@@ -54,8 +55,15 @@ void cut_items(std::span<trees::Item> items) {
   if (items.size() <= Patches::size) return;
   const std::size_t unit = items.size() > Patches::group_size ? Patches::group_size : Patches::size;
   const std::size_t low = (items.size() / 2 + unit - 1) / unit * unit;
-  const Aabb box = trees::bounds_of(items);
-  split_at(items, low, static_cast<std::size_t>(longest_axis(box.hi * 0.5f - box.lo * 0.5f)));
+  std::array<float, 3> lo = items.front().at, hi = lo;
+  for (const trees::Item& item : items) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lo[axis] = std::min(lo[axis], item.at[axis]);
+      hi[axis] = std::max(hi[axis], item.at[axis]);
+    }
+  }
+  const auto half = [&](std::size_t axis) { return hi[axis] * 0.5f - lo[axis] * 0.5f; };
+  split_at(items, low, static_cast<std::size_t>(longest_axis({half(0), half(1), half(2)})));
   cut_items(items.first(low));
   cut_items(items.subspan(low));
 }
@@ -84,6 +92,7 @@ PatchedShape::PatchedShape(const std::shared_ptr<const Shape>& shape, const Vert
 void PatchedShape::cut(const VertexRun& body) {
   const std::vector<glm::vec3>& at_rest = shape()->rest();
   std::vector<trees::Item> items;
+  items.reserve(body.size);
   for (Index v = 0; v < body.size; ++v) items.push_back({{body.x[v], body.y[v], body.z[v]}, v});
   cut_items(items);
   const Index groups = (body.size + Patches::group_size - 1) / Patches::group_size;
