@@ -297,20 +297,22 @@ HWY_INLINE void keep_close(const Patches& patches, float tolerance2, GroupHits::
   const Index pairs = list_hits(list);
   Index close = 0;
   for (Index n = 0; n < pairs; n += lanes) {
+    const auto places = [&](std::vector<Index>& of)
+                            HWY_ATTR { return hn::LoadU(Places(), reinterpret_cast<std::int32_t*>(&of[n])); };
+    const auto a = places(list.a), b = places(list.b);
     const auto difference = [&](std::size_t axis) HWY_ATTR {
-      const auto at = [&](const std::vector<Index>& places) HWY_ATTR {
-        return hn::GatherIndex(Floats(), patches.at[axis].data(),
-                               hn::LoadU(Places(), reinterpret_cast<const std::int32_t*>(&places[n])));
-      };
-      return hn::Sub(at(list.a), at(list.b));
+      const float* const at = patches.at[axis].data();
+      return hn::Sub(hn::GatherIndex(Floats(), at, a), hn::GatherIndex(Floats(), at, b));
     };
-    const M near = hn::Lt(squared_length(difference(0), difference(1), difference(2)), all(tolerance2));
-    for (std::uint64_t bits = bits_of(Floats(), near); HWY_UNLIKELY(bits != 0); bits &= bits - 1) {
-      const Index at = n + static_cast<Index>(std::countr_zero(bits));
-      if (at >= pairs) break;
-      list.a[close] = list.a[at];
-      list.b[close++] = list.b[at];
-    }
+    const V d2 = squared_length(difference(0), difference(1), difference(2));
+    const M near = hn::And(hn::Lt(d2, all(tolerance2)), hn::FirstN(Floats(), std::min(lanes, pairs - n)));
+    const auto keep = [&](hn::Vec<Places> some, std::vector<Index>& of) HWY_ATTR {  // what is behind is read already
+      hn::StoreU(hn::Compress(some, hn::RebindMask(Places(), near)), Places(),
+                 reinterpret_cast<std::int32_t*>(&of[close]));
+    };
+    keep(a, list.a);
+    keep(b, list.b);
+    close += static_cast<Index>(hn::CountTrue(Floats(), near));
   }
   list.close = close;
 }

@@ -135,13 +135,19 @@ PatchSearch::Found PatchSearch::find(const Task& task, const Patches& patches, s
 void PatchSearch::add_contacts(const Task& task, const GroupHits::List& pairs, bool known,
                                std::vector<Contact>& contacts) const {
   const Body &a = *task.a, &b = *task.b;
+  const Index *const vertex_a = a.cut->vertices().data(), *const vertex_b = b.cut->vertices().data();
+  const Index *const place_a = pairs.a.data(), *const place_b = pairs.b.data();
+  const std::size_t before = contacts.size();
+  contacts.resize(before + pairs.close);
+  Contact* end = contacts.data() + before;
   for (Index n = 0; n < pairs.close; ++n) {
-    const Index one = a.cut->vertices()[pairs.a[n] - a.first_group * Patches::group_size];
-    const Index other = b.cut->vertices()[pairs.b[n] - b.first_group * Patches::group_size];
+    const Index one = vertex_a[place_a[n] - a.first_group * Patches::group_size];
+    const Index other = vertex_b[place_b[n] - b.first_group * Patches::group_size];
     if (!known && &a == &b && a.shape->excludes(one, other, tolerance2_)) continue;
     const Index first = a.first_vertex + one, second = b.first_vertex + other;
-    contacts.push_back({std::min(first, second), std::max(first, second)});
+    *end++ = {std::min(first, second), std::max(first, second)};
   }
+  contacts.resize(static_cast<std::size_t>(end - contacts.data()));
 }
 
 std::size_t PatchSearch::patches() const {
