@@ -15,6 +15,7 @@ namespace collide::exact {
 namespace {
 
 constexpr std::size_t max_uncounted_pairs = 1u << 16;  // of one thread
+constexpr std::size_t few_share = 16;                  // so many times as many vertices as contacts: these are few
 
 // Of work: the bounds of a vertex; two near bodies, a body, a vertex of a large body; a contact in its order.
 constexpr double bounds_ns = 1, pair_ns = 100, body_ns = 50, patch_ns = 30, contact_ns = 10;
@@ -63,10 +64,40 @@ void BodyPairSearch::find(const Frame& frame, const Settings& settings, const Re
     begin(own);
     find_patch_contacts(part, parts);
     find_part(part, parts, resting);
-    if (!loose_.empty()) rows_.count(part, own.loose);
   });
-  for (Thread& thread : threads_)
+  std::size_t loose = 0;
+  for (Thread& thread : threads_) {
     check_contact_limit(thread);  // the rest, so that no more pass on many threads than on one
+    loose += thread.loose.size();
+  }
+  if (loose < frame_->bodies->vertex_count() / few_share) insert_loose();
+}
+
+/// Sorts the loose contacts, and inserts them into the groups that they belong to: faster than to place rows, if most
+/// rows are empty.
+void BodyPairSearch::insert_loose() {
+  std::vector<Contact>& all = threads_.front().loose;
+  for (const Thread& thread : std::span(threads_).subspan(1))
+    all.insert(all.end(), thread.loose.begin(), thread.loose.end());
+  std::sort(all.begin(), all.end());
+  auto next = all.cbegin();
+  auto body = loose_.begin();
+  for (Thread& thread : threads_) {
+    if (thread.segments.empty()) continue;
+    auto begin = thread.pairs.cbegin();
+    thread.group.clear();
+    for (const Segment& segment : thread.segments) {
+      const auto end = thread.pairs.cbegin() + static_cast<std::ptrdiff_t>(segment.end);
+      thread.group.insert(thread.group.end(), std::exchange(begin, end), end);
+      const Index behind = frame_->bodies->first[*body++ + std::size_t{1}];
+      const auto last = std::lower_bound(next, all.cend(), Contact{behind, 0});
+      thread.group.insert(thread.group.end(), std::exchange(next, last), last);
+    }
+    thread.group.insert(thread.group.end(), begin, thread.pairs.cend());
+    thread.group.swap(thread.pairs);
+    thread.segments.clear();
+  }
+  loose_.clear();
 }
 
 void BodyPairSearch::begin(const Frame& frame, const Settings& settings) {
@@ -76,6 +107,7 @@ void BodyPairSearch::begin(const Frame& frame, const Settings& settings) {
   cutoff_ = contact_cutoff(settings.tolerance);
   tolerance2_ = settings.tolerance * settings.tolerance;
   if (self_collision_) references_.update(frame, live_, cutoff_);
+  patches_.begin(tolerance2_, cutoff_);
   found_ = 0;
 }
 
@@ -83,6 +115,7 @@ void BodyPairSearch::begin(Thread& own) const {
   own.tree.begin(levels_, cutoff_, tolerance2_, contact_limit);
   own.pairs.clear();
   own.loose.clear();
+  own.patches.boxes.clear();
   own.segments.clear();
   own.checked = 0;
   own.self_contacts = own.pair_tests = own.separated = own.unfolded = own.kept = 0;
@@ -104,7 +137,7 @@ void BodyPairSearch::deal(const RestingContacts& resting, Workers& workers) {
   threads_.resize(static_cast<std::size_t>(parts));
   patch_tasks_ = 0;
   if (loose_.empty()) return;
-  patches_.begin(*frame_, large_, tolerance2_, workers);
+  patches_.take(*frame_, large_, workers);
   for (const Index a : loose_) {
     if (self_collision_) patches_.add(a, a);
     for (const Index b : near_.later_neighbours(a)) {
@@ -112,13 +145,12 @@ void BodyPairSearch::deal(const RestingContacts& resting, Workers& workers) {
     }
   }
   patch_tasks_ = patches_.deal(parts);
-  rows_.begin(frame_->bodies->vertex_count(), parts);
 }
 
 void BodyPairSearch::find_patch_contacts(int thread, int threads) {
   Thread& own = threads_[static_cast<std::size_t>(thread)];
   for (auto task = static_cast<std::size_t>(thread); task < patch_tasks_; task += static_cast<std::size_t>(threads)) {
-    const PatchSearch::Found found = patches_.find(task, contact_limit, own.loose);
+    const PatchSearch::Found found = patches_.find(task, contact_limit, own.patches, own.loose);
     own.pair_tests += found.pair_tests;
     own.self_contacts += found.self_contacts;
     check_contact_limit(own);
@@ -213,8 +245,9 @@ void BodyPairSearch::find_self(Thread& own, Index body) {
   const SelfCollisionCandidates risk =
       reference ? reference->candidates_of(vertices, bounds_[body], own.self) : SelfCollisionCandidates{};
   if (!risk.culled) {
-    own.whole.take(vertices, first);
-    own.tree.within(own.whole, body, own.group, {frame_->bodies->shape[body].get(), first, tolerance2_});
+    own.pair_tests += patches_.find_within(*frame_, body, contact_limit, own.patches, own.group).pair_tests;
+    std::sort(own.group.begin(), own.group.end());
+    return;
   }
   for (const auto& [i, j] : risk.pairs) {
     if (squared_distance(vertices.x[i], vertices.y[i], vertices.z[i], vertices.x[j], vertices.y[j], vertices.z[j]) <
@@ -223,7 +256,7 @@ void BodyPairSearch::find_self(Thread& own, Index body) {
     }
   }
   for (const Index outlier : risk.outliers) contacts_of(vertices, first, outlier, tolerance2_, own.words, own.group);
-  own.unfolded += risk.culled && risk.outliers.empty();
+  own.unfolded += risk.outliers.empty();
   own.pair_tests += risk.pairs.size() + std::uint64_t{risk.outliers.size()} * (vertices.size - 1);
   if (!own.group.empty()) sort_self_contacts(own, body);
 }
@@ -244,7 +277,7 @@ void BodyPairSearch::sort_self_contacts(Thread& own, Index body) {
 /// first vertex: counting, unless the body has far more vertices than contacts.
 void BodyPairSearch::sort_group(Thread& own, Index a, bool runs_ordered) {
   const Index first = frame_->bodies->first[a], size = frame_->bodies->size(a);
-  if (!runs_ordered || own.group.size() < size / 16) {
+  if (!runs_ordered || own.group.size() < size / few_share) {
     std::sort(own.group.begin(), own.group.end());
     return;
   }
@@ -258,6 +291,14 @@ void BodyPairSearch::sort_group(Thread& own, Index a, bool runs_ordered) {
 }
 
 void BodyPairSearch::concatenate(Workers& workers, std::vector<Contact>& pairs) {
+  const int threads = workers.threads_for(contact_ns * static_cast<double>(found_.load()));
+  const auto for_parts = [&](const auto& task) {
+    workers.share(threads, threads_.size(), [&](int, std::size_t part) { task(static_cast<int>(part)); });
+  };
+  if (!loose_.empty()) {
+    rows_.begin(frame_->bodies->vertex_count(), static_cast<int>(threads_.size()));
+    for_parts([&](int part) { rows_.count(part, threads_[static_cast<std::size_t>(part)].loose); });
+  }
   std::size_t total = 0;
   auto large = loose_.begin();
   for (Thread& thread : threads_) {
@@ -272,10 +313,6 @@ void BodyPairSearch::concatenate(Workers& workers, std::vector<Contact>& pairs) 
     total += thread.pairs.size() - begin;
   }
   pairs.resize(total);
-  const int threads = workers.threads_for(contact_ns * static_cast<double>(total));
-  const auto for_parts = [&](const auto& task) {
-    workers.share(threads, threads_.size(), [&](int, std::size_t part) { task(static_cast<int>(part)); });
-  };
   for_parts([&](int part) {
     const Thread& own = threads_[static_cast<std::size_t>(part)];
     auto begin = own.pairs.begin();
@@ -292,13 +329,13 @@ void BodyPairSearch::count(Result& result) const {
   for (const Thread& thread : threads_) {
     result.self_contacts += thread.self_contacts;
     result.counters.pair_tests += thread.pair_tests + thread.tree.pair_tests();
-    result.counters.boxes += thread.tree.leaves();
+    result.counters.boxes += thread.tree.leaves() + thread.patches.boxes.size();
     result.skip(Skip::separated_pairs) += thread.separated;
     result.skip(Skip::unfolded_bodies) += thread.unfolded;
     result.skip(Skip::kept_pairs) += thread.kept;
   }
   const std::uint64_t live = live_.size();
-  result.counters.boxes += live + (loose_.empty() ? 0 : patches_.patches());
+  result.counters.boxes += live + patches_.patches();
   result.skip(Skip::far_pairs) += live * (live - std::min<std::uint64_t>(live, 1)) / 2 - near_.near_box_pairs();
   result.skip(Skip::separated_pairs) += near_.near_box_pairs() - near_.pairs();
   result.skip(Skip::lone_bodies) += near_.isolated_bodies();
@@ -314,12 +351,10 @@ std::vector<DebugGeometry::Box> BodyPairSearch::boxes() const {
     }
   }
   for (const Thread& thread : threads_) {
-    const auto& leaves = thread.tree.leaf_boxes();
-    boxes.insert(boxes.end(), leaves.begin(), leaves.end());
+    for (const auto* some : {&thread.tree.leaf_boxes(), &thread.patches.boxes})
+      boxes.insert(boxes.end(), some->begin(), some->end());
   }
-  if (loose_.empty()) return boxes;
-  const std::vector<DebugGeometry::Box> patches = patches_.boxes();
-  boxes.insert(boxes.end(), patches.begin(), patches.end());
+  patches_.add_boxes(boxes);
   return boxes;
 }
 

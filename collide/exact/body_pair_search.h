@@ -52,7 +52,8 @@ class BodyPairSearch {
     FacingScratch facing;
     CullingReference::Scratch self;
     Words words;
-    VertexSet whole;             // of one body
+    VertexSet whole;  // of one body
+    PatchSearch::Scratch patches;
     std::vector<Contact> pairs;  // of its groups, in order
     std::vector<Contact> loose;  // of the groups of large bodies, in no order
     std::size_t checked = 0;     // how many of both are counted in found_
@@ -79,6 +80,7 @@ class BodyPairSearch {
   void sort_self_contacts(Thread& own, Index body);
   void sort_group(Thread& own, Index a, bool runs_ordered);
   void check_contact_limit(Thread& own);
+  void insert_loose();
 
   const Frame* frame_ = nullptr;
   bool self_collision_ = true;

@@ -9,10 +9,19 @@ namespace collide::exact {
 
 namespace {
 
-/// Long rows pass through a set, which costs less than to sort them. set: empty, and so it is left.
+/// Sorts the contacts of one first vertex. Long rows pass through a set, which costs less than to sort them. set:
+/// empty, and so it is left.
 void sort_row(IndexSet& set, std::span<Contact> row) {
   constexpr std::size_t few = 16;
-  if (row.size() <= few) return std::sort(row.begin(), row.end());
+  if (row.size() <= few) {
+    for (std::size_t k = 1; k < row.size(); ++k) {
+      const Index b = row[k].b;
+      std::size_t to = k;
+      for (; to > 0 && row[to - 1].b > b; --to) row[to].b = row[to - 1].b;
+      row[to].b = b;
+    }
+    return;
+  }
   for (const Contact& contact : row) set.add(contact.b);
   auto at = row.begin();
   set.take_runs(row.front().a, [&](Range run) {

@@ -48,25 +48,17 @@ void OverlapTree::begin(int levels, float cutoff, float tolerance2, std::size_t 
 
 void OverlapTree::between(const VertexSet& a, const VertexSet& b, Index body, std::vector<Contact>& contacts) {
   body_ = body;
-  excluded_ = {};
   contacts_ = &contacts;
   cut_between(a, b, 0);
 }
 
-void OverlapTree::within(const VertexSet& set, Index body, std::vector<Contact>& contacts, const Exclusion& excluded) {
-  body_ = body;
-  excluded_ = excluded;
-  contacts_ = &contacts;
-  cut_within(set, 0);
-}
-
 void OverlapTree::cut_between(const VertexSet& a, const VertexSet& b, int depth) {
   const std::uint64_t tests = std::uint64_t{a.size} * b.size;
-  if (is_leaf(tests, leaf_tests, depth)) {
+  if (is_leaf(tests, depth)) {
     if (tests == 0) return;
     pair_tests_ += tests;
     if (depth > 0) leaves_.push_back({bounds_of(a).lo, bounds_of(a).hi, body_});
-    contacts_between(a, b, tolerance2_, max_contacts_, words_, *contacts_, excluded_);
+    contacts_between(a, b, tolerance2_, max_contacts_, words_, *contacts_);
     return;
   }
   Level& own = level_[static_cast<std::size_t>(depth)];
@@ -83,30 +75,6 @@ void OverlapTree::cut_between(const VertexSet& a, const VertexSet& b, int depth)
   filter(own.near_b, own.up_b, [&](Index k) { return mid - vb[k] <= cutoff_; });
   cut_between(own.low_a, own.low_b, depth + 1);
   cut_between(own.up_a, own.up_b, depth + 1);
-}
-
-void OverlapTree::cut_within(const VertexSet& set, int depth) {
-  const std::uint64_t tests = std::uint64_t{set.size} * (std::max<Index>(set.size, 1) - 1) / 2;
-  // All pairs of one set cost less than a cut and the pairs across it, up to more of them than between two sets.
-  if (is_leaf(tests, 4 * leaf_tests, depth)) {
-    if (tests == 0) return;
-    pair_tests_ += tests;
-    leaves_.push_back({bounds_of(set).lo, bounds_of(set).hi, body_});
-    contacts_within(set, tolerance2_, max_contacts_, words_, *contacts_, excluded_);
-    return;
-  }
-  Level& own = level_[static_cast<std::size_t>(depth)];
-  const MidpointCut cut = cut_of(bounds_of(set));
-  const int axis = cut.axis;
-  const float mid = cut.mid;
-  const std::vector<float>& v = along(set, axis);
-  filter(set, own.low, [&](Index k) { return v[k] < mid; });
-  filter(set, own.up, [&](Index k) { return v[k] >= mid; });
-  filter(set, own.low_edge, [&](Index k) { return v[k] < mid && mid - v[k] <= cutoff_; });
-  filter(set, own.up_edge, [&](Index k) { return v[k] >= mid && v[k] - mid <= cutoff_; });
-  cut_within(own.low, depth + 1);
-  cut_within(own.up, depth + 1);
-  cut_between(own.low_edge, own.up_edge, depth + 1);
 }
 
 }  // namespace collide::exact

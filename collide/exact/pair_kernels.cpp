@@ -133,32 +133,19 @@ FacingResult FindFacingContacts(const VertexRun& a, Index first_a, const VertexR
   return {tests, true};
 }
 
-/// Writes one bit for each vertex of a set from `begin` on, which begins a block: set if it is close to the point.
-HWY_INLINE void close_bits(float px, float py, float pz, const VertexSet& set, Index begin, float tolerance2,
-                           std::uint64_t* words) {
-  const V x = all(px), y = all(py), z = all(pz), limit = all(tolerance2);
-  const float *sx = set.x.data(), *sy = set.y.data(), *sz = set.z.data();
-  BitWriter bits(words);
-  for (Index j = begin; j < set.size; j += lanes) {
-    bits.add(bits_of(
-        Floats(),
-        hn::Lt(squared_length(hn::Sub(x, load(sx + j)), hn::Sub(y, load(sy + j)), hn::Sub(z, load(sz + j))), limit)));
-  }
-  bits.end();
-}
-
-/// within: a and b are one set, and vertex i is tested with those behind it.
-void ContactsOfSets(const VertexSet& a, const VertexSet& b, bool within, float tolerance2, std::size_t max_contacts,
-                    Words& words, std::vector<Contact>& contacts, const Exclusion& excluded) {
+void ContactsBetween(const VertexSet& a, const VertexSet& b, float tolerance2, std::size_t max_contacts, Words& words,
+                     std::vector<Contact>& contacts) {
   if (words.size() < b.size / 64 + 2) words.resize(b.size / 64 + 2);
+  const V limit = all(tolerance2);
   for (Index i = 0; i < a.size; ++i) {
-    const Index first = within ? i + 1 : 0, begin = first / lanes * lanes;
-    close_bits(a.x[i], a.y[i], a.z[i], b, begin, tolerance2, words.data());
-    words[0] &= ~std::uint64_t{0} << (first - begin);
-    for_bits(words.data(), b.size - begin, [&](Index bit) HWY_ATTR {
-      const Contact pair{a.vertex[i], b.vertex[begin + bit]};
-      if (!excluded(pair.a, pair.b)) contacts.push_back(pair);
-    });
+    const V x = all(a.x[i]), y = all(a.y[i]), z = all(a.z[i]);
+    BitWriter bits(words.data());
+    for (Index j = 0; j < b.size; j += lanes) {
+      const V d2 = squared_length(hn::Sub(x, load(&b.x[j])), hn::Sub(y, load(&b.y[j])), hn::Sub(z, load(&b.z[j])));
+      bits.add(bits_of(Floats(), hn::Lt(d2, limit)));
+    }
+    bits.end();
+    for_bits(words.data(), b.size, [&](Index bit) HWY_ATTR { contacts.push_back({a.vertex[i], b.vertex[bit]}); });
     if (contacts.size() > max_contacts) throw_too_many_contacts(max_contacts);
   }
 }
@@ -188,7 +175,7 @@ HWY_AFTER_NAMESPACE();
 namespace collide::exact {
 
 HWY_EXPORT(FindFacingContacts);
-HWY_EXPORT(ContactsOfSets);
+HWY_EXPORT(ContactsBetween);
 HWY_EXPORT(ContactsOf);
 
 FacingResult find_facing_contacts(const VertexRun& a, Index first_a, const VertexRun& b, Index first_b,
@@ -210,13 +197,8 @@ void FacingScratch::reserve(Index size_a, Index size_b) {
 }
 
 void contacts_between(const VertexSet& a, const VertexSet& b, float tolerance2, std::size_t max_contacts, Words& words,
-                      std::vector<Contact>& contacts, const Exclusion& excluded) {
-  HWY_DYNAMIC_DISPATCH(ContactsOfSets)(a, b, false, tolerance2, max_contacts, words, contacts, excluded);
-}
-
-void contacts_within(const VertexSet& set, float tolerance2, std::size_t max_contacts, Words& words,
-                     std::vector<Contact>& contacts, const Exclusion& excluded) {
-  HWY_DYNAMIC_DISPATCH(ContactsOfSets)(set, set, true, tolerance2, max_contacts, words, contacts, excluded);
+                      std::vector<Contact>& contacts) {
+  HWY_DYNAMIC_DISPATCH(ContactsBetween)(a, b, tolerance2, max_contacts, words, contacts);
 }
 
 void contacts_of(const VertexRun& run, Index first, Index i, float tolerance2, Words& words,

@@ -62,23 +62,10 @@ FacingResult find_facing_contacts(const VertexRun& a, Index first_a, const Verte
                                   const Slab& slab, float tolerance2, std::uint64_t max_tests, FacingScratch& scratch,
                                   std::vector<Contact>& contacts);
 
-/// Says which pairs of one body's vertices can never be contacts. Without a shape, it excludes no pair.
-struct Exclusion {
-  const Shape* shape = nullptr;
-  Index first = 0;       // the number of the body's first vertex
-  float tolerance2 = 0;  // m^2, see Shape::excludes()
-
-  bool operator()(Index a, Index b) const { return shape && shape->excludes(a - first, b - first, tolerance2); }
-};
-
-/// Appends every pair of a vertex of a and a vertex of b, in this order, whose squared_distance() is below tolerance2
-/// and that is not excluded. The pairs are sorted if both sets are. Throws std::length_error if `contacts` grows beyond
-/// `max_contacts`.
+/// Appends every pair of a vertex of a and a vertex of b, in this order, whose squared_distance() is below tolerance2.
+/// The pairs are sorted if both sets are. Throws std::length_error if `contacts` grows beyond `max_contacts`.
 void contacts_between(const VertexSet& a, const VertexSet& b, float tolerance2, std::size_t max_contacts, Words& words,
-                      std::vector<Contact>& contacts, const Exclusion& excluded = {});
-/// Does the same for all pairs of one set, the earlier vertex first.
-void contacts_within(const VertexSet& set, float tolerance2, std::size_t max_contacts, Words& words,
-                     std::vector<Contact>& contacts, const Exclusion& excluded = {});
+                      std::vector<Contact>& contacts);
 /// Does the same, without a limit, for all pairs of vertex i of a run with another vertex of it. first: the number of
 /// the run's first vertex.
 void contacts_of(const VertexRun& run, Index first, Index i, float tolerance2, Words& words,

@@ -1,40 +1,111 @@
 #pragma once
-// The inner loops over patches: runs of at most max_lanes slots of Points, with the boxes around them. Vectorised with
-// Highway, which chooses the processor's instruction set at run time. Every instruction set finds the same contacts in
-// the same order.
+// The inner loops over patches: runs of neighbouring vertices of a body. Vectorised with Highway, which chooses the
+// processor's instruction set at run time. Every instruction set finds the same hits in the same order.
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "collide/core/points.h"
-#include "collide/core/result.h"
+#include "collide/core/vertex_run.h"
 
 namespace collide::exact {
 
-/// The vertices of patches now and, where the shape is known, at rest. Arrays by patch go on for max_lanes values of no
-/// meaning.
+/// How coordinates become bytes, and what bytes say of distances. With a power of two P, a coordinate x becomes the
+/// whole number q = trunc(x P), where nothing is rounded but the fraction cut off, and then the low byte of
+/// floor(q factor / 2^24), in integers that wrap around. Both are monotone. So if two coordinates differ by at most the
+/// cutoff, their q differ by at most floor(cutoff P) + 1 <= 128, and their bytes by at most `reach`; bytes that wrap
+/// around, and numbers beyond all integers, only let more pairs pass. And if bytes differ by n > 1, up to `reach`, the
+/// coordinates differ by more than ((n - 1) 2^24 / factor - 1) / P.
+struct ByteUnit {
+  static constexpr std::uint8_t reach = 14;
+  float per_metre = 0;  // P
+  std::uint32_t factor = 0;
+  std::array<std::uint8_t, 16> square{};  // by n: a lower bound of the square of the difference; `limit` beyond reach
+  static constexpr std::uint8_t limit = 255;  // more than the square of the cutoff
+
+  explicit ByteUnit(float cutoff);
+};
+
+/// Patches of up to `size` vertices, in groups of up to `size` patches. A vertex has a lane of its patch, and a place:
+/// the first lanes of a group's patches come first, then their second lanes, and so on. A patch that is not there is
+/// near nothing.
 struct Patches {
-  const Points* now = nullptr;
-  std::vector<float> rest_x, rest_y, rest_z;  // m, by slot; NaN where the rest shape is not known
-  /// The slots that a mesh edge joins to each slot, where this alone keeps the pair from being a contact.
-  std::vector<Index> joined, first_joined;
+  static constexpr Index size = 16, group_size = size * size;
+  struct Boxes {
+    std::array<std::vector<float>, 3> lo, hi;  // m
+    void resize(std::size_t count);
+  };
 
-  std::vector<Index> first_slot;                       // of each patch, and the end of the last one
-  std::array<std::vector<float>, 3> lo, hi;            // m, of each patch: its box now
-  std::array<std::vector<float>, 3> rest_lo, rest_hi;  // at rest; everything where that is not known
+  std::array<std::vector<float>, 3> at;            // m, by place; NaN where there is no vertex
+  std::array<std::vector<std::uint8_t>, 3> bytes;  // by patch and lane
+  Boxes patch, group;
+  std::vector<Index> count;     // by group: its patches
+  std::vector<Index> vertices;  // by patch
 
-  Range slots(Index patch) const { return {first_slot[patch], first_slot[patch + std::size_t{1}]}; }
+  static Index place(Index patch, Index lane) { return patch / size * group_size + lane * size + patch % size; }
+  void resize(std::size_t groups);
 };
 
-struct PatchContacts {
-  Index contacts = 0;            // how many were written
-  std::uint64_t pair_tests = 0;  // pairs of vertices in patches that are near each other
+/// Copies the positions of some groups of a body into the patches, and finds their bytes and boxes. vertex: of each
+/// place of the body; places without a vertex repeat another one. offset: the number of the body's first group.
+void fill_groups(const VertexRun& body, const Index* vertex, Range groups, Index offset, const ByteUnit& unit,
+                 Patches& patches);
+
+/// What the shape of a body says of pairs of its patches. Patches and groups count from the body's first one.
+struct KnownPairs {
+  using Mask = std::array<std::uint64_t, 4>;  // bit 16 i + j: lane i of the first patch, lane j of the other one
+  using Rows = std::array<std::uint16_t, Patches::size>;  // of two groups: row i, bit j
+  std::vector<Index> first_other, other;  // by patch: the patches, itself or later ones, that it is always tested with
+  std::vector<Mask> mask;                 // of each of these pairs: the vertices that can be in contact
+  std::vector<Index> first_group, group;  // by group: groups, itself or later ones, with pairs that are not to be found
+  std::vector<Rows> rows;                 // of each of these pairs: such patches
 };
 
-/// Writes the contacts between a patch and each of some others to `contacts`, which has room for all their pairs.
-/// within: all are of one body, and the others may begin with the patch itself; then it leaves out what
-/// Shape::excludes() says. Else the others are of another body.
-PatchContacts find_patch_contacts(const Patches& patches, bool within, Index patch, Range others, float tolerance2,
-                                  Contact* contacts);
+/// Pairs of four vertices of a patch with the vertices of another one that may be in contact.
+struct LaneHits {
+  Index a, b;          // places of the first of the four, and of the other patch's first vertex
+  std::uint64_t bits;  // 16 i + j: places a + 16 i and b + 16 j
+};
+
+/// The pairs of vertices of one group that are close. Keeps its memory from call to call.
+struct GroupHits {
+  struct List {
+    std::vector<LaneHits> hits;
+    std::size_t size = 0;
+    std::vector<Index> a, b;  // places of the pairs that are hit, then of those of them that are close
+    Index close = 0;          // how many are
+  };
+  List known, found;         // of known pairs of patches, and of the others that are near
+  std::uint64_t tested = 0;  // pairs of vertices of patches that are near each other
+
+  /// A group that is near, and its rows of known pairs.
+  struct NearGroup {
+    Index group;
+    const KnownPairs::Rows* rows;
+  };
+  std::vector<NearGroup> near;
+  std::vector<Index> list;  // scratch
+  struct Passed {
+    Index other;
+    KnownPairs::Mask lanes;
+  };
+  std::vector<Passed> passed;  // the same
+};
+
+/// Lists which of some groups are near a group. known: null, or of the body whose first group is `offset` and which
+/// owns all of them.
+void list_near_groups(const Patches& patches, Index group, Range others, const KnownPairs* known, Index offset,
+                      float cutoff, GroupHits& out);
+/// Lists the patches near a patch in the groups near its own, without those of their rows. Returns how many.
+Index list_near_patches(const Patches& patches, Index patch, float cutoff, GroupHits& out);
+/// Finds the pairs of a group with the groups near it whose squared_distance() is below tolerance2, after
+/// list_near_groups().
+void find_group_hits(const Patches& patches, Index group, const KnownPairs* known, Index offset, float cutoff,
+                     const ByteUnit& unit, float tolerance2, GroupHits& out);
+
+/// Returns which pairs of vertices of two patches are not closer than the tolerance at rest. x, y, z: m at rest, by
+/// patch and lane; NaN where it is not known.
+KnownPairs::Mask apart_at_rest(const std::array<std::vector<float>, 3>& rest, Index a, Index b, float tolerance2);
 
 }  // namespace collide::exact

@@ -1,57 +1,82 @@
 #pragma once
-// The contacts inside large bodies, and between two of them. All threads share the pairs of patches of one body.
+// The contacts inside bodies and between two of them, by their patches. All threads share the groups of patches of one
+// body.
 
-#include "collide/core/vertex_run.h"
-#include "collide/exact/patch_kernels.h"
-#include "collide/trees/body_trees.h"
+#include <mutex>
+#include <unordered_map>
+
+#include "collide/core/detector.h"
+#include "collide/exact/patched_shape.h"
 
 namespace collide::exact {
 
-/// Goes down the trees of the bodies with pairs of nodes. A pair of nodes is left out if all its vertices are farther
-/// apart than the tolerance now, and one of one body also if all are closer than that at rest. Nodes of a few patches
-/// are not gone down further: their patches are tested in the vector loops.
+/// Shapes are cut into patches once; a frame moves the boxes around them. Patches that are near each other in the shape
+/// are always tested, but only those of their vertices that can be in contact at all; others if their boxes are near.
+/// The test is one in bytes, which lets all contacts pass: see ByteUnit. squared_distance() decides.
 class PatchSearch {
  public:
-  /// Starts a frame with the positions of some bodies; ascending.
-  void begin(const Frame& frame, std::span<const Index> which, float tolerance2, Workers& workers);
+  /// Starts a frame. cutoff: m.
+  void begin(float tolerance2, float cutoff);
+
+  // Bodies that all threads share:
+  /// Takes the positions of some bodies; ascending.
+  void take(const Frame& frame, std::span<const Index> which, Workers& workers);
   /// Adds the pairs inside one of these bodies, or between two of them.
   void add(Index a, Index b);
   /// Shares the pairs among threads: as many tasks as the caller should deal.
   std::size_t deal(int threads);
 
+  /// The memory of a thread.
+  struct Scratch {
+    Patches patches;
+    GroupHits hits;
+    std::vector<DebugGeometry::Box> boxes;  // of the patches of find_within(): it appends them
+  };
   struct Found {
     std::uint64_t pair_tests = 0, self_contacts = 0;
   };
   /// Appends the contacts of a task; in no order. Throws std::length_error if `contacts` grows beyond max_contacts.
-  Found find(std::size_t task, std::size_t max_contacts, std::vector<Contact>& contacts) const;
+  Found find(std::size_t task, std::size_t max_contacts, Scratch& scratch, std::vector<Contact>& contacts) const;
 
-  std::size_t patches() const { return node_of_patch_.size(); }
-  /// Returns the boxes of the patches, for drawing.
-  std::vector<DebugGeometry::Box> boxes() const;
-  void forget() { trees_.forget(); }
+  /// Does the same for the contacts inside any body. Several threads may call it at once.
+  Found find_within(const Frame& frame, Index body, std::size_t max_contacts, Scratch& scratch,
+                    std::vector<Contact>& contacts);
+
+  std::size_t patches() const;
+  /// Appends the boxes of the patches, for drawing.
+  void add_boxes(std::vector<DebugGeometry::Box>& boxes) const;
+  /// Drops the cuts that were taken from frames. Those of rest shapes stay.
+  void forget();
 
  private:
-  /// What is known of a node beside its box.
-  struct About {
-    Aabb rest;      // of its vertices at rest; everything where that is not known
-    Range patches;  // of its vertices
-    Index body;
+  struct Body {
+    PatchedShape* cut;
+    const Shape* shape;
+    Index body, first_vertex, first_group;
+
+    Range groups() const { return {first_group, first_group + cut->groups()}; }
+    Range patches() const { return {first_group * Patches::size, first_group * Patches::size + cut->patches()}; }
   };
-  void take_rest(const Frame& frame);
-  void number_patches();
-  void list_joined(const Frame& frame);
-  bool apart(trees::NodePair pair) const;
-  trees::NodePairs node_pairs() const { return {trees_.nodes(), most_patches * trees::BodyTrees::patch_size}; }
+  struct Task {
+    const Body *a, *b;
+    Range groups;  // of a
+  };
+  Body lay_out(const Frame& frame, Index body, Index first_group);
+  void fill(const Frame& frame, Workers& workers);
+  void fill(const Frame& frame, const Body& body, Range groups, Patches& patches) const;
+  bool cut_spread_shapes(const Frame& frame);
+  Found find(const Task& task, const Patches& patches, std::size_t max_contacts, GroupHits& hits,
+             std::vector<Contact>& contacts) const;
+  static void add_boxes(const Body& body, const Patches& patches, std::vector<DebugGeometry::Box>& boxes);
+  void add_contacts(const Task& task, const GroupHits::List& pairs, bool known, std::vector<Contact>& contacts) const;
 
-  static constexpr Index most_patches = max_lanes;  // of a node that is not gone down further
-
-  float tolerance2_ = 0;
-  std::vector<Index> which_;
-  trees::BodyTrees trees_;
-  std::vector<About> about_;          // by node
-  std::vector<Index> node_of_patch_;  // ascending slots
+  float tolerance2_ = 0, cutoff_ = 0;
+  ByteUnit unit_{1};
+  std::mutex mutex_;  // of cuts_
+  std::unordered_map<const Shape*, PatchedShape> cuts_;
+  std::vector<Body> bodies_;
   Patches patches_;
-  std::vector<trees::NodePair> pairs_;
+  std::vector<Task> tasks_;
 };
 
 }  // namespace collide::exact

@@ -81,10 +81,10 @@ void CullingReference::list_pairs(const Topology& topology) {
   covered_ = cutoff_ + 0.3f * radius_;
   Words words;
   std::vector<Contact> close;
-  contacts_within(all, covered_ * covered_, std::size_t{max_vertices} * max_vertices, words, close);
+  contacts_between(all, all, covered_ * covered_, std::size_t{max_vertices} * max_vertices, words, close);
   std::vector<std::pair<float, std::array<Index, 2>>> listed;
   for (const Contact& pair : close) {
-    if (topology.joined(pair.a, pair.b)) continue;
+    if (pair.a >= pair.b || topology.joined(pair.a, pair.b)) continue;
     const float d2 = squared_distance(x_[pair.a], y_[pair.a], z_[pair.a], x_[pair.b], y_[pair.b], z_[pair.b]);
     listed.push_back({std::sqrt(d2), {pair.a, pair.b}});
   }
@@ -158,7 +158,7 @@ void SelfCollisionCulling::make(Entry& entry, const Frame& frame, float cutoff) 
   const Index first = frame.bodies->first[entry.first_body], size = shape.vertex_count();
   entry.reference.reset();
   entry.from_frame = shape.rest().empty();
-  if (entry.from_frame && entry.bodies < min_bodies) return;
+  if (size > std::min(CullingReference::max_vertices, vertices_a_body * entry.bodies)) return;
   entry.cutoff = cutoff;
   std::vector<float> x, y, z;
   for (const glm::vec3& p : shape.rest()) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);

@@ -54,8 +54,8 @@ class CullingReference {
   std::vector<float> distance_;              // of each pair
 };
 
-/// Holds a reference for each topology of a frame: the rest shape where it is known, else the first body of that
-/// topology in the frame, if enough bodies share it.
+/// Holds a reference for each topology of a frame, if enough bodies share it: the rest shape where it is known, else
+/// the first body of that topology in the frame.
 class SelfCollisionCulling {
  public:
   /// Makes the missing references of the frame's live bodies and drops those that no live body needs.
@@ -76,7 +76,7 @@ class SelfCollisionCulling {
   };
   static void make(Entry& entry, const Frame& frame, float cutoff);
 
-  static constexpr Index min_bodies = 4;
+  static constexpr Index vertices_a_body = 64;  // at most: the list of a reference costs the square of its vertices
   std::unordered_map<const Topology*, Entry> entries_;
   std::vector<const Entry*> by_body_;
 };

@@ -99,27 +99,6 @@ TEST_P(OverlapTreeOnTargets, BetweenTwoSetsFindsAllPairsOnceAtEveryLevel) {
   }
 }
 
-TEST_P(OverlapTreeOnTargets, WithinASetFindsAllPairsOnceAtEveryLevel) {
-  for (const Sets& sets : examples()) {
-    std::vector<glm::vec3> both = sets.a;
-    both.insert(both.end(), sets.b.begin(), sets.b.end());
-    const VertexSet set = picked(both, 5);
-    const float tolerance2 = sets.tolerance * sets.tolerance;
-    std::vector<Contact> expected = between(set, set, tolerance2);
-    std::erase_if(expected, [](const Contact& pair) { return pair.a >= pair.b; });
-    OverlapTree tree;
-    for (int levels = max_levels; levels >= 0; --levels) {  // one tree, so that it has more memory than it needs
-      tree.begin(levels, contact_cutoff(sets.tolerance), tolerance2, no_limit);
-      std::vector<Contact> contacts;
-      tree.within(set, 3, contacts);
-      for (Contact& pair : contacts) pair = {std::min(pair.a, pair.b), std::max(pair.a, pair.b)};
-      ASSERT_EQ(sorted(contacts), expected) << levels;
-      EXPECT_GT(tree.leaves(), 0u);
-    }
-    EXPECT_EQ(tree.pair_tests(), std::uint64_t{set.size} * (set.size - 1) / 2);
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Targets, OverlapTreeOnTargets, testing::ValuesIn(targets()), target_name);
 
 /// However few levels are asked for: else a large body would cost the square of its vertices.
@@ -135,16 +114,11 @@ TEST(OverlapTree, CutsLargeSetsUntilTheirCostIsLinear) {
     std::vector<Contact> contacts;
     OverlapTree tree;
     tree.begin(0, contact_cutoff(tolerance), tolerance * tolerance, no_limit);
-    tree.within(set, 0, contacts);
     tree.between(set, above, 0, contacts);
     if (before > 0) {
       EXPECT_LT(tree.pair_tests(), 6 * before) << count;
     } else {
-      std::vector<Contact> expected = between(set, set, tolerance * tolerance);
-      std::erase_if(expected, [](const Contact& pair) { return pair.a >= pair.b; });
-      for (const Contact& pair : between(set, above, tolerance * tolerance)) expected.push_back(pair);
-      for (Contact& pair : contacts) pair = {std::min(pair.a, pair.b), std::max(pair.a, pair.b)};
-      EXPECT_EQ(sorted(contacts), sorted(expected));
+      EXPECT_EQ(sorted(contacts), between(set, above, tolerance * tolerance));
     }
     before = tree.pair_tests();
   }
@@ -159,7 +133,6 @@ TEST(OverlapTree, ThrowsBeyondItsLimit) {
     tree.begin(levels, 0.1f, 0.01f, 40'000);
     tree.between(a, b, 0, contacts);
     EXPECT_EQ(contacts.size(), 40'000u);
-    EXPECT_THROW(tree.within(a, 0, contacts), std::length_error);
     contacts.resize(1);
     EXPECT_THROW(tree.between(a, b, 0, contacts), std::length_error);
   }

@@ -113,5 +113,105 @@ TEST_F(WideTolerance, LeavesOutNoVertexWithoutAPlaceAtRest) {
   EXPECT_GT(find(std::make_shared<const Shape>(count_, ball_.edges, rest), 0.9f).contacts.size(), 1'000u);
 }
 
+/// A sheet of side x side vertices, 0.1 m apart, with edges along and across.
+struct Sheet {
+  static constexpr float edge = 0.1f;
+  int side;
+  std::vector<glm::vec3> rest;
+  std::vector<std::array<Index, 2>> edges;
+
+  explicit Sheet(int count) : side(count) {
+    for (int i = 0; i < side * side; ++i) {
+      const int column = i % side, row = i / side;
+      rest.push_back(edge * glm::vec3(column, row, 0));
+      const auto join = [&](int other) { edges.push_back({static_cast<Index>(i), static_cast<Index>(other)}); };
+      if (column > 0) join(i - 1);
+      if (row > 0) join(i - side);
+      if (column > 0 && row > 0) join(i - side - 1);
+    }
+  }
+  std::shared_ptr<const Shape> shape(bool with_rest) const {
+    return std::make_shared<const Shape>(static_cast<Index>(rest.size()), edges,
+                                         with_rest ? rest : std::vector<glm::vec3>{});
+  }
+  /// The sheet as it waves, then folded on itself, then crumpled, then in no order at all.
+  std::vector<glm::vec3> at(int frame, const glm::vec3& origin) const {
+    std::mt19937 random(static_cast<std::uint32_t>(side + frame));
+    std::vector<glm::vec3> points = rest;
+    const float middle = 0.5f * edge * static_cast<float>(side), phase = 0.4f * static_cast<float>(frame);
+    for (glm::vec3& p : points) {
+      p.z = 2 * edge * std::sin(3 * p.x + phase) * std::cos(2 * p.y);
+      if (frame >= 2 && p.x > middle) p = glm::vec3(2 * middle - p.x, p.y, p.z + 0.3f * edge);
+      if (frame >= 3) p = glm::vec3(p.x, 0.2f * std::sin(4 * p.y), p.z) + random_points(random, 1, -edge, edge)[0];
+      if (frame >= 4) p = random_points(random, 1, 0, 3 * middle)[0];
+    }
+    return moved(points, origin);
+  }
+};
+
+/// One detector takes all frames, so that what it keeps from earlier ones is put to the test, too.
+void expect_what_the_oracle_finds(const std::vector<State>& frames, const Settings& settings) {
+  std::vector<std::vector<Contact>> expected;
+  for (const State& frame : frames) expected.push_back(oracle(frame, settings));
+  Workers one(1), two(2, 0);
+  for (const std::int64_t target : targets()) {
+    const tests::UseTarget use(target);
+    for (Workers* workers : {&one, &two}) {
+      const auto detector = find_method("multi-level-sb-exact")->make();
+      for (std::size_t k = 0; k < frames.size(); ++k) {
+        Result result;
+        detector->detect(frames[k].frame(), settings, *workers, result);
+        EXPECT_TRUE(result.contacts == expected[k])
+            << hwy::TargetName(target) << ", " << workers->threads() << " threads, frame " << k << ": "
+            << result.contacts.size() << " contacts of " << expected[k].size();
+        EXPECT_EQ(result.self_contacts, inside_bodies(frames[k], expected[k]).size());
+      }
+    }
+  }
+}
+
+constexpr int sheet_frames = 6;
+
+TEST(PatchSearch, FindsWhatTheOracleFindsOnASurface) {
+  for (const int side : {1, 4, 5, 16, 21}) {
+    const Sheet sheet(side);
+    for (const float tolerance : {1e-3f, 0.25f, 0.5f, 1.0f, 2.0f}) {
+      for (const bool with_rest : {true, false}) {
+        for (const float far : {0.0f, -3e3f, 7e7f}) {
+          SCOPED_TRACE(testing::Message() << side << " a side, tolerance " << tolerance << ", at " << far);
+          const auto shape = sheet.shape(with_rest);
+          std::vector<State> frames(sheet_frames);
+          for (int k = 0; k < sheet_frames; ++k)
+            frames[static_cast<std::size_t>(k)].add(shape, sheet.at(k, glm::vec3(far, 0, far)));
+          expect_what_the_oracle_finds(frames, {.tolerance = tolerance * Sheet::edge});
+        }
+      }
+    }
+  }
+}
+
+TEST(PatchSearch, FindsWhatTheOracleFindsOnSurfacesAmongSpheres) {
+  const Sheet large(48), small(20);
+  const Ball ball = icosphere(2, 0.5f);
+  const auto sphere = std::make_shared<const Shape>(Index{162}, ball.edges, ball.vertices);
+  for (const float tolerance : {0.25f, 1.5f}) {
+    for (const bool with_rest : {true, false}) {
+      SCOPED_TRACE(testing::Message() << "tolerance " << tolerance << (with_rest ? ", rest known" : ""));
+      const std::array shapes{large.shape(with_rest), small.shape(with_rest)};
+      std::vector<State> frames(sheet_frames);
+      for (int k = 0; k < sheet_frames; ++k) {
+        State& state = frames[static_cast<std::size_t>(k)];
+        for (int copy = 0; copy < 2; ++copy) {
+          const glm::vec3 at = 0.07f * static_cast<float>(copy) * glm::vec3(1, 1, 0.3f);
+          state.add(shapes[0], large.at(k, at));
+          state.add(sphere, moved(ball.vertices, at + glm::vec3(1, 1, 0.1f * static_cast<float>(k))));
+          state.add(shapes[1], small.at(k, at));
+        }
+      }
+      expect_what_the_oracle_finds(frames, {.tolerance = tolerance * Sheet::edge});
+    }
+  }
+}
+
 }  // namespace THIS_FILE
 }  // namespace collide::test

@@ -36,10 +36,10 @@ State folded_sphere() {
   return state;
 }
 
-/// Two vertices are far from where the rest of the body says: they are tested with all others, and their contact is
-/// found from both sides.
+/// Of one of three, two vertices are far from where the rest of the body says: they are tested with all others, and
+/// their contact is found from both sides.
 State torn_sphere() {
-  State state = spheres({glm::vec3(0)});
+  State state = spheres({glm::vec3(0), glm::vec3(9, 0, 0), glm::vec3(0, 0, 9)});
   for (const Index v : {20u, 40u}) {  // none that the map is fitted to
     state.x[v] = 3;
     state.y[v] = state.z[v] = 0;
@@ -59,13 +59,17 @@ TEST(Skipped, NamesWhatEachSituationLetsTheExactMethodLeaveOut) {
   constexpr std::uint64_t all_tests = 162 * 161 / 2;  // of a sphere
   const std::vector<Case> cases{
       {"no bodies", {}, true, {}},
-      {"a lone sphere", spheres({glm::vec3(3)}), true, {0, 0, 1, 1}, all_tests / 20},
+      {"a lone sphere, which is not worth the proof", spheres({glm::vec3(3)}), true, {0, 0, 1, 0}, all_tests},
       {"without self-collision", spheres({glm::vec3(3)}), false, {0, 0, 1, 0}},
-      {"three far spheres", spheres({glm::vec3(0), glm::vec3(5, 0, 0), glm::vec3(0, 0, 9)}), true, {3, 0, 3, 3}},
-      {"two whose boxes overlap", spheres({glm::vec3(0), glm::vec3(1.5f)}), true, {0, 1, 2, 2}},
+      {"three far spheres",
+       spheres({glm::vec3(0), glm::vec3(5, 0, 0), glm::vec3(0, 0, 9)}),
+       true,
+       {3, 0, 3, 3},
+       all_tests / 7},
+      {"two whose boxes overlap", spheres({glm::vec3(0), glm::vec3(1.5f)}), true, {0, 1, 2, 0}},
       {"parallel discs", parallel_discs(), false, {0, 1, 0, 0}},
       {"a folded sphere", folded_sphere(), true, {0, 0, 1, 0}},
-      {"a torn sphere", torn_sphere(), true, {0, 0, 1, 0}, all_tests / 10},
+      {"a torn sphere", torn_sphere(), true, {3, 0, 3, 2}, all_tests / 5},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.what);
@@ -85,7 +89,7 @@ TEST(Skipped, NamesThePairThatIsKeptOnceBodiesRest) {
   Result result;
   for (int frame = 0; frame < 4; ++frame) {
     detector->detect(state.frame(), {}, workers, result);
-    EXPECT_EQ(result.skipped, frame < 2 ? (Skipped{0, 0, 0, 2, 0}) : (Skipped{0, 0, 0, 0, 1}));
+    EXPECT_EQ(result.skipped, frame < 2 ? (Skipped{0, 0, 0, 0, 0}) : (Skipped{0, 0, 0, 0, 1}));
     EXPECT_GT(result.contacts.size(), 0u);
   }
   EXPECT_EQ(result.counters.pair_tests, 0u);

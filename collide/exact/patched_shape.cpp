@@ -1,0 +1,187 @@
+#include "collide/exact/patched_shape.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <glm/common.hpp>
+
+#include "collide/trees/tree_search.h"
+
+namespace collide::exact {
+
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+/// Brings the items below the one that belongs to the place `middle` along the axis before it, and the others behind.
+/// As std::nth_element(), but with a pivot from a sample, and without a branch that nobody can predict.
+void split_at(std::span<trees::Item> items, std::size_t middle, std::size_t axis) {
+  constexpr std::size_t few = 14;
+  for (int left = 40; items.size() > few && left > 0; --left) {  // so that bad samples cost no square
+    const auto sample = [&](std::size_t k) { return items[items.size() * k / 6].at[axis]; };
+    const auto [low_pair, high_pair] = std::pair(std::min(sample(1), sample(3)), std::max(sample(1), sample(3)));
+    const std::array sorted{std::min(low_pair, sample(5)), std::max(low_pair, std::min(high_pair, sample(5))),
+                            std::max(high_pair, sample(5))};
+    const float pivot = sorted[middle * sorted.size() / items.size()];
+    const auto part = [&](const auto& is_low) {
+      trees::Item* low = items.data();
+      for (trees::Item& item : items) {
+        const trees::Item moved = item;
+        item = *low;
+        *low = moved;
+        low += is_low(moved.at[axis]);
+      }
+      return static_cast<std::size_t>(low - items.data());
+    };
+    std::size_t low = part([pivot](float at) { return at < pivot; });
+    if (low == 0) {  // the pivot is the least: bring all that are equal before the others
+      low = part([pivot](float at) { return at <= pivot; });
+      if (middle < low) return;
+    }
+    if (middle < low) {
+      items = items.first(low);
+    } else {
+      items = items.subspan(low);
+      middle -= low;
+    }
+  }
+  trees::part_at(items, middle, axis);
+}
+
+/// Brings items into the order of their patches: cuts across the longest side, near the median, so that all patches and
+/// groups but the last are full.
+void cut_items(std::span<trees::Item> items) {
+  if (items.size() <= Patches::size) return;
+  const std::size_t unit = items.size() > Patches::group_size ? Patches::group_size : Patches::size;
+  const std::size_t low = (items.size() / 2 + unit - 1) / unit * unit;
+  std::array<float, 3> lo = items.front().at, hi = lo;
+  for (const trees::Item& item : items) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lo[axis] = std::min(lo[axis], item.at[axis]);
+      hi[axis] = std::max(hi[axis], item.at[axis]);
+    }
+  }
+  const auto half = [&](std::size_t axis) { return hi[axis] * 0.5f - lo[axis] * 0.5f; };
+  split_at(items, low, static_cast<std::size_t>(longest_axis({half(0), half(1), half(2)})));
+  cut_items(items.first(low));
+  cut_items(items.subspan(low));
+}
+
+}  // namespace
+
+double spread_of(const Patches::Boxes& boxes, Range patches) {
+  double sum = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (Index patch = patches.begin; patch < patches.end; ++patch)
+      sum += double{boxes.hi[axis][patch]} - double{boxes.lo[axis][patch]};
+  return sum;
+}
+
+PatchedShape::PatchedShape(const std::shared_ptr<const Shape>& shape, const VertexRun& body) : shape_(shape) {
+  std::array<std::vector<float>, 3> rest;
+  for (const glm::vec3& p : shape->rest())
+    for (int axis = 0; axis < 3; ++axis) rest[static_cast<std::size_t>(axis)].push_back(p[axis]);
+  const bool finite = !rest[0].empty() && std::ranges::all_of(rest, [](const std::vector<float>& values) {
+    return std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
+  });
+  cut(finite ? VertexRun{rest[0].data(), rest[1].data(), rest[2].data(), body.size} : body);
+  of_rest_ = finite;
+}
+
+void PatchedShape::cut(const VertexRun& body) {
+  const std::vector<glm::vec3>& at_rest = shape()->rest();
+  std::vector<trees::Item> items;
+  items.reserve(body.size);
+  for (Index v = 0; v < body.size; ++v) items.push_back({{body.x[v], body.y[v], body.z[v]}, v});
+  cut_items(items);
+  const Index groups = (body.size + Patches::group_size - 1) / Patches::group_size;
+  vertex_.assign(std::size_t{groups} * Patches::group_size, items.back().number);
+  slot_.resize(body.size);
+  for (auto& values : rest_) values.assign(vertex_.size(), nan);
+  for (Index slot = 0; slot < body.size; ++slot) {
+    const Index v = items[slot].number;
+    vertex_[Patches::place(slot / Patches::size, slot % Patches::size)] = v;
+    slot_[v] = slot;
+    if (at_rest.empty()) continue;
+    for (int axis = 0; axis < 3; ++axis) rest_[static_cast<std::size_t>(axis)][slot] = at_rest[v][axis];
+  }
+  reference_ = {std::vector(body.x, body.x + body.size), std::vector(body.y, body.y + body.size),
+                std::vector(body.z, body.z + body.size)};
+  of_rest_ = false;
+  tolerance2_ = 0;
+  spread = 0;
+}
+
+void PatchedShape::list_pairs(float tolerance2, float cutoff) {
+  if (tolerance2 == tolerance2_) return;
+  known_ = {};
+  const std::shared_ptr<const Shape> shape = this->shape();
+  Patches reference;
+  reference.resize(groups());
+  fill_groups({reference_[0].data(), reference_[1].data(), reference_[2].data(), static_cast<Index>(slot_.size())},
+              vertex_.data(), {0, groups()}, 0, ByteUnit(cutoff), reference);
+  spread = std::max(spread, spread_of(reference.patch, {0, patches()}));
+  listed_.assign(patches(), 0);
+  GroupHits near;
+  const float reach = 1.25f * cutoff;  // pairs that soon come near are as good as near
+  known_.first_group.push_back(0);
+  known_.other.push_back(0);  // stands for patches that are not listed
+  known_.mask.push_back({});
+  known_.first_other.push_back(1);
+  for (Index group = 0; group < groups(); ++group) {
+    list_near_groups(reference, group, {group, groups()}, nullptr, 0, reach, near);
+    for (const auto& [other, rows] : near.near) known_.group.push_back(other);
+    known_.rows.resize(known_.group.size());
+    for (Index k = 0; k < reference.count[group]; ++k)
+      list_pairs(reference, shape->topology(), group * Patches::size + k, tolerance2, reach, near);
+    known_.first_group.push_back(static_cast<Index>(known_.group.size()));
+  }
+  tolerance2_ = tolerance2;
+}
+
+void PatchedShape::list_pairs(const Patches& reference, const Topology& topology, Index patch, float tolerance2,
+                              float cutoff, GroupHits& near) {
+  const Index row = patch % Patches::size;
+  const Index count = list_near_patches(reference, patch, cutoff, near);
+  Index at = known_.first_group.back();
+  known_.rows[at][row] = static_cast<std::uint16_t>((1u << row) - 1);  // earlier patches find it
+  for (const Index other : std::span(near.list).first(count)) {
+    if (other < patch || (other != patch && known_.mask.size() >= most_masks * patches())) continue;
+    while (known_.group[at] != other / Patches::size) ++at;
+    known_.rows[at][row] |= static_cast<std::uint16_t>(1u << other % Patches::size);
+    listed_[other] = static_cast<Index>(known_.other.size());
+    known_.other.push_back(other);
+    known_.mask.push_back(apart_at_rest(rest_, patch, other, tolerance2));
+    if (other != patch) continue;
+    for (Index k = 0; k < Patches::size; ++k)  // each pair once
+      known_.mask.back()[k / 4] &= ~(((std::uint64_t{2} << k) - 1) << k % 4 * Patches::size);
+  }
+  leave_out_joined(topology, patch);
+  const std::size_t first = known_.first_other.back();
+  for (std::size_t n = first; n < known_.other.size(); ++n) listed_[known_.other[n]] = 0;
+  std::size_t kept = first;
+  for (std::size_t n = first; n < known_.other.size(); ++n) {
+    known_.other[kept] = known_.other[n];
+    known_.mask[kept] = known_.mask[n];
+    kept += known_.mask[n] != KnownPairs::Mask{};
+  }
+  known_.other.resize(kept);
+  known_.mask.resize(kept);
+  known_.first_other.push_back(static_cast<Index>(kept));
+}
+
+/// Clears the bits of pairs of a patch that mesh edges join.
+void PatchedShape::leave_out_joined(const Topology& topology, Index patch) {
+  const Index begin = patch * Patches::size, end = std::min(begin + Patches::size, static_cast<Index>(slot_.size()));
+  for (Index slot = begin; slot < end; ++slot) {
+    const Index k = slot - begin;
+    for (const Index neighbour : topology.neighbours(vertex_[Patches::place(patch, k)])) {
+      const Index other = slot_[neighbour];
+      const Index bit = k % 4 * Patches::size + other % Patches::size;
+      known_.mask[listed_[other / Patches::size]][k / 4] &= ~(std::uint64_t{1} << bit);
+    }
+  }
+}
+
+}  // namespace collide::exact
