@@ -45,6 +45,13 @@ Orbit Camera::clamped(Orbit orbit) const {
 
 void Camera::set_orbit(const Orbit& orbit) { current_ = goal_ = clamped(orbit); }
 
+void Camera::scale_distance(float factor) {
+  for (Orbit* orbit : {&current_, &goal_}) {
+    orbit->distance *= factor;
+    *orbit = clamped(*orbit);
+  }
+}
+
 /// Returns the orbit from which the sphere just fills the viewport.
 Orbit Camera::fitting_orbit(const glm::vec3& centre, float radius, glm::ivec2 size) const {
   const float half_angle = std::atan(std::tan(0.5f * fov) * std::min(1.0f, aspect(size)));

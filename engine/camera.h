@@ -44,6 +44,8 @@ class Camera {
   void glide_to(const glm::vec3& centre, float radius, glm::ivec2 size);
   /// Glides back from the target until the sphere is in the picture, too, if it is not; keeps target and angles.
   void glide_back_to_show(const glm::vec3& centre, float radius, glm::ivec2 size);
+  /// Jumps to `factor` times the distance. A glide goes on, to so many times its distance.
+  void scale_distance(float factor);
   /// Glides to `orbit`, clamped to the limits.
   void glide_to(const Orbit& orbit) { goal_ = clamped(orbit); }
 

@@ -230,9 +230,7 @@ engine::Camera SceneView::camera(const softbody::BodiesInMotion& world, glm::ive
 }
 
 void SceneView::refit(engine::Camera& camera, glm::ivec2 from, glm::ivec2 to) {
-  engine::Orbit orbit = camera.orbit();
-  orbit.distance *= static_cast<float>(distance_factor(to) / distance_factor(from));
-  camera.set_orbit(orbit);
+  camera.scale_distance(static_cast<float>(distance_factor(to) / distance_factor(from)));
 }
 
 softbody::View SceneView::view(const engine::Camera& camera, glm::ivec2 size) {

@@ -28,12 +28,14 @@ void draw_sentences(Widgets& w, const Session& session, bool panel) {
                   : "Drag to orbit. Click a body to select it. V: compare the methods. G: tour. F1: help.");
 }
 
+bool imports(const session::Import& import) {
+  return !import.report().empty() || import.busy() || !import.question().empty();
+}
+
 }  // namespace
 
 bool has_messages(const Session& session) {
-  const session::Import& import = session.import;
-  return !session.simulation.notice.text().empty() || !import.report().empty() || import.busy() ||
-         !import.question().empty();
+  return !session.simulation.notice.text().empty() || imports(session.import);
 }
 
 void Strip::draw_cards(Widgets& w, const Session& session, const UiState& ui, const Parts& parts) {
@@ -81,10 +83,12 @@ void Strip::draw(Widgets& w, const Session& session, const UiState& ui, const La
                     .explained = ui.coverage_explained,
                     .story = ui.shows_story(),
                     .sidebar = layout.sidebar.has_value(),
-                    .messages = has_messages(session) || !layout.no_room_message.empty(),
+                    .no_room = !layout.no_room_message.empty(),
+                    .notice = !session.simulation.notice.text().empty(),
+                    .imports = imports(session.import),
                     .legend = ui.overlays};
   if (layout.cards) draw_cards(w, session, ui, parts);
-  if (parts.messages)
+  if (parts.no_room || parts.notice || parts.imports)
     draw_messages(w, session, layout.no_room_message);
   else
     draw_sentences(w, session, ui.panel);

@@ -19,7 +19,8 @@ class Strip {
   /// All that the height depends on but the length of texts.
   struct Parts {
     float width = 0;
-    bool cards = false, lights = false, explained = false, story = false, sidebar = false, messages = false;
+    bool cards = false, lights = false, explained = false, story = false, sidebar = false;
+    bool no_room = false, notice = false, imports = false;
     render::Overlays legend;
     bool operator==(const Parts&) const = default;
   };

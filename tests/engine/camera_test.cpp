@@ -179,6 +179,21 @@ TEST(Camera, GlideDoesNotDependOnTheFrameRate) {
   EXPECT_NEAR(fine.orbit().azimuth, coarse.orbit().azimuth, 1e-3f);
 }
 
+TEST(Camera, GoesOnGlidingWhenItsDistanceIsScaled) {
+  Camera camera = scene_camera(), other = camera;
+  for (Camera* each : {&camera, &other}) {
+    each->glide_to(glm::vec3(1, 0.5f, 0), 0.5f, size);
+    each->advance(0.02);
+  }
+  camera.scale_distance(1.5f);
+  EXPECT_FLOAT_EQ(camera.orbit().distance, 1.5f * other.orbit().distance);
+  EXPECT_EQ(camera.orbit().target, other.orbit().target);
+  camera.finish_glide();
+  other.finish_glide();
+  EXPECT_FLOAT_EQ(camera.orbit().distance, 1.5f * other.orbit().distance);
+  EXPECT_EQ(camera.orbit().target, other.orbit().target);
+}
+
 TEST(Camera, GlideToASphereFillsHalfTheViewport) {
   Camera camera = scene_camera();
   const Orbit before = camera.orbit();
