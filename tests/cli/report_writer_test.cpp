@@ -56,6 +56,14 @@ TEST(Plot, IsDrawnSeriesBySeries) {
   EXPECT_EQ(text.find("$d1"), std::string::npos) << "no points, no series";
 }
 
+TEST(Plot, PrintsLabelsIfAnyPointHasOne) {
+  report::Plot plot = line();
+  plot.series[0].points[0].label.clear();
+  EXPECT_NE(report::script(plot).find(" with labels "), std::string::npos);
+  plot.series[0].points[1].label.clear();
+  EXPECT_EQ(report::script(plot).find(" with labels "), std::string::npos);
+}
+
 TEST(Page, HasOneEmptyLineBetweenItsParts) {
   report::Page page({});
   page.text("# {}", "Balls");
