@@ -1,3 +1,4 @@
+#include "app/window/picture_schedule.h"
 
 #include <gtest/gtest.h>
 
