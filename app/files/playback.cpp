@@ -99,31 +99,26 @@ std::shared_ptr<const RecordedFrame> Playback::frame(int number) {
   return frame;
 }
 
-std::optional<Playback::ReadAhead::Answer> Playback::ReadAhead::advance(int number, const Background<ReadAhead>&) {
-  try {
-    return Answer{number, sequence.read(static_cast<std::size_t>(number)), nullptr};
-  } catch (...) {
-    return Answer{number, {}, std::current_exception()};
-  }
-}
-
 /// Reads a frame now, unless it was read ahead.
 SequenceFrame Playback::read(int number) {
-  if (auto ahead = ahead_ ? ahead_->wait() : std::nullopt; ahead && ahead->number == number) {
-    if (ahead->error) std::rethrow_exception(ahead->error);
-    return std::move(ahead->frame);
+  if (const auto thrown = ahead_ ? ahead_->wait() : std::nullopt; thrown && next_number_ == number) {
+    if (*thrown) std::rethrow_exception(*thrown);
+    return std::move(next_);
   }
   return sequence_.read(static_cast<std::size_t>(number));
 }
 
 void Playback::read_ahead(int number) {
   if (kept_.contains(number)) return;
-  if (!ahead_) ahead_.emplace(usual_runs, sequence_);
-  if (!ahead_->has_work()) ahead_->offer(number);
+  if (!ahead_) ahead_.emplace();
+  if (ahead_->has_work()) return;
+  next_number_ = number;
+  ahead_->offer([this] { next_ = sequence_.read(static_cast<std::size_t>(next_number_)); });
 }
 
 void Playback::release() {
   ahead_.reset();
+  next_ = {};
   for (auto next = std::next(kept_.begin()); next != kept_.end(); next = kept_.erase(next))
     free_bytes_ += bytes_of(*next->second);
 }

@@ -1,7 +1,6 @@
 #pragma once
 // A recording in a sequence of mesh files.
 
-#include <exception>
 #include <map>
 #include <optional>
 
@@ -38,18 +37,6 @@ class Playback : public Recording {
   float usual_tolerance();
 
  private:
-  /// Reads a frame ahead of time. A task for Background.
-  struct ReadAhead {
-    using Question = int;  // its number
-    struct Answer {
-      int number;
-      SequenceFrame frame;
-      std::exception_ptr error;  // why there is no frame
-    };
-    explicit ReadAhead(FrameSequence& of) : sequence(of) {}
-    std::optional<Answer> advance(int number, const Background<ReadAhead>& background);
-    FrameSequence& sequence;
-  };
   SequenceFrame read(int number);
   void read_ahead(int number);
   void include(const RecordedFrame& frame);
@@ -61,7 +48,9 @@ class Playback : public Recording {
   std::vector<std::shared_ptr<const softbody::BodyModel>> models_;
   collide::surface::Box bounds_;
   std::vector<std::string> command_words_;
-  std::optional<Background<ReadAhead>> ahead_;  // last member: its thread ends before the others go
+  SequenceFrame next_;  // that ahead_ reads, and its number
+  int next_number_ = -1;
+  std::optional<Background<Call>> ahead_;  // last member: its thread ends before the others go
 };
 
 /// Returns the recording in these files. If they are called as those of a recording of this program, and the file of

@@ -18,7 +18,6 @@
 #include "app/ui/views/scene_labels.h"
 #include "app/window/graphics.h"
 #include "app/window/picture_schedule.h"
-#include "app/window/picture_timer.h"
 #include "app/window/preferences.h"
 #include "app/window/scene_mouse.h"
 #include "app/window/scene_picture.h"

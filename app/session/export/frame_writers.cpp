@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "app/base/text.h"
 #include "app/base/usage_error.h"
 #include "app/files/output_file.h"
 
@@ -51,6 +52,24 @@ class MotionWriter : public FrameWriter {
 };
 
 }  // namespace
+
+std::optional<RecordingProgress> RecordingTask::advance(const Question& frame, const Background<RecordingTask>&) {
+  if (progress_.ended) return progress_;  // it has failed
+  try {
+    if (frame) {
+      writer_->write(*frame);
+      ++progress_.written;
+    } else {
+      writer_->finish();
+      progress_.ended = true;
+    }
+  } catch (const std::exception& failure) {
+    progress_.error = failure_text(failure);
+    progress_.ended = true;
+  }
+  progress_.name = writer_->name();
+  return progress_;
+}
 
 std::unique_ptr<FrameWriter> make_picture_writer(const fs::path& folder) {
   return std::make_unique<PictureWriter>(folder);
