@@ -81,7 +81,7 @@ void Strip::draw(Widgets& w, const Session& session, const UiState& ui, const La
                     .cards = layout.cards,
                     .lights = ui.lights,
                     .explained = ui.coverage_explained,
-                    .story = ui.shows_story(),
+                    .story = ui.shows_story() && !session.simulation.beside(),  // the two halves say it
                     .sidebar = layout.sidebar.has_value(),
                     .no_room = !layout.no_room_message.empty(),
                     .notice = !session.simulation.notice.text().empty(),

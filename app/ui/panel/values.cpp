@@ -105,7 +105,7 @@ struct ValueWidgets {
   bool draw(const softbody::Key& key, int& value) const {
     label(key);
     if (&key != &softbody::scene_key::levels) return slide(key, value, key.slider);
-    if (!session.inspector.shown_method().uses_levels) return ImGui::TextDisabled("not used"), false;
+    if (!session.edited_inspector().shown_method().uses_levels) return ImGui::TextDisabled("not used"), false;
     softbody::Slider s = key.slider;
     const std::string format = fmt::format("%d  ({} boxes per body)", grouped(1ull << value));
     s.format = format.c_str();
@@ -182,7 +182,7 @@ void draw_values(Widgets& w, const Session& session, ValuePlace place) {
 void draw_method(Widgets& w, const Session& session) {
   draw_values(w, session, ValuePlace::method);
   ImGui::Separator();
-  const collide::Method& owner = session.inspector.shown_method();
+  const collide::Method& owner = session.edited_inspector().shown_method();
   const bool drives = owner.key == session.simulation.edited().method().key;
   draw_method_mark(w, owner, ImGui::GetTextLineHeight());
   ImGui::SameLine();
@@ -191,6 +191,7 @@ void draw_method(Widgets& w, const Session& session) {
   w.register_item("Hashing of", "Whose boxes and hash table these settings shape, and what it finds with them. " +
                                     (drives ? "" : session.simulation.edited().method().name + " has no hash table."));
   draw_values(w, session, ValuePlace::hashing);
+  if (&session.simulation.edited() != &session.world()) return;  // the comparison is of the first world
   const std::string found = verdict(session.comparison, compare::method_index(owner.key));
   const bool misses = found.starts_with("misses");
   if (misses) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::contact_missed_colour));
