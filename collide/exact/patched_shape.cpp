@@ -126,6 +126,8 @@ void PatchedShape::list_pairs(float tolerance2, float cutoff) {
   GroupHits near;
   const float reach = 1.25f * cutoff;  // pairs that soon come near are as good as near
   known_.first_group.push_back(0);
+  known_.other.reserve(std::size_t{8} * patches());
+  known_.mask.reserve(std::size_t{8} * patches());
   known_.other.push_back(0);  // stands for patches that are not listed
   known_.mask.push_back({});
   known_.first_other.push_back(1);
