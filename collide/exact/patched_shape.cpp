@@ -110,6 +110,8 @@ void PatchedShape::cut(const VertexRun& body) {
   reference_.resize(groups);
   fill_groups(body, vertex_.data(), {0, groups}, 0, ByteUnit(1), reference_);
   spread = spread_of(reference_.patch, {0, patches()});
+  reference_.at = {};  // of the reference only boxes are needed
+  reference_.bytes = {};
   of_rest_ = false;
   tolerance2_ = 0;
 }
