@@ -400,9 +400,9 @@ KnownPairs::Mask apart_at_rest(const std::array<std::vector<float>, 3>& rest, In
   return HWY_DYNAMIC_DISPATCH(ApartAtRest)(rest, a, b, tolerance2);
 }
 
-void Patches::Boxes::resize(std::size_t count) {
+void Patches::Boxes::resize(std::size_t boxes) {
   for (auto* bounds : {&lo, &hi})
-    for (std::vector<float>& values : *bounds) values.resize(count + max_lanes);
+    for (std::vector<float>& values : *bounds) values.resize(boxes + max_lanes);
 }
 
 void Patches::resize(std::size_t groups) {

@@ -34,7 +34,7 @@ struct Patches {
   static constexpr Index size = 16, group_size = size * size;
   struct Boxes {
     std::array<std::vector<float>, 3> lo, hi;  // m
-    void resize(std::size_t count);
+    void resize(std::size_t boxes);
   };
 
   std::array<std::vector<float>, 3> at;            // m, by place; NaN where there is no vertex

@@ -7,8 +7,8 @@ namespace collide::exact {
 
 void PatchSearch::begin(float tolerance2, float cutoff) {
   tolerance2_ = tolerance2;
+  if (cutoff != cutoff_) unit_ = ByteUnit(cutoff);
   cutoff_ = cutoff;
-  unit_ = ByteUnit(cutoff);
   bodies_.clear();
   tasks_.clear();
   std::erase_if(cuts_, [](const auto& item) { return !item.second.shape(); });

@@ -80,6 +80,7 @@ double spread_of(const Patches::Boxes& boxes, Range patches) {
 
 PatchedShape::PatchedShape(const std::shared_ptr<const Shape>& shape, const VertexRun& body) : shape_(shape) {
   std::array<std::vector<float>, 3> rest;
+  for (auto& values : rest) values.reserve(shape->rest().size());
   for (const glm::vec3& p : shape->rest())
     for (int axis = 0; axis < 3; ++axis) rest[static_cast<std::size_t>(axis)].push_back(p[axis]);
   const bool finite = !rest[0].empty() && std::ranges::all_of(rest, [](const std::vector<float>& values) {
@@ -106,44 +107,43 @@ void PatchedShape::cut(const VertexRun& body) {
     if (at_rest.empty()) continue;
     for (int axis = 0; axis < 3; ++axis) rest_[static_cast<std::size_t>(axis)][slot] = at_rest[v][axis];
   }
-  reference_ = {std::vector(body.x, body.x + body.size), std::vector(body.y, body.y + body.size),
-                std::vector(body.z, body.z + body.size)};
+  reference_.resize(groups);
+  fill_groups(body, vertex_.data(), {0, groups}, 0, ByteUnit(1), reference_);
+  spread = spread_of(reference_.patch, {0, patches()});
+  reference_.at = {};  // of the reference only boxes are needed
+  reference_.bytes = {};
   of_rest_ = false;
   tolerance2_ = 0;
-  spread = 0;
 }
 
 void PatchedShape::list_pairs(float tolerance2, float cutoff) {
   if (tolerance2 == tolerance2_) return;
+  tolerance2_ = 0;  // should this fail half-way
   known_ = {};
   const std::shared_ptr<const Shape> shape = this->shape();
-  Patches reference;
-  reference.resize(groups());
-  fill_groups({reference_[0].data(), reference_[1].data(), reference_[2].data(), static_cast<Index>(slot_.size())},
-              vertex_.data(), {0, groups()}, 0, ByteUnit(cutoff), reference);
-  spread = std::max(spread, spread_of(reference.patch, {0, patches()}));
   listed_.assign(patches(), 0);
   GroupHits near;
   const float reach = 1.25f * cutoff;  // pairs that soon come near are as good as near
   known_.first_group.push_back(0);
+  known_.other.reserve(std::size_t{8} * patches());
+  known_.mask.reserve(std::size_t{8} * patches());
   known_.other.push_back(0);  // stands for patches that are not listed
   known_.mask.push_back({});
   known_.first_other.push_back(1);
   for (Index group = 0; group < groups(); ++group) {
-    list_near_groups(reference, group, {group, groups()}, nullptr, 0, reach, near);
+    list_near_groups(reference_, group, {group, groups()}, nullptr, 0, reach, near);
     for (const auto& [other, rows] : near.near) known_.group.push_back(other);
     known_.rows.resize(known_.group.size());
-    for (Index k = 0; k < reference.count[group]; ++k)
-      list_pairs(reference, shape->topology(), group * Patches::size + k, tolerance2, reach, near);
+    for (Index k = 0; k < reference_.count[group]; ++k)
+      list_pairs(shape->topology(), group * Patches::size + k, tolerance2, reach, near);
     known_.first_group.push_back(static_cast<Index>(known_.group.size()));
   }
   tolerance2_ = tolerance2;
 }
 
-void PatchedShape::list_pairs(const Patches& reference, const Topology& topology, Index patch, float tolerance2,
-                              float cutoff, GroupHits& near) {
+void PatchedShape::list_pairs(const Topology& topology, Index patch, float tolerance2, float cutoff, GroupHits& near) {
   const Index row = patch % Patches::size;
-  const Index count = list_near_patches(reference, patch, cutoff, near);
+  const Index count = list_near_patches(reference_, patch, cutoff, near);
   Index at = known_.first_group.back();
   known_.rows[at][row] = static_cast<std::uint16_t>((1u << row) - 1);  // earlier patches find it
   for (const Index other : std::span(near.list).first(count)) {

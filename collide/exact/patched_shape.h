@@ -27,18 +27,17 @@ class PatchedShape {
   double spread = 0;  // m: how large the patches were together when they were cut, or, if larger, right after
 
  private:
-  void list_pairs(const Patches& reference, const Topology& topology, Index patch, float tolerance2, float cutoff,
-                  GroupHits& near);
+  void list_pairs(const Topology& topology, Index patch, float tolerance2, float cutoff, GroupHits& near);
   void leave_out_joined(const Topology& topology, Index patch);
 
   static constexpr std::size_t most_masks = 64;  // of a patch, on average: others are near at times, and then found
 
   std::weak_ptr<const Shape> shape_;
   bool of_rest_ = false;
-  std::array<std::vector<float>, 3> reference_;  // m, by vertex: what it was cut by
-  std::array<std::vector<float>, 3> rest_;       // m, by patch and lane; NaN where it is not known
-  std::vector<Index> vertex_, slot_;             // of each place; patch and lane of each vertex
-  float tolerance2_ = 0;                         // of known_; 0: of none
+  Patches reference_;                       // boxes of what it was cut by
+  std::array<std::vector<float>, 3> rest_;  // m, by patch and lane; NaN where it is not known
+  std::vector<Index> vertex_, slot_;        // of each place; patch and lane of each vertex
+  float tolerance2_ = 0;                    // of known_; 0: of none
   KnownPairs known_;
   std::vector<Index> listed_;  // by patch: which of known_.other names it for a patch; 0 if none does
 };

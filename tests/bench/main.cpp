@@ -1,8 +1,10 @@
-// bench_detection: records states, and times the project's detectors beside libraries on them.
+// bench_detection: records states, and times the project's detectors beside libraries on them or on meshes from files.
 
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
@@ -15,8 +17,10 @@ namespace {
 
 struct Options {
   std::string folder;
+  std::vector<std::filesystem::path> from;  // a folder of states, or files
+  std::optional<std::filesystem::path> rest;
   int threads = 1, bodies = 0, repeat = 10;
-  std::vector<float> tolerances{0.25f, 0.5f};
+  std::vector<float> tolerances;
   std::vector<std::string> only;  // keys of candidates beside the first; empty: all
   bool json = false, csv = false;
 };
@@ -56,11 +60,17 @@ std::vector<bench::Candidate> chosen(const Options& options) {
 
 void run(const Options& options) {
   const auto candidates = chosen(options);
-  const auto states = bench::load_states(options.folder);
+  const bool recorded = options.from.size() == 1 && is_directory(options.from.front());
+  if (recorded && options.rest) throw app::UsageError("--rest: is for mesh files; recorded states know their rest");
+  const auto states =
+      recorded ? bench::load_states(options.from.front()) : std::vector{bench::read_meshes(options.from, options.rest)};
+  if (!recorded && options.tolerances.empty())
+    throw app::UsageError("--tolerance: is needed for mesh files, in metres");
+  const std::vector<float> tolerances = options.tolerances.empty() ? std::vector{0.25f, 0.5f} : options.tolerances;
   std::vector<bench::Measured> all;
   for (const bench::State& state : states) {
     if (options.bodies > 0 && state.bodies.count() != collide::Index(options.bodies)) continue;
-    for (const float tolerance : options.tolerances) {
+    for (const float tolerance : tolerances) {
       all.push_back(bench::measure({&state, tolerance, options.threads, options.repeat}, candidates));
       if (!options.json && !options.csv) bench::print_table(all.back());
     }
@@ -81,15 +91,19 @@ int parse_and_run(int argc, char** argv) {
   CLI::App cli{"Times exact detection beside libraries, on the same recorded states.", "bench_detection"};
   cli.require_subcommand(1);
   CLI::App* record_command = cli.add_subcommand("record", "simulate the piles and write them to a folder");
-  CLI::App* run_command = cli.add_subcommand("run", "compare the contacts, then the times, on the states of a folder");
+  CLI::App* run_command = cli.add_subcommand(
+      "run", "compare the contacts, then the times, on the states of a folder or on your own meshes");
   CLI::App* list_command = cli.add_subcommand("list", "print the candidates, a line each: key, tab, name");
   for (CLI::App* command : {record_command, run_command}) {
-    command->add_option("DIR", options.folder, "folder of the states")->required();
     command->add_option("--threads", options.threads, "threads (default: 1)")->check(CLI::Range(1, 256));
     command->add_option("--bodies", options.bodies, "only states of so many bodies")->check(CLI::PositiveNumber);
   }
-  run_command->add_option("--tolerance", options.tolerances, "in mean edges (default: 0.25 0.5)")
-      ->check(CLI::Range(0.001, 10.0));
+  record_command->add_option("DIR", options.folder, "folder of the states")->required();
+  run_command->add_option("DIR|FILE", options.from, "folder of the states, or mesh files: consecutive frames")
+      ->required();
+  run_command->add_option("--rest", options.rest, "of files: their bodies at rest");
+  run_command->add_option("--tolerance", options.tolerances, "in mean edges (default: 0.25 0.5); of files in metres")
+      ->check(CLI::Range(1e-6, 1e6));
   run_command->add_option("--repeat", options.repeat, "rounds (default: 10)")->check(CLI::Range(1, 100'000));
   run_command->add_option("--only", options.only, "candidates, beside the first one (default: all)");
   CLI::Option* json = run_command->add_flag("--json", options.json, "print one JSON document instead of tables");

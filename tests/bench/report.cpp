@@ -21,9 +21,10 @@ double ratio_of_minimums(const Measured& m, const Row& row) { return row.min_ms 
 
 void print_table(const Measured& m) {
   const State& state = *m.course.state;
-  std::printf("%s: %u bodies, %u vertices, tolerance %.3g edges, %zu contacts, %.4f edges a frame, threads: %d\n",
+  std::printf("%s: %u bodies, %u vertices, tolerance %.3g %s, %zu contacts, %.4f %s a frame, threads: %d\n",
               state.key.c_str(), state.bodies.count(), state.bodies.vertex_count(), double(m.course.tolerance),
-              m.contacts, mean_displacement(state) / mean_edge, m.course.threads);
+              state.unit_name.c_str(), m.contacts, mean_displacement(state) / state.unit, state.unit_name.c_str(),
+              m.course.threads);
   std::printf("  %-42s %10s %10s %11s %8s %10s\n", "", "median ms", "min ms", "ns a vertex", "ratio", "of minimums");
   for (const Row& row : m.rows)
     std::printf("  %-42.*s %10.3f %10.3f %11.2f %8.2f %10.2f\n", int(row.candidate->name.size()),
@@ -35,9 +36,9 @@ void print_table(const Measured& m) {
 void print_csv(const std::vector<Measured>& all) {
   app::Table table;
   for (const Measured& m : all) {
-    app::TableRow row{
-        {"state, tolerance in mean edges", fmt::format("{}, {:g}", m.course.state->key, m.course.tolerance)},
-        {"exact, ms", app::brief(m.rows.front().median_ms)}};
+    app::TableRow row{{m.course.state->radius.empty() ? "state, tolerance in m" : "state, tolerance in mean edges",
+                       fmt::format("{}, {:g}", m.course.state->key, m.course.tolerance)},
+                      {"exact, ms", app::brief(m.rows.front().median_ms)}};
     for (const Row& of : std::span(m.rows).subspan(1))
       row.push_back({std::string(of.candidate->key), app::brief(ratio(m, of), 2)});
     table.add(row);
@@ -61,7 +62,8 @@ void print_json(const std::vector<Measured>& all) {
                     {"bodies", state.bodies.count()},
                     {"vertices", state.bodies.vertex_count()},
                     {"frames", state.frames.size()},
-                    {"motion", mean_displacement(state) / mean_edge},
+                    {"unit_m", state.unit},
+                    {"motion", mean_displacement(state) / state.unit},
                     {"tolerance", m.course.tolerance},
                     {"threads", m.course.threads},
                     {"contacts", m.contacts},

@@ -6,7 +6,10 @@
 #include <fstream>
 #include <map>
 
+#include <glm/geometric.hpp>
+
 #include "app/cli/options.h"
+#include "app/files/frame_sequence.h"
 #include "app/files/output_file.h"
 #include "softbody/mesh/mesh.h"
 
@@ -57,7 +60,7 @@ State load(const fs::path& path) {
   Reader reader(path);
   const auto counts = reader.take<std::uint32_t>(2);
   if (counts[0] > max_bodies || counts[1] < 1 || counts[1] > max_frames) reader.fail("has impossible counts");
-  State state{.key = path.stem().string(), .radius = reader.take<float>(counts[0]), .frames = {}, .bodies = {}};
+  State state{.key = path.stem().string(), .radius = reader.take<float>(counts[0])};
   if (!std::all_of(state.radius.begin(), state.radius.end(), [](float r) { return r > 0 && std::isfinite(r); }))
     reader.fail("has a radius that is not positive");
   state.bodies = make_bodies(state.radius);
@@ -101,6 +104,34 @@ void save(const State& state, const fs::path& folder) {
   for (const State::Positions& p : state.frames)
     for (const auto* coordinate : {&p.x, &p.y, &p.z}) file.write(bytes_of(*coordinate));
   file.commit();
+}
+
+State read_meshes(const std::vector<fs::path>& files, const std::optional<fs::path>& rest) {
+  app::files::FrameSequence sequence(files, {.rest = rest});
+  if (sequence.count() < 2)
+    throw app::UsageError(files.front().string() + ": one frame; give two at least, since the first one is not timed");
+  State state{.key = files.front().stem().string(), .bodies = sequence.bodies()->bodies, .unit = 1, .unit_name = "m"};
+  for (std::size_t k = 0; k < sequence.count(); ++k) {
+    const softbody::Points at = sequence.read(k).at;
+    for (const auto* axis : {&at.x, &at.y, &at.z})
+      if (!std::all_of(axis->begin(), axis->end(), [](float value) { return std::isfinite(value); }))
+        throw app::UsageError(files[k].string() + ": has a coordinate that is not finite");
+    state.frames.push_back({{at.x.begin(), at.x.end()}, {at.y.begin(), at.y.end()}, {at.z.begin(), at.z.end()}});
+  }
+  const collide::Frame first = state.frame(0);
+  double sum = 0;
+  std::size_t edges = 0;
+  for (collide::Index b = 0; b < state.bodies.count(); ++b) {
+    const collide::Index begin = state.bodies.first[b];
+    for (collide::Index v = 0; v < state.bodies.size(b); ++v) {
+      for (const collide::Index other : state.bodies.shape[b]->topology().neighbours(v)) {
+        sum += glm::distance(position(first, begin + v), position(first, begin + other));
+        ++edges;
+      }
+    }
+  }
+  state.edge = edges > 0 ? sum / double(edges) : 0;
+  return state;
 }
 
 std::vector<State> load_states(const fs::path& folder) {

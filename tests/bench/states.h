@@ -1,7 +1,9 @@
 #pragma once
-// What the benchmark runs on: bodies of one mesh in a few sizes, recorded as consecutive frames, in a file each.
+// What the benchmark runs on: bodies of one mesh in a few sizes, recorded as consecutive frames, in a file each; or the
+// meshes of files.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,9 +22,11 @@ struct State {
     bool operator==(const Positions&) const = default;
   };
   std::string key;
-  std::vector<float> radius;  // m at rest, one a body
-  std::vector<Positions> frames;
-  collide::Bodies bodies;  // follows from `radius`: see make_bodies()
+  std::vector<float> radius{};  // m at rest, one a body; none of meshes from files
+  std::vector<Positions> frames{};
+  collide::Bodies bodies{};                   // of recorded states, they follow from `radius`: see make_bodies()
+  double edge = mean_edge, unit = mean_edge;  // m: its mean edge; what tolerances and motion are given in
+  std::string unit_name = "edges";
 
   collide::Frame frame(std::size_t k) const { return {frames[k].x, frames[k].y, frames[k].z, &bodies}; }
 };
@@ -37,6 +41,10 @@ double mean_displacement(const State& state);
 /// frames; float32 radius of each body; for each frame the float32 x of all vertices, then all y, then all z.
 /// Throws app::UsageError if it cannot be written.
 void save(const State& state, const std::filesystem::path& folder);
+
+/// Reads mesh files that are consecutive frames; their unit is the metre. rest: a file with the same bodies at rest, or
+/// none. Throws app::UsageError and MeshFileError as app::files::FrameSequence does, and for fewer than two frames.
+State read_meshes(const std::vector<std::filesystem::path>& files, const std::optional<std::filesystem::path>& rest);
 
 /// Reads all states of a folder, in the order of bodies, then keys. Throws app::UsageError for a folder without any and
 /// for a file that is not whole.

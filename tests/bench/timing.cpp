@@ -21,9 +21,9 @@ double now(int threads) {
 
 collide::Settings settings_of(const Course& course) {
   collide::Settings settings;
-  settings.tolerance = float(double(course.tolerance) * mean_edge);
+  settings.tolerance = float(double(course.tolerance) * course.state->unit);
   // For grid-hash, whose one good choice this is: small cells, and about twice as many buckets as vertices.
-  settings.cell_size = glm::vec3(std::max(settings.tolerance, float(mean_edge)));
+  settings.cell_size = glm::vec3(std::max(settings.tolerance, float(course.state->edge)));
   settings.buckets = std::min(collide::max_buckets, 2 * course.state->bodies.vertex_count() + 1);
   return settings;
 }
@@ -58,10 +58,10 @@ class Runner {
 };
 
 const Candidate& reference(const State& state) {
-  constexpr collide::Index brute_force_limit = 100;
+  constexpr collide::Index brute_force_limit = 20'000;  // vertices
   static const Candidate brute_force{collide::reference_method, "", true, collide::find_method("brute-force")->make};
   static const Candidate grid_hash{"grid-hash", "", true, collide::find_method("grid-hash")->make};
-  return state.bodies.count() <= brute_force_limit ? brute_force : grid_hash;
+  return state.bodies.vertex_count() <= brute_force_limit ? brute_force : grid_hash;
 }
 
 void compare(const Runner& runner, const Runner& truth, const Course& course, std::size_t k) {
@@ -71,9 +71,9 @@ void compare(const Runner& runner, const Runner& truth, const Course& course, st
   const bool extra = w == wanted.end() || (f != found.end() && *f < *w);
   const collide::Contact at = extra ? *f : *w;
   throw Difference(
-      fmt::format("{}: state {}, frame {}, tolerance {:f} edges: {} contacts where {} finds {}; first {}: {}, {}",
-                  runner.candidate().key, course.state->key, k, course.tolerance, found.size(), truth.candidate().key,
-                  wanted.size(), extra ? "too many" : "missing", at.a, at.b));
+      fmt::format("{}: state {}, frame {}, tolerance {:f} {}: {} contacts where {} finds {}; first {}: {}, {}",
+                  runner.candidate().key, course.state->key, k, course.tolerance, course.state->unit_name, found.size(),
+                  truth.candidate().key, wanted.size(), extra ? "too many" : "missing", at.a, at.b));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct Difference : std::runtime_error {
 
 struct Course {
   const State* state = nullptr;
-  float tolerance = 0.25f;  // of the mean edge
+  float tolerance = 0.25f;  // in the state's unit
   int threads = 1;
   int repeat = 10;  // rounds
 };
@@ -32,9 +32,9 @@ struct Measured {
   std::vector<Row> rows;     // in the order of candidates
 };
 
-/// Compares the contacts of every frame with those of a reference (brute force up to 100 bodies, else grid hash), and
-/// throws Difference before anything is timed. Then every round runs the candidates in shuffled order, each over all
-/// frames in a row; the first frame of a round warms up and is not timed, since it follows no frame.
+/// Compares the contacts of every frame with those of a reference (brute force up to 20,000 vertices, else grid hash),
+/// and throws Difference before anything is timed. Then every round runs the candidates in shuffled order, each over
+/// all frames in a row; the first frame of a round warms up and is not timed, since it follows no frame.
 Measured measure(const Course& course, std::span<const Candidate> candidates);
 
 }  // namespace bench
