@@ -51,7 +51,6 @@ class SceneView {
   /// Draws with a renderer that others may use, too.
   SceneView(std::shared_ptr<engine::render::Renderer> renderer, int threads)
       : renderer_(std::move(renderer)), workers_(threads) {}
-  const std::shared_ptr<engine::render::Renderer>& renderer() const { return renderer_; }
 
   void draw(const softbody::BodiesInMotion& world, const OverlayRequest& overlays, const engine::Camera& camera,
             const engine::Viewport& viewport, float pixel_scale, const DrawnMeshes& at);

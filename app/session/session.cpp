@@ -44,7 +44,7 @@ bool Session::awaits_answer() const {
 News Session::news() const {
   return {.world = simulation.revision(),
           .comparison = comparison.reports(),
-          .surfaces = surfaces.reports(),
+          .surfaces = surfaces.reports() + surfaces_beside.reports(),
           .price = price.price(),
           .imported = import.report().size(),
           .notice = simulation.notice.text(),

@@ -2,6 +2,7 @@
 // The window and everything that draws in it.
 
 #include <array>
+#include <memory>
 
 #include "app/render/canvas.h"
 #include "app/render/scene_view.h"
@@ -18,8 +19,8 @@ struct Graphics {
   /// threads: prepare a picture.
   Graphics(glm::ivec2 size, int threads)
       : window("Multi-Level SB Collide", size),
-        views{render::SceneView(engine::find_folder("shaders"), threads),
-              render::SceneView(views[0].renderer(), threads)} {}
+        renderer(std::make_shared<engine::render::Renderer>(engine::find_folder("shaders"))),
+        views{render::SceneView(renderer, threads), render::SceneView(renderer, threads)} {}
 
   /// Clears the whole window to dock_colour().
   void clear() const {
@@ -31,6 +32,7 @@ struct Graphics {
 
   engine::Window window;  // first: the others need its context
   engine::Gui gui{window};
+  std::shared_ptr<engine::render::Renderer> renderer;
   std::array<render::SceneView, 2> views;  // by session::Half
   render::Canvas canvas{engine::uses_software_renderer()};
 };
