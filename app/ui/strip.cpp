@@ -40,7 +40,7 @@ bool has_messages(const Session& session) {
 
 void Strip::draw_cards(Widgets& w, const Session& session, const UiState& ui, const Parts& parts) {
   const float side = ImGui::GetFrameHeight();
-  const auto draw_close = [&](const char* label, const char* tooltip, void (*put_away)(UiState&)) {
+  const auto draw_closing = [&](const char* label, const char* tooltip, void (*put_away)(UiState&)) {
     ImGui::TableNextColumn();
     if (w.button(label, tooltip, side)) w.ask(put_away);
     ImGui::Dummy({});  // else the next column would align its text with the button's
@@ -53,12 +53,12 @@ void Strip::draw_cards(Widgets& w, const Session& session, const UiState& ui, co
     if (parts.lights) {
       ImGui::TableNextColumn();
       draw_status(w, session, ui.coverage_explained);
-      draw_close("x###Close lights", "Puts the lights away (L).", [](UiState& state) { state.lights = false; });
+      draw_closing("x###Close lights", "Puts the lights away (L).", [](UiState& state) { state.lights = false; });
     }
     if (parts.story) {
       ImGui::TableNextColumn();
       story_.draw(w, session);
-      draw_close("x###Close story", "Puts this card away (W or Esc). W brings it back.",
+      draw_closing("x###Close story", "Puts this card away (W or Esc). W brings it back.",
                  [](UiState& state) { state.set_story(false); });
     }
     ImGui::EndTable();
