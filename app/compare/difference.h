@@ -14,6 +14,7 @@ namespace app::compare {
 struct HowSimulated {
   softbody::Scene scene;
   softbody::IntegratorChoice integrator;
+  bool operator==(const HowSimulated&) const = default;
 };
 
 /// The settings in which two worlds may differ: method, levels, cell size, buckets, tolerance, contact surface and

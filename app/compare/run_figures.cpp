@@ -34,7 +34,7 @@ void RunFigures::add(const collide::oracle::SurfaceFigures& figures) {
 }
 
 void RunFigures::go_back(int frame) {
-  if (totals().frame > frame) missed_.clear();
+  missed_.clear();
   while (totals_.size() > 1 && totals().frame > frame) totals_.pop_back();
 }
 

@@ -31,11 +31,11 @@ class RunFigures {
   void add(const softbody::BodiesInMotion& world);
   /// Adds what overlaps in the frame that was counted last, or a little earlier.
   void add(const collide::oracle::SurfaceFigures& figures);
-  /// Forgets all frames after this one, because the world goes back.
+  /// Forgets all frames after this one, because the world goes back, or its bodies have other ids.
   void go_back(int frame);
 
   const RunTotals& totals() const { return totals_.back(); }
-  /// Returns the contacts that the method missed in the last frame, ascending; empty after going back.
+  /// Returns the contacts that the method missed in the last frame, ascending; empty after go_back().
   const std::vector<collide::Contact>& missed() const { return missed_; }
 
  private:

@@ -368,7 +368,7 @@ void add_outlines(const OverlayInput& from, engine::FrameData& frame) {
 
 /// Adds the spring of the mouse: from the point that it holds to its target.
 void add_grab(const OverlayInput& from, engine::FrameData& frame) {
-  if (!from.request.grab) return;
+  if (!from.request.grab || from.request.grab->body >= from.world.bodies().count()) return;
   const softbody::Grab& grab = *from.request.grab;
   const std::uint32_t first = from.world.simulated().positions.bodies->first[grab.body];
   glm::vec3 held(0.0f);

@@ -355,9 +355,10 @@ bool Import::join(FileReader::Mesh read) {
   Material material = imported_material(read.mesh.imported->findings.extent);
   softbody::BodySource body = place_above(simulation_.world(), std::move(read.mesh));
   const JoinedAt place{body.position, softbody::bounding_radius(body.mesh.imported->mesh)};
+  const collide::Index bodies = simulation_.world().bodies().count();
   bodies_.add(std::move(body), std::move(material));
   Notice& notice = simulation_.notice;
-  if (notice.is_error()) {
+  if (simulation_.world().bodies().count() == bodies) {  // else an error is of the second half
     refuse(name + ": " + notice.text());
     notice.clear();  // once is enough
     return false;

@@ -87,10 +87,9 @@ void Session::exchange() {
   const bool late = simulation.history.frame_ms.median(15) > late_ms;
   const int rests = late || simulation.step_ms() > 500 * world().frame_time() ? 10 : 2;
   comparison.exchange(world(), simulation.revision(), simulation.world_number(), rests);
-  look_at_surfaces(surfaces, Half::first, simulation.before_last_step(), rests);
-  if (const Beside* beside = simulation.beside())
-    look_at_surfaces(surfaces_beside, Half::second, beside->before_last_step(), rests);
-  if (simulated()) price.exchange(*simulated());
+  look_at_surfaces(surfaces, Half::first, rests);
+  look_at_surfaces(surfaces_beside, Half::second, rests);
+  price.exchange(simulated());
   sweep_worker.update();
   // With its first report of another world the comparison has let go of the one before; all others did so earlier.
   if (has_left_world_ && comparison.report().id != 0) {
@@ -100,9 +99,9 @@ void Session::exchange() {
 }
 
 /// Gives a half's surfaces to the oracle, and counts what it has seen in them.
-void Session::look_at_surfaces(SurfaceMonitor& monitor, Half half, const compare::WorldPositions& before, int rests) {
+void Session::look_at_surfaces(SurfaceMonitor& monitor, Half half, int rests) {
   const std::uint64_t reports = monitor.reports();
-  monitor.exchange(simulation.world(half), before.simulated(), simulation.revision(), rests);
+  monitor.exchange(simulation.world(half), simulation.before_last_step(half).simulated(), simulation.revision(), rests);
   if (monitor.reports() != reports && monitor.report().failure.empty())
     simulation.count(half, monitor.report().figures);
 }

@@ -84,7 +84,7 @@ class Session : private SimulationObserver {
 
   void add_picture(double seconds);
   void exchange();
-  void look_at_surfaces(SurfaceMonitor& monitor, Half half, const compare::WorldPositions& before, int rests);
+  void look_at_surfaces(SurfaceMonitor& monitor, Half half, int rests);
 
   bool has_left_world_ = false;  // whose memory is not yet given back
 };

@@ -154,10 +154,9 @@ void Simulation::set_beside(const compare::HowSimulated& second) {
   attempt([&] {
     const World& first = solver(shown_);
     const compare::Difference difference(how(first), second);
-    if (beside_)
-      beside_->differ(first, difference);
-    else
-      beside_.emplace(make_window_world({}, {}, threads_), first, difference);
+    if (beside_) return beside_->differ(first, difference);
+    edits = Half::first;
+    beside_.emplace(make_window_world({}, {}, threads_), first, difference);
   });
   ++revision_;
 }
@@ -165,7 +164,6 @@ void Simulation::set_beside(const compare::HowSimulated& second) {
 void Simulation::toggle_beside() {
   if (!beside_) return set_beside(compare::usual_second(world(), solver(shown_).integrator_choice()));
   beside_.reset();
-  edits = Half::first;
   ++revision_;
 }
 
@@ -315,11 +313,12 @@ void Simulation::go(Way way) {
     loaded = std::move(there.loaded);
   };
   if (there.leaves) {
-    attempt([&] {
+    const bool arrived = attempt([&] {
       ShownWorld next = bring_back(there.world, threads_);
       arrive();
       leave_for(std::move(next));
     });
+    if (!arrived) return;
   } else {
     // The worlds in between are gone again, so this one is the snapshot's.
     arrive();

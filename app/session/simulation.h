@@ -113,7 +113,10 @@ class Simulation {
   /// Changes whenever positions or contacts may have changed: not with steps of a world at rest.
   std::uint64_t revision() const { return revision_; }
   /// Returns true if no step moves a body of either half.
-  bool all_at_rest() const { return world().all_at_rest() && (!beside_ || beside_->at_rest()); }
+  bool all_at_rest() const {
+    if (!beside_) return world().all_at_rest();
+    return (stability_.blow_up() || world().all_at_rest()) && beside_->at_rest();
+  }
   /// Returns true if bodies move from picture to picture.
   bool moves() const { return !clock.paused && !all_at_rest(); }
   /// Returns true if advance() takes no step: the world is paused, or steps would change nothing but the number of the

@@ -93,7 +93,8 @@ void SceneMouse::press(const MouseInput& in, const Aim& aim, const Session& sess
   drag_ = Drag::orbit;
   held_in_ = aim.half;
   const engine::Ray& ray = aim.ray;
-  const auto under = render::pick(ray, session.simulation.world(aim.half), positions_under_mouse(session, aim.half));
+  auto under = render::pick(ray, session.simulation.world(aim.half), positions_under_mouse(session, aim.half));
+  if (under && under->body >= session.world().bodies().count()) under.reset();  // the first half has stopped without it
   pressed_on_body_ = under.has_value();
   if (!under) {
     if (const auto solid = pick_movable(ray, session)) {

@@ -35,7 +35,9 @@ ScenePicture scene_picture(const Session& session, const ui::UiState& ui, const 
     picture.misses_of = compare::method_index(collide::paper_method);
   if (picture.misses_of) picture.misses = session.comparison.reports();
   if (session.simulation.beside() && !ui.tour.open()) {
-    picture.ghost = ui.beside_as_ghost && session.simulation.beside()->stopped().empty();
+    // A half that has stopped may lack bodies that have come since.
+    const softbody::BodiesInMotion& second = session.simulation.world(Half::second);
+    picture.ghost = ui.beside_as_ghost && second.bodies().first == session.world().bodies().first;
     if (!ui.beside_as_ghost) picture.line = ui.line;
     picture.shown.true_surfaces = true;  // what misses cost
   }

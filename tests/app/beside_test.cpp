@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/window/scene_mouse.h"
 #include "softbody/forces/springs.h"
 #include "tests/app/panel_rig.h"
 
@@ -89,6 +90,36 @@ TEST_F(BesideTest, LetsDropsThrowsDeletionsAndPullsActInBoth) {
   EXPECT_FALSE(world(Half::second).grabbed());
 }
 
+TEST_F(BesideTest, ForgetsMissedContactsWhenVerticesHaveOtherNumbers) {
+  session.simulation.set_beside(by_paper(0.02f));
+  run(session, 30);
+  const auto& missed = session.simulation.beside()->figures(Half::second).missed();
+  ASSERT_FALSE(missed.empty());
+  session.simulation.clock.paused = true;
+  session.bodies.select(0);
+  session.bodies.remove_selected();
+  EXPECT_TRUE(missed.empty());
+  EXPECT_EQ(totals(Half::second).frames, 30);
+  session.simulation.clock.single_step();
+  session.advance(tick);
+  ASSERT_EQ(world(Half::second).bodies().count(), 1u);
+  session.simulation.undo();
+  EXPECT_TRUE(missed.empty());
+}
+
+TEST_F(BesideTest, ForgetsWhatTheOracleSawInASecondWorldThatHasEnded) {
+  session.surfaces_beside.on = true;
+  session.simulation.set_beside(by_paper(0.02f));
+  ASSERT_TRUE(wait_until([this] {
+    session.advance(tick);
+    return session.surfaces_beside.report().id != 0;
+  }));
+  session.simulation.toggle_beside();
+  session.surfaces_beside.on = false;  // as carry_out() does
+  session.advance(tick);
+  EXPECT_EQ(session.surfaces_beside.report().id, 0u);
+}
+
 TEST_F(BesideTest, GoesBackAndForthWithTheFirst) {
   session.simulation.set_beside(by_paper(0.1f));
   run(session, 30);
@@ -156,7 +187,53 @@ TEST_F(BesideTest, StopsTheHalfThatBlowsUpAlone) {
     EXPECT_EQ(unstable == Half::second, !two.simulation.beside()->stopped().empty());
     EXPECT_EQ(unstable == Half::first, two.simulation.stability().blow_up().has_value());
     EXPECT_FALSE(two.simulation.clock.paused);
+    EXPECT_EQ(two.simulation.before_last_step(unstable).simulated().x[0],
+              two.simulation.world(unstable).simulated().positions.x[0])
+        << "no picture shows it on its way";
   }
+}
+
+TEST_F(BesideTest, IsAtRestWhenBothHalvesHaveStopped) {
+  softbody::Scene stiff = touching_pair();
+  stiff.materials[0][softbody::StructuralSprings::stiffness] = 20'000;
+  Session two(stiff, {}, 1);
+  two.settings.set_integrator({"explicit-euler", 1});
+  two.simulation.set_beside({stiff, {"explicit-euler", 2}});
+  run(two, 120);
+  ASSERT_FALSE(two.simulation.stopped(Half::first).empty());
+  ASSERT_FALSE(two.simulation.stopped(Half::second).empty());
+  EXPECT_TRUE(two.simulation.all_at_rest());
+}
+
+TEST_F(BesideTest, LetsBodiesComeIntoTheHalfThatGoesOn) {
+  softbody::Scene scene = touching_pair();
+  scene.materials[0][softbody::StructuralSprings::stiffness] = 20'000;
+  scene.bodies.push_back(scene.bodies.back());
+  scene.bodies.back().position = {8, 1, 0};
+  scene.bodies.back().appear = 100;
+  Session two(scene, {}, 1);
+  two.settings.set_integrator({"explicit-euler", 1});
+  two.simulation.set_beside({scene, {}});
+  run(two, 120);
+  const auto bodies = [&](Half half) { return two.simulation.world(half).bodies().count(); };
+  ASSERT_EQ(bodies(Half::first), 2u);
+  ASSERT_EQ(bodies(Half::second), 3u);
+  two.simulation.change_scene("Gravity", [](softbody::Scene& s) { s.gravity = {0, -1, 0}; });
+  EXPECT_EQ(bodies(Half::second), 3u);
+
+  ui::UiState ui;
+  engine::Camera camera;
+  ui.beside_as_ghost = true;
+  EXPECT_FALSE(window::scene_picture(two, ui, camera, 1).ghost) << "the worlds have other bodies";
+  ui.beside_as_ghost = false;
+  constexpr glm::ivec2 size{800, 600};
+  camera.set_orbit({glm::vec3(centre(two.simulation.world(Half::second), 2)), 4});
+  window::SceneMouse mouse;
+  const window::MouseInput press{.at = {600, 300}, .down = {true}};
+  for (const auto& input : {window::MouseInput{.at = press.at}, press})
+    ui::carry_out(mouse.update(input, two, ui, camera, size), two, ui);
+  EXPECT_FALSE(grabbed(two.simulation)) << "the first half lacks this body";
+  EXPECT_FALSE(two.bodies.selected());
 }
 
 TEST_F(BesideTest, IsRefusedWhereItsIntegratorCannotMoveTheBodies) {
@@ -201,6 +278,8 @@ TEST(BesidePanel, BeginsAndEndsTheSecondWorldAndChoosesWhoseSettingsItShows) {
   EXPECT_TRUE(rig.ui.beside_as_ghost);
   rig.click("Close beside");
   EXPECT_FALSE(rig.session.simulation.beside());
+  rig.session.simulation.toggle_beside();
+  EXPECT_EQ(rig.session.simulation.edits, Half::first);
 }
 
 }  // namespace THIS_FILE

@@ -108,6 +108,17 @@ TEST_F(ImportTest, OpensAMeshAloneOnTheGroundLargeInTheMiddle) {
   EXPECT_EQ(session.world().frame(), 5) << "the scene before is back";
 }
 
+TEST_F(ImportTest, SaysThatAMeshHasJoinedThoughItEndsTheSecondHalf) {
+  session.simulation.set_beside({session.world().scene(), {"implicit", {}}});
+  ASSERT_TRUE(session.simulation.beside());
+  import.resolution = 1500;
+  join(folder.write("fine.obj", obj_of({.rows = 60, .columns = 60})));
+  EXPECT_EQ(joined, 1);
+  EXPECT_FALSE(session.simulation.beside());
+  ASSERT_EQ(import.report().size(), 1u);
+  EXPECT_FALSE(import.report()[0].refused);
+}
+
 TEST_F(ImportTest, LetsAMeshJoinTheSceneBeforeItsOwn) {
   const auto ball = folder.write("ball.obj", obj_of({}));
   load(ball);

@@ -78,7 +78,7 @@ TEST(RunFigures, GoesBackToWhatItWasAtThatFrame) {
   figures.add({.penetrating_vertices = 7, .deepest = 0.3});
   figures.go_back(5);
   EXPECT_EQ(figures.totals().frames, 5) << "nothing comes after the last frame";
-  EXPECT_FALSE(figures.missed().empty());
+  EXPECT_TRUE(figures.missed().empty()) << "vertices may have other numbers";
   figures.go_back(3);
   EXPECT_EQ(figures.totals().frame, 3);
   EXPECT_EQ(figures.totals().true_contacts, third.true_contacts);

@@ -2,6 +2,7 @@
 
 #include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
+#include "tests/app/recorded_bodies.h"
 
 #include <GLFW/glfw3.h>
 
@@ -92,6 +93,7 @@ TEST(StoryCard, SaysWhatMissesCostAndShowsItBesideFromTheStart) {
   EXPECT_EQ(run.true_contacts, figures.totals().true_contacts);
   EXPECT_EQ(cell, second.scene.collision.cell_size->x);
   EXPECT_EQ(price.runs[compare::Price::exact].totals.missed, 0u);
+  rig.session.simulation.set_beside({rig.session.world().scene(), {}});  // another one is there
   rig.frames(3);
   rig.click("See it beside");
   ASSERT_TRUE(rig.session.simulation.beside());
@@ -114,6 +116,24 @@ TEST(PriceMonitor, AsksAnewWhenTheSettingsChange) {
   ASSERT_TRUE(wait_until(known));
   EXPECT_EQ(session.price.price()->runs[compare::Price::automatic_cells].cell,
             session.world().collision().cell_size->x);
+}
+
+TEST(PriceMonitor, DoesNotTakeTheFiguresOfATrialThatWasCancelled) {
+  Session session(touching_pair(), {}, 1);
+  session.price.on = true;
+  for (const int level : {3, 0, 3}) {
+    session.simulation.change_scene("Subdivision", [level](softbody::Scene& s) { s.collision.levels = level; });
+    session.advance(tick);
+  }
+  ASSERT_TRUE(wait_until([&] {
+    session.advance(tick);
+    return session.price.price() != nullptr;
+  }));
+  for (const auto& run : session.price.price()->runs) EXPECT_EQ(run.totals.frames, compare::Price::frames);
+  const files::Opened played = opened(std::make_shared<RecordedBalls>(2));
+  session.simulation.enter(session::show_in_window(played, 1), {played.scene, {}}, "choice of scene");
+  session.advance(tick);
+  EXPECT_FALSE(session.price.price()) << "nothing played has a price";
 }
 
 TEST(TimeLine, GoesBackInTime) {

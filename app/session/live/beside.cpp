@@ -51,19 +51,22 @@ void Beside::follow(const World& first) {
   if (!stopped_.empty()) return;
   apply(first, difference_);
   const std::vector<std::uint32_t> here = numbers(*world_), there = numbers(first);
-  for (BodyId b = world_->bodies().count(); b-- > 0;)
+  const bool may_remove = first.frame() == world_->frame();  // else bodies have come since the first world stopped
+  for (BodyId b = world_->bodies().count(); may_remove && b-- > 0;)
     if (!std::ranges::binary_search(there, here[b])) {
       world_->grab({});
       world_->remove(b);
+      before_last_step_.copy(*world_);
+      for (compare::RunFigures& figures : figures_) figures.go_back(figures.totals().frame);
     }
   for (const softbody::AddedBody& added : first.added())
     if (here.empty() || first.body(added.body).number > here.back()) world_->add(added.source);
 }
 
 void Beside::step(const World& first) {
+  before_last_step_.copy(*world_);
   if (stopped_.empty()) {
     if (first.grabbed() != world_->grabbed()) world_->grab(first.grabbed());
-    before_last_step_.copy(*world_);
     world_->step();
     if (StabilityMonitor::looks_at(*world_))
       if (const auto found = monitor_.check(*world_, softbody::measure_bodies(*world_))) stopped_ = found->what;

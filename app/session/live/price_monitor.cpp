@@ -4,17 +4,19 @@
 
 namespace app::session {
 
-void PriceMonitor::exchange(const softbody::World& world) {
+void PriceMonitor::exchange(const softbody::World* world) {
   if (!on) return;
-  const compare::HowSimulated now{world.scene(), world.integrator_choice()};
-  const bool another = !asked_ || now.scene != asked_->scene || now.integrator != asked_->integrator;
-  if (auto price = trial_.take(); price && !another) price_ = std::move(price);
-  if (!another) return;
-  price_.reset();
-  trial_.cancel();
-  if (trial_.has_work() || world.bodies().vertex_count() > max_vertices) return;
+  std::optional<compare::HowSimulated> now;
+  if (world && world->bodies().vertex_count() <= max_vertices) now = {world->scene(), world->integrator_choice()};
+  if (now != asked_) {
+    asked_.reset();  // the answer of a trial that was cancelled is not whole
+    price_.reset();
+    trial_.cancel();
+  }
+  if (auto price = trial_.take(); price && asked_) price_ = std::move(price);
+  if (asked_ || !now || trial_.has_work()) return;
   asked_ = now;
-  trial_.offer(now);
+  trial_.offer(*now);
 }
 
 }  // namespace app::session

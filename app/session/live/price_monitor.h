@@ -12,8 +12,8 @@ class PriceMonitor {
   bool on = false;
 
   /// Takes the figures that are ready, if any. Asks for those of the scene if it is another one than before: another
-  /// world or other settings.
-  void exchange(const softbody::World& world);
+  /// world or other settings. world: null where recorded frames are played.
+  void exchange(const softbody::World* world);
   /// Returns the figures of the scene; nullptr until they are there.
   const compare::Price* price() const { return price_ ? &*price_ : nullptr; }
   /// Returns true if exchange() must be called again, though the world stands still.

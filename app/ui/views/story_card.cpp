@@ -120,7 +120,7 @@ void StoryCard::draw_sentence(Widgets& w, const Session& session) const {
     draw("See it beside", "Starts the scene anew, with a second world beside it.", "Price",
          small_cells_sentence(*price), [](Session& s) {
            s.simulation.reset();
-           if (!s.simulation.beside()) s.simulation.toggle_beside();
+           s.simulation.set_beside(compare::usual_second(s.world(), s.simulated()->integrator_choice()));
          });
   const bool may_miss = !session.world().all_at_rest() ||
                         (session.comparison.paper_row() && !session.comparison.paper_row()->missed.empty());
