@@ -57,13 +57,13 @@ void Strip::draw_cards(Widgets& w, const Session& session, const UiState& ui, co
     }
     if (parts.story) {
       ImGui::TableNextColumn();
-      story_.draw(w, session);
+      draw_story(w, session);
       close("x###Close story", "Puts this card away (W or Esc). W brings it back.",
             [](UiState& state) { state.set_story(false); });
     }
     ImGui::EndTable();
   }
-  if (parts.story) story_.draw_sentence(w, session);
+  if (parts.story) draw_story_sentences(w, session);
   if (!parts.sidebar) draw_legend(w, session, ui.drawn_overlays(session), true, true);
 }
 

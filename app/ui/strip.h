@@ -3,7 +3,7 @@
 // if there is no sidebar, messages, and the scene's sentence. It covers nothing of the scene.
 
 #include "app/ui/layout.h"
-#include "app/ui/views/story_card.h"
+#include "app/ui/widgets/widgets.h"
 
 namespace app::ui {
 
@@ -25,9 +25,8 @@ class Strip {
     bool operator==(const Parts&) const = default;
   };
 
-  void draw_cards(Widgets& widgets, const Session& session, const UiState& ui, const Parts& parts);
+  static void draw_cards(Widgets& widgets, const Session& session, const UiState& ui, const Parts& parts);
 
-  StoryCard story_;
   Parts parts_;
   float height_ = 0;
 };

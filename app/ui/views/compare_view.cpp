@@ -291,7 +291,7 @@ void draw_compare(Widgets& w, const Session& session, const UiState& ui, const S
              scale);
     group = method.group;
   }
-  w.text_line(footer(session));
+  w.paragraph(footer(session));
   w.register_item(
       "Compare footing",
       "The method that finds the true contacts, and the size of the frame. §3 compares hashes with the number of "
