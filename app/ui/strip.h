@@ -19,8 +19,7 @@ class Strip {
   /// All that the height depends on but the length of texts.
   struct Parts {
     float width = 0;
-    bool cards = false, lights = false, explained = false, story = false, sidebar = false;
-    bool no_room = false, notice = false, imports = false;
+    bool cards = false, lights = false, explained = false, story = false, sidebar = false, messages = false;
     render::Overlays legend;
     bool operator==(const Parts&) const = default;
   };

@@ -114,7 +114,7 @@ void draw_step_light(Widgets& w, const Session& session) {
   if (const StatusLight light = status_light(margin); light.colour != render::status_green) {
     ImGui::BeginGroup();
     w.dot(light.colour);
-    w.paragraph(std::string(light.label).append(": ").append(step_text(margin, session.world())));
+    w.text_line(std::string(light.label).append(": ").append(step_text(margin, session.world())));
     ImGui::EndGroup();
     w.register_item("Step light", fmt::format("{} Substeps per frame: {} taken, {} needed.", light.sentence,
                                               margin.taken, margin.needed));

@@ -67,7 +67,7 @@ void draw_load_scale(Widgets& w, std::uint32_t max_load) {
   draw_colour_scale({at.x, at.y + 0.25f * height}, bar, at.y + 0.8f * height, 32, render::sequential_colour);
   ImGui::Dummy({bar, height});
   ImGui::SameLine();
-  w.paragraph(grouped(max_load));
+  w.text_line(grouped(max_load));
   w.register_item("Load scale", fmt::format("Number of entries in a bucket, {} in the fullest. Grey squares are empty "
                                             "(§2.2).",
                                             grouped(max_load)));

@@ -108,7 +108,7 @@ std::string reference_sentence(const compare::CompareReport& report) {
 
 void draw_status(Widgets& w, const Session& session, bool explained) {
   draw_coverage_light(w, session, explained);
-  w.paragraph(missed_text(session));
+  w.text_line(missed_text(session));
   const std::string against = reference_sentence(session.comparison.report());
   w.register_item(
       "Live recall",

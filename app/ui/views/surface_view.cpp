@@ -27,7 +27,7 @@ void draw_state(Widgets& w, const Session& session) {
     text += "checking";
   else
     text += report.id == session.simulation.revision() ? "this frame" : "frame " + std::to_string(report.frame);
-  w.paragraph(text);
+  w.text_line(text);
   w.register_item("Checked frame",
                   "The frame that was checked. While bodies move, it is an earlier one. Solids are not checked.");
 }
@@ -67,7 +67,7 @@ void draw_crossings(Widgets& w, const collide::oracle::SurfaceFigures& figures, 
 void draw_missed(Widgets& w, const Session& session) {
   const compare::SurfaceReport& report = session.surfaces.report();
   w.swatch(render::contact_missed_colour);
-  w.paragraph("Missed surface contacts");
+  w.text_line("Missed surface contacts");
   w.register_item("Missed surface contacts",
                   "Overlaps of surfaces without a contact between vertices (§2.3). The scene hatches the surface round "
                   "them. A line joins the deepest vertex of two bodies to the nearest point of the surface.");

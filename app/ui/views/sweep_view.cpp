@@ -148,7 +148,7 @@ void draw_controls(Widgets& w, const Session& session) {
   draw_progress(w, session.sweep(), ImGui::GetContentRegionAvail().x - w.px(190));
   ImGui::SameLine();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().FramePadding.y);
-  w.paragraph(count_text(session.sweep()));
+  w.text_line(count_text(session.sweep()));
   w.register_item("Sweep counts", not_run_text(session.sweep().report));
 }
 
@@ -228,7 +228,7 @@ void SweepView::draw(Widgets& w, const Session& session, const ScreenRect& area)
   const std::optional<std::size_t> hovered = draw_legend(w, shown);
   const float footing = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
   draw_plot(w, session, ImGui::GetContentRegionAvail().y - footing, hovered);
-  w.paragraph(footer(session.sweep()));
+  w.text_line(footer(session.sweep()));
   const std::string& why = session.sweep().report.reference_note;
   w.register_item("Sweep footing", why.empty() ? "The frame of the sweep." : why);
   ImGui::End();

@@ -50,6 +50,15 @@ ImVec2 tooltip_position(const ImVec2& size, float gap, float max_shift, const st
   return found != places.end() ? *found : ImVec2{x, inside(end.y + gap, size.y, display.y)};
 }
 
+/// Draws text in the rest of the line. `align`: 0 is flush left, 1 flush right.
+void draw_text_in_line(const std::string& text, float align) {
+  const float space = ImGui::GetContentRegionAvail().x;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float left = std::max(0.0f, space - ImGui::CalcTextSize(text.c_str()).x) * align;
+  ImGui::Dummy({space, ImGui::GetTextLineHeight()});
+  ImGui::GetWindowDrawList()->AddText({std::floor(at.x + left), at.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+}
+
 }  // namespace
 
 const WidgetRecorder::Widget* WidgetRecorder::find(std::string_view label) const {
@@ -211,13 +220,13 @@ void Widgets::row_label(std::string_view label, float column) {
   ImGui::SetNextItemWidth(-FLT_MIN);
 }
 
-void Widgets::right_text(const std::string& text) {
-  const float space = ImGui::GetContentRegionAvail().x;
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float left = std::max(0.0f, space - ImGui::CalcTextSize(text.c_str()).x);
-  ImGui::Dummy({space, ImGui::GetTextLineHeight()});
-  ImGui::GetWindowDrawList()->AddText({std::floor(at.x + left), at.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+void Widgets::text_line(const std::string& text) {
+  if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x)
+    paragraph(text);
+  else
+    draw_text_in_line(text, 0.0f);
 }
+void Widgets::right_text(const std::string& text) { draw_text_in_line(text, 1.0f); }
 
 void Widgets::paragraph(const std::string& text) {
   ImGui::TextWrapped("%s", wrapped(text, ImGui::GetContentRegionAvail().x).c_str());

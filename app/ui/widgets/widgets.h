@@ -144,7 +144,9 @@ class Widgets {
 
   /// Draws a grey label; the next widget begins at `column` and takes the rest of the line.
   void row_label(std::string_view label, float column);
-  /// Draws text flush right that takes the rest of the line whatever its length.
+  /// Draws text that takes the rest of the line whatever its length, so that changing digits move no other widget.
+  /// text_line() is flush left and wraps text that is too long; right_text() is flush right.
+  void text_line(const std::string& text);
   void right_text(const std::string& text);
   /// Draws text that wraps. It is no widget.
   void paragraph(const std::string& text);
