@@ -1,42 +1,46 @@
 #include "app/compare/price.h"
 
 #include <algorithm>
-#include <utility>
+#include <cassert>
 
 namespace app::compare {
 
 void PriceTrial::begin(HowSimulated how) {
   collide::Settings& settings = how.scene.collision;
-  how.scene.method = run_ == Price::exact ? collide::default_method : collide::paper_method;
+  how.scene.method = collide::default_method;
   settings.cell_size.reset();
-  world_.emplace(how.scene, softbody::World::Options{.integrator = how.integrator});
-  if (run_ == Price::small_cells) {
-    settings.cell_size = 0.5f * world_->automatic_cell_size(settings.levels);
-    world_.emplace(std::move(how.scene), softbody::World::Options{.integrator = how.integrator});
-  }
-  figures_.emplace();
+  trials_.emplace_back(how);
+  how.scene.method = collide::paper_method;
+  trials_.emplace_back(how);
+  settings.cell_size = 0.5f * trials_.back().world.automatic_cell_size(settings.levels);
+  trials_.emplace_back(how);
 }
 
 std::optional<Price> PriceTrial::advance(const HowSimulated& how, const Background<PriceTrial>& background) {
   constexpr int part = 10;  // frames; the oracle looks at the last one
+  Price price;
   try {
-    if (!world_) begin(how);
-    for (int i = 0; i < part && !background.cancelled(); ++i) {
-      world_->step();
-      figures_->add(*world_);
+    if (trials_.empty()) begin(how);
+    for (Trial& trial : trials_) {
+      for (int i = 0; i < part; ++i) {
+        if (background.cancelled()) break;
+        trial.world.step();
+        trial.figures.add(trial.world);
+      }
+      trial.figures.add(
+          collide::oracle::figures_of(trial.world.simulated().positions, trial.oracle.overlaps(trial.world)));
     }
-    figures_->add(collide::oracle::figures_of(world_->simulated().positions, oracle_.overlaps(*world_), {}));
-    if (!background.cancelled() && world_->frame() < Price::frames) return std::nullopt;
-    const glm::vec3 cell = *world_->collision().cell_size;
-    price_.runs[run_] = {std::max({cell.x, cell.y, cell.z}), figures_->totals()};
-    world_.reset();
-    if (!background.cancelled() && ++run_ < price_.runs.size()) return std::nullopt;
+    if (!background.cancelled() && trials_.back().world.frame() < Price::frames) return std::nullopt;
+    assert(trials_.size() == price.runs.size());
+    for (std::size_t run = 0; run < price.runs.size(); ++run) {
+      const glm::vec3 cell = *trials_[run].world.collision().cell_size;
+      price.runs[run] = {std::max({cell.x, cell.y, cell.z}), trials_[run].figures.totals()};
+    }
   } catch (const std::exception& error) {  // too little memory must not end the demo
-    price_.failure = error.what();
+    price.failure = error.what();
   }
-  world_.reset();
-  run_ = 0;
-  return std::exchange(price_, {});
+  trials_.clear();
+  return price;
 }
 
 }  // namespace app::compare

@@ -2,6 +2,7 @@
 // What it costs in a scene that a method misses contacts: the scene is run by the paper's method and by the exact one.
 
 #include <array>
+#include <deque>
 #include <optional>
 #include <string>
 
@@ -36,13 +37,16 @@ class PriceTrial {
   std::optional<Price> advance(const HowSimulated& how, const Background<PriceTrial>& background);
 
  private:
+  /// A run in progress.
+  struct Trial {
+    explicit Trial(const HowSimulated& how) : world(how.scene, {.integrator = how.integrator}) {}
+    softbody::World world;
+    RunFigures figures;
+    WorldOracle oracle{1};
+  };
   void begin(HowSimulated how);
 
-  std::optional<softbody::World> world_;  // of the run at hand
-  std::optional<RunFigures> figures_;     // of the same
-  std::size_t run_ = 0;
-  WorldOracle oracle_{1};
-  Price price_;
+  std::deque<Trial> trials_;  // by Price::Run, a part each in turn, so that their times can be compared
 };
 
 }  // namespace app::compare

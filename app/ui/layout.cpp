@@ -69,7 +69,8 @@ Layout compute_layout(const Session& session, const UiState& ui, float scale, co
   }
   if (layout.panel_covers_scene) return layout;
   if (ui.lower != LowerView::none) {
-    const float room = display.y - scene.min.y - min_scene_height * scale - line;
+    const float beside = session.simulation.beside() ? heights.beside : 0;
+    const float room = display.y - scene.min.y - min_scene_height * scale - line - beside;
     const float height = lower_height(session, ui.lower, scene, room, scale), top = display.y - height;
     if (height <= room)
       layout.lower = {{scene.min.x, top}, display};

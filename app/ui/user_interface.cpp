@@ -1,5 +1,6 @@
 #include "app/ui/user_interface.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "app/ui/panel/panel.h"
@@ -19,7 +20,9 @@ Requests UserInterface::draw(const Session& session, const UiState& ui, float sc
     draw_compare(widgets, session, ui, *layout_.lower);
   else if (layout_.lower)
     sweep_view_.draw(widgets, session, *layout_.lower);
-  if (layout_.beside) beside_height_ = draw_beside(widgets, session, ui, *layout_.beside, layout_.scene);
+  // It only grows, so that the scene does not jump with the length of texts.
+  beside_height_ =
+      layout_.beside ? std::max(beside_height_, draw_beside(widgets, session, ui, *layout_.beside, layout_.scene)) : 0;
   if (layout_.time_line) draw_time_line(widgets, session, *layout_.time_line);
   if (layout_.sidebar) draw_sidebar(widgets, session, ui, *layout_.sidebar);
   show_field_problem(widgets);

@@ -31,7 +31,7 @@ ScenePicture scene_picture(const Session& session, const ui::UiState& ui, const 
   picture.highlight = ui.tour.highlight_revision();
   if (picture.shown.missed)
     picture.misses_of = session.comparison.choice.misses_of;
-  else if (ui.marks_story())
+  else if (ui.marks_story() && !session.simulation.beside())
     picture.misses_of = compare::method_index(collide::paper_method);
   if (picture.misses_of) picture.misses = session.comparison.reports();
   if (session.simulation.beside() && !ui.tour.open()) {
@@ -55,7 +55,8 @@ std::vector<HalfPicture> halves(const ScenePicture& picture, const engine::Viewp
   std::vector<HalfPicture> parts;
   for (const engine::Viewport& part : render::side_by_side(whole, *picture.line)) {
     parts.push_back({parts.empty() ? Half::first : Half::second, part, picture.camera});
-    render::SceneView::refit(parts.back().camera, whole.size, part.size);
+    // As if the halves were equal: so bodies have the same size in both, wherever the line is.
+    render::SceneView::refit(parts.back().camera, whole.size, {whole.size.x / 2, whole.size.y});
   }
   return parts;
 }

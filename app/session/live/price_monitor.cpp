@@ -8,6 +8,8 @@ void PriceMonitor::exchange(const softbody::World* world) {
   if (!on) return;
   std::optional<compare::HowSimulated> now;
   if (world && world->bodies().vertex_count() <= max_vertices) now = {world->scene(), world->integrator_choice()};
+  if (now) now->scene.method = collide::default_method;  // the trial has methods and cells of its own
+  if (now) now->scene.collision.cell_size.reset();
   if (now != asked_) {
     asked_.reset();  // the answer of a trial that was cancelled is not whole
     price_.reset();

@@ -191,8 +191,10 @@ void draw_method(Widgets& w, const Session& session) {
   w.register_item("Hashing of", "Whose boxes and hash table these settings shape, and what it finds with them. " +
                                     (drives ? "" : session.simulation.edited().method().name + " has no hash table."));
   draw_values(w, session, ValuePlace::hashing);
-  if (&session.simulation.edited() != &session.world()) return;  // the comparison is of the first world
-  const std::string found = verdict(session.comparison, compare::method_index(owner.key));
+  // The comparison is of the first world.
+  const std::string found = &session.simulation.edited() == &session.world()
+                                ? verdict(session.comparison, compare::method_index(owner.key))
+                                : "see below the halves";
   const bool misses = found.starts_with("misses");
   if (misses) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::contact_missed_colour));
   w.figure("Contacts now", found, owner.summary);
