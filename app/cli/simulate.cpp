@@ -91,66 +91,10 @@ Json plan_json(const softbody::World& world) {
 
 std::string hex(std::uint64_t value) { return fmt::format("{:016x}", value); }
 
-/// Returns what is likely to be wrong with the detector's settings, or with the contact of vertices.
-std::vector<std::string> world_warnings(const softbody::World& world) {
-  std::vector<std::string> list = warnings(world.method(), world.collision());
-  const double safe = softbody::safe_vertex_tolerance(world), tolerance = double{world.collision().tolerance};
-  if (tolerance < safe)
-    list.push_back(
-        fmt::format("vertices can slip through faces: the tolerance is {:.2g} m, below {:.2g} m; see "
-                    "--tolerance and --contact-surface",
-                    tolerance, safe));
-  return list;
-}
-
-/// Returns the document of a world after its last frame, with these warnings and frames; without frames, its other
-/// fields.
-Json document_json(const softbody::World& world, const std::vector<std::string>& warnings,
-                   const std::vector<FrameRow>& frames) {
-  Json document{
-      {"scene", world.scene().key},
-      {"method", world.method().key},
-      {"integrator",  // the one asked for, the one that the last frame used, and why if it was chosen automatically
-       {{"key", world.integrator_choice().key},
-        {"used", world.last_step().integrator->key},
-        {"why", world.last_step().why}}},
-      {"plan", plan_json(world)},
-      {"warnings", warnings}};
-  for (const FrameRow& r : frames) document["frames"].push_back(to_json(r));
-  document["state_hash"] = hex(world.state_hash());
-  return document;
-}
-
 /// Prints a line that a reader gets at once. Throws UsageError.
 void print_line(const Json& object) {
   std::cout << object.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
   flush_standard_output();
-}
-
-void print_table(const softbody::World& world, const std::vector<std::string>& warnings,
-                 const std::vector<FrameRow>& rows) {
-  std::cout << fmt::format("{}, {}, bodies: {}, vertices: {}; contacts between bodies, inside one, with solids\n",
-                           world.scene().name, world.method().name, world.bodies().count(),
-                           world.bodies().vertex_count());
-  for (const std::string& warning : warnings) std::cout << "note: " << warning << '\n';
-  std::cout
-      << "  frame  detect ms  solve ms  between  inside   solid     energy J   V min   V max    deepest m  speed m/s\n";
-  for (const FrameRow& r : rows) {
-    const softbody::Measures& m = r.measures;
-    const auto ratio = [&](double value) { return m.has_volume ? fmt::format("{:.3f}", value) : "-"; };
-    std::cout << fmt::format("{:7} {:10.3f} {:9.3f} {:8} {:7} {:7} {:>12.4f} {:>7} {:>7} {:>12.2e} {:>10.4f}{}\n",
-                             r.frame, r.step.detect_ms, r.step.solve_ms, r.bodies, r.self, r.solid, m.energy,
-                             ratio(m.volume_ratio_min), ratio(m.volume_ratio_max), m.deepest_penetration, m.max_speed,
-                             m.finite ? "" : "  NOT FINITE");
-  }
-  std::cout << "integrator: " << world.last_step().integrator->name;
-  if (const auto why = world.last_step().why; !why.empty()) std::cout << ", for " << why;
-  for (const softbody::Stage s : world.plan().unprojected(world.integrator_choice().integrator()))
-    std::cout << "\n  " << softbody::stage_key(s) << " acts as a force";
-  std::cout << "\nstages left out:" << (world.plan().left_out.empty() ? " none" : "") << '\n';
-  for (const softbody::LeftOut& l : world.plan().left_out)
-    std::cout << "  " << softbody::stage_key(l.stage) << ": " << l.why << '\n';
-  std::cout << "state hash " << hex(world.state_hash()) << '\n';
 }
 
 /// Says on standard error what has gone wrong in a run, and notes it.
@@ -329,13 +273,58 @@ class Run {
   const std::vector<FrameRow>& rows() const { return rows_; }
   void forget_rows() { rows_.clear(); }
   /// Returns the document of the run after its last frame; without frames, its other fields.
-  Json document() const { return document_json(world_, all_warnings(), rows_); }
-  void print() const { print_table(world_, all_warnings(), rows_); }
+  Json document() const {
+    Json document{
+        {"scene", world_.scene().key},
+        {"method", world_.method().key},
+        {"integrator",  // the one asked for, the one that the last frame used, and why if it was chosen automatically
+         {{"key", world_.integrator_choice().key},
+          {"used", world_.last_step().integrator->key},
+          {"why", world_.last_step().why}}},
+        {"plan", plan_json(world_)},
+        {"warnings", all_warnings()}};
+    for (const FrameRow& r : rows_) document["frames"].push_back(to_json(r));
+    document["state_hash"] = hex(world_.state_hash());
+    return document;
+  }
+
+  void print() const {
+    std::cout << fmt::format("{}, {}, bodies: {}, vertices: {}; contacts between bodies, inside one, with solids\n",
+                             world_.scene().name, world_.method().name, world_.bodies().count(),
+                             world_.bodies().vertex_count());
+    for (const std::string& warning : all_warnings()) std::cout << "note: " << warning << '\n';
+    std::cout << "  frame  detect ms  solve ms  between  inside   solid     energy J   V min   V max    deepest m  "
+                 "speed m/s\n";
+    for (const FrameRow& r : rows_) {
+      const softbody::Measures& m = r.measures;
+      const auto ratio = [&](double value) { return m.has_volume ? fmt::format("{:.3f}", value) : "-"; };
+      std::cout << fmt::format("{:7} {:10.3f} {:9.3f} {:8} {:7} {:7} {:>12.4f} {:>7} {:>7} {:>12.2e} {:>10.4f}{}\n",
+                               r.frame, r.step.detect_ms, r.step.solve_ms, r.bodies, r.self, r.solid, m.energy,
+                               ratio(m.volume_ratio_min), ratio(m.volume_ratio_max), m.deepest_penetration, m.max_speed,
+                               m.finite ? "" : "  NOT FINITE");
+    }
+    std::cout << "integrator: " << world_.last_step().integrator->name;
+    if (const auto why = world_.last_step().why; !why.empty()) std::cout << ", for " << why;
+    for (const softbody::Stage s : world_.plan().unprojected(world_.integrator_choice().integrator()))
+      std::cout << "\n  " << softbody::stage_key(s) << " acts as a force";
+    std::cout << "\nstages left out:" << (world_.plan().left_out.empty() ? " none" : "") << '\n';
+    for (const softbody::LeftOut& l : world_.plan().left_out)
+      std::cout << "  " << softbody::stage_key(l.stage) << ": " << l.why << '\n';
+    std::cout << "state hash " << hex(world_.state_hash()) << '\n';
+  }
 
  private:
+  /// Returns what went wrong, and what is likely to be wrong with the detector's settings, or with the contact of
+  /// vertices.
   std::vector<std::string> all_warnings() const {
     std::vector<std::string> all = warnings_;
-    std::ranges::copy(world_warnings(world_), std::back_inserter(all));
+    std::ranges::copy(cli::warnings(world_.method(), world_.collision()), std::back_inserter(all));
+    const double safe = softbody::safe_vertex_tolerance(world_), tolerance = double{world_.collision().tolerance};
+    if (tolerance < safe)
+      all.push_back(
+          fmt::format("vertices can slip through faces: the tolerance is {:.2g} m, below {:.2g} m; see "
+                      "--tolerance and --contact-surface",
+                      tolerance, safe));
     return all;
   }
 

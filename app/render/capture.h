@@ -19,13 +19,9 @@ class Capture {
   engine::Image draw(const softbody::BodiesInMotion& world, const softbody::BodiesInMotion* second = nullptr) {
     const engine::Viewport whole{{0, 0}, target_.size()};
     target_.bind();
-    if (second) {
-      const auto halves = side_by_side(whole, 0.5f);
-      draw(world, halves[0]);
-      draw(*second, halves[1]);
-    } else {
-      draw(world, whole);
-    }
+    const auto halves = side_by_side(whole, 0.5f);
+    draw(world, second ? halves[0] : whole);
+    if (second) draw(*second, halves[1]);
     return target_.read();
   }
 
