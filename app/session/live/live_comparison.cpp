@@ -59,9 +59,9 @@ void LiveComparison::keep(compare::CompareReport report) {
     const compare::CompareRow& row = report.rows[i];
     const bool counted = report.id == report_.id && i < report_.rows.size() && report_.rows[i].scored;
     if (!row.scored || counted) continue;
-    ++sums_[i].states;
-    sums_[i].truth += report.true_contacts;
-    sums_[i].found += report.true_contacts - row.missed.size();
+    ++sums_[i].frames;
+    sums_[i].true_contacts += report.true_contacts;
+    sums_[i].missed += row.missed.size();
   }
   report_ = std::move(report);
   ++reports_;

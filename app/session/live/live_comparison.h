@@ -4,6 +4,7 @@
 #include "app/base/time_series.h"
 #include "app/compare/compare.h"
 #include "app/compare/method_style.h"
+#include "app/compare/run_figures.h"
 #include "collide/methods.h"
 #include "softbody/world/bodies_in_motion.h"
 
@@ -57,13 +58,9 @@ class LiveComparison {
   }
   const compare::CompareRow* paper_row() const { return scored_row(compare::method_index(collide::paper_method)); }
 
-  /// What a method found of the true contacts of all states that it was compared on, each once, since the start or the
-  /// last change of settings.
-  struct Sum {
-    std::size_t found = 0, truth = 0, states = 0;  // found, truth: contacts
-    double recall() const { return truth > 0 ? static_cast<double>(found) / static_cast<double>(truth) : 1; }
-  };
-  const Sum& sum(std::size_t method) const { return sums_[method]; }
+  /// What a method missed in all frames that it was compared on, each once, since the start or the last change of
+  /// settings. Its times are not summed.
+  const compare::RunTotals& sum(std::size_t method) const { return sums_[method]; }
 
   // By frame: recall of the driver; ms of each method.
   const TimeSeries& recall() const { return recall_; }
@@ -83,7 +80,7 @@ class LiveComparison {
   compare::MethodSet offered_methods_;  // empty: none but the driver
   TimeSeries recall_;
   std::vector<TimeSeries> method_ms_ = std::vector<TimeSeries>(choice.methods.size());
-  std::vector<Sum> sums_ = std::vector<Sum>(choice.methods.size());
+  std::vector<compare::RunTotals> sums_ = std::vector<compare::RunTotals>(choice.methods.size());
   Background<compare::Comparison> comparison_{usual_runs, seed};
 };
 

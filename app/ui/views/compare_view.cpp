@@ -175,7 +175,7 @@ void draw_score(Widgets& w, const Session& session, const Grid& grid, const Row&
   const StatusLight light = status_light(found.coverage);
   ImGui::SetCursorScreenPos({grid.left[recall] + w.px(4), grid.text_top()});
   w.dot(light.colour);
-  const session::LiveComparison::Sum& sum = session.comparison.sum(row.index);
+  const compare::RunTotals& sum = session.comparison.sum(row.index);
   if (row.is_reference) {
     grid.text(recall, "reference", true);
   } else {
@@ -186,8 +186,8 @@ void draw_score(Widgets& w, const Session& session, const Grid& grid, const Row&
   const std::string tip = std::string(light.sentence) + " Missed: " + grouped(found.missed.size()) + ".";
   grid.cell(w, recall, row.label("Recall of"), tip);
   grid.cell(w, so_far, row.label("Recall since start of"),
-            fmt::format("Missed: {} of {} true contacts in {} frames.", grouped(sum.truth - sum.found),
-                        grouped(sum.truth), grouped(sum.states)));
+            fmt::format("Missed: {} of {} true contacts in {} frames.", grouped(sum.missed), grouped(sum.true_contacts),
+                        grouped(std::uint64_t(sum.frames))));
 }
 
 /// Draws why the row has no score, beside its time if there is one.
