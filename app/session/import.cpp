@@ -277,17 +277,15 @@ void Import::import_each() {
   open_next();
 }
 
-bool Import::update() {
-  bool has_joined = false;
+void Import::update() {
   std::optional<FileReader::Answer> answer = reader_.take();
   if (auto* stage = answer ? std::get_if<FileReader::Stage>(&*answer) : nullptr) {
     stage_ = std::move(stage->name);
   } else if (answer) {
     reading_ = false;
-    if (!reader_.cancelled()) has_joined = take(std::move(*answer));
+    if (!reader_.cancelled()) take(std::move(*answer));
   }
   open_next();
-  return has_joined;
 }
 
 /// Begins to read the first of the files that wait, if nothing else is read or asked.
@@ -300,8 +298,7 @@ void Import::open_next() {
   open();
 }
 
-/// Returns true if it is a mesh that has joined the scene.
-bool Import::take(FileReader::Answer answer) {
+void Import::take(FileReader::Answer answer) {
   if (std::vector<std::string> files = std::exchange(together_, {}); !files.empty()) {
     if (auto* world = std::get_if<FileReader::World>(&answer)) {
       std::erase_if(files, may_be_surroundings);
@@ -314,11 +311,10 @@ bool Import::take(FileReader::Answer answer) {
     refuse(*why);
   } else if (auto* mesh = std::get_if<FileReader::Mesh>(&answer)) {
     if (!lone_.empty()) lone_.push_back(*mesh);
-    return join(std::move(*mesh));
+    join(std::move(*mesh));
   } else {
     enter(std::move(std::get<FileReader::World>(answer)));
   }
-  return false;
 }
 
 void Import::enter(FileReader::World answer) {
@@ -349,7 +345,7 @@ void Import::join_scene_before() {
   for (FileReader::Mesh& mesh : meshes) join(std::move(mesh));
 }
 
-bool Import::join(FileReader::Mesh read) {
+void Import::join(FileReader::Mesh read) {
   const std::string name = read.mesh.file.path.filename().string();
   std::string text = text_about(read.mesh, *read.model, simulation_.world().scene());
   Material material = imported_material(read.mesh.imported->findings.extent);
@@ -359,12 +355,10 @@ bool Import::join(FileReader::Mesh read) {
   Notice& notice = simulation_.notice;
   if (notice.is_error()) {
     refuse(name + ": " + notice.text());
-    notice.clear();  // once is enough
-    return false;
+    return notice.clear();  // once is enough
   }
   joined_ = place;
   add({.text = std::move(text)});
-  return true;
 }
 
 }  // namespace app::session

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -97,13 +98,13 @@ class Import {
   /// are meshes that fit together as frames, question() asks first whether to play them; what an export of motion
   /// writes beside them is no frame. Files that are dropped meanwhile wait for the answer.
   void drop(const std::vector<std::string>& files, bool into_scene = false);
-  /// Takes what has been read, and begins with the next file that waits. Call it once a frame. Returns true if a mesh
-  /// has joined the scene.
-  bool update();
+  /// Takes what has been read, and begins with the next file that waits. Call it once a frame.
+  void update();
   /// Lets `elapsed` seconds of real time pass. Reports go after a while, but refusals stay.
   void age(double elapsed);
-  /// Returns a sphere around the place where the last mesh has joined, which may be out of sight.
-  const std::optional<JoinedAt>& joined() const { return joined_; }
+  /// Returns a sphere around the place where the last mesh has joined the scene, which may be out of sight, if one has
+  /// since the last call.
+  std::optional<JoinedAt> take_joined() { return std::exchange(joined_, std::nullopt); }
 
   /// Returns the question whether to play the files that were dropped, or to import each; empty if there is none.
   std::string question() const;
@@ -146,9 +147,9 @@ class Import {
   void add(FileReport file_report);
   void refuse(const std::string& why);
   void read(decltype(FileReader::Question::file) file);
-  bool take(FileReader::Answer answer);
+  void take(FileReader::Answer answer);
   void enter(FileReader::World answer);
-  bool join(FileReader::Mesh read);
+  void join(FileReader::Mesh read);
 
   Simulation& simulation_;
   SceneControls& scenes_;

@@ -161,11 +161,13 @@ class Demo {
   void draw_picture(double elapsed) {
     seconds_ += elapsed;
     session_.import.drop(graphics_->window.take_dropped_files());
-    const bool has_joined = session_.import.update();
+    session_.import.update();
     // Handles all waiting input before this picture, a click at a time, so that a slow world does not delay typing and
     // clicks.
     handle_input(elapsed);
-    if (has_joined) perform(ui::WindowTask::show_joined, scene_viewport().size);  // once the scene's camera is set up
+    if (const auto joined = session_.import.take_joined())  // once the scene's camera is set up
+      camera_.glide_back_to_show(glm::vec3(joined->centre), joined_margin * static_cast<float>(joined->radius),
+                                 scene_viewport().size);
     while (graphics_->window.has_pending_input()) {
       graphics_->gui.end_frame();
       handle_input(0);
@@ -339,14 +341,11 @@ class Demo {
   void perform(ui::WindowTask task, glm::ivec2 size) {
     using Task = ui::WindowTask;
     const auto& selected = session_.bodies.selected();
-    const auto& joined = session_.import.joined();
     const render::Highlight* highlight = ui_.tour.highlight();
     if (task == Task::quit) quits_ = true;
     if (task == Task::reset_camera) reset_camera(size);
     if (task == Task::show_selected_body && selected) focus_on(*selected, session_, camera_, size);
     if (task == Task::throw_body) throw_body(size);
-    if (task == Task::show_joined && joined)
-      camera_.glide_back_to_show(glm::vec3(joined->centre), joined_margin * static_cast<float>(joined->radius), size);
     if (task == Task::show_highlight && highlight)
       camera_.glide_to(highlight->centre, tour_radius_factor * highlight->radius, size);
     if (task == Task::show_as_before_tour && orbit_before_tour_) camera_.glide_to(*orbit_before_tour_);

@@ -58,11 +58,10 @@ TEST(ImportReport, OffersToLetTheMeshJoinTheSceneBefore) {
   EXPECT_EQ(rig.session.world().scene().name, "mine.obj");
   rig.open("Files");
   EXPECT_FALSE(rig.widget("Copy").enabled) << "no option makes this scene";
-  rig.tasks.clear();
   rig.click("Into the scene before");
   EXPECT_EQ(rig.session.world().scene().name, "Touching pair");
   EXPECT_EQ(rig.session.world().bodies().count(), 3u);
-  EXPECT_EQ(rig.tasks, std::vector{ui::WindowTask::show_joined});
+  EXPECT_TRUE(rig.session.import.take_joined());
   EXPECT_FALSE(rig.shows("Into the scene before"));
   rig.frames(3);
   rig.click("Close import report");

@@ -31,7 +31,7 @@ class PanelRig {
     session.advance(tick);
     target_.bind();
     gui_.begin_frame(input_);
-    if (session.import.update()) tasks.push_back(ui::WindowTask::show_joined);
+    session.import.update();
     carry_out({});
     carry_out(interface.draw(session, ui, gui_.scale(), &recorder));
     gui_.end_frame();

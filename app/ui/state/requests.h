@@ -21,7 +21,6 @@ enum class WindowTask {
   reset_camera,
   show_selected_body,
   throw_body,          // to where the mouse points
-  show_joined,         // the body that was imported last
   show_highlight,      // of the tour
   show_as_before_tour  // while the world runs ahead
 };

@@ -37,11 +37,8 @@ void draw_import_report(Widgets& w, const session::Import& import) {
       w.ask([](Session& s) { s.import.cancel(); });
   }
   if (import.can_join() && !import.busy() &&
-      button_behind(w, "Into the scene before", "Lets the mesh fall in the scene that was shown before it.",
-                    w.px(150))) {
+      button_behind(w, "Into the scene before", "Lets the mesh fall in the scene that was shown before it.", w.px(150)))
     w.ask([](Session& s) { s.import.join_scene_before(); });
-    w.ask(WindowTask::show_joined);
-  }
   if ((asks || (!import.report().empty() && !import.busy())) &&
       button_behind(w, "x###Close import report", "Closes this report.", ImGui::GetFrameHeight()))
     w.ask([](Session& s) { s.import.dismiss_report(); });
