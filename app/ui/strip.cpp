@@ -28,14 +28,12 @@ void draw_sentences(Widgets& w, const Session& session, bool panel) {
                   : "Drag to orbit. Click a body to select it. V: compare the methods. G: tour. F1: help.");
 }
 
-bool imports(const session::Import& import) {
-  return !import.report().empty() || import.busy() || !import.question().empty();
-}
-
 }  // namespace
 
 bool has_messages(const Session& session) {
-  return !session.simulation.notice.text().empty() || imports(session.import);
+  const session::Import& import = session.import;
+  return !session.simulation.notice.text().empty() || !import.report().empty() || import.busy() ||
+         !import.question().empty();
 }
 
 void Strip::draw_cards(Widgets& w, const Session& session, const UiState& ui, const Parts& parts) {
@@ -57,13 +55,13 @@ void Strip::draw_cards(Widgets& w, const Session& session, const UiState& ui, co
     }
     if (parts.story) {
       ImGui::TableNextColumn();
-      story_.draw(w, session);
+      draw_story(w, session);
       close("x###Close story", "Puts this card away (W or Esc). W brings it back.",
             [](UiState& state) { state.set_story(false); });
     }
     ImGui::EndTable();
   }
-  if (parts.story) story_.draw_sentence(w, session);
+  if (parts.story) draw_story_sentences(w, session);
   if (!parts.sidebar) draw_legend(w, session, ui.drawn_overlays(session), true, true);
 }
 
@@ -83,12 +81,10 @@ void Strip::draw(Widgets& w, const Session& session, const UiState& ui, const La
                     .explained = ui.coverage_explained,
                     .story = ui.shows_story(),
                     .sidebar = layout.sidebar.has_value(),
-                    .no_room = !layout.no_room_message.empty(),
-                    .notice = !session.simulation.notice.text().empty(),
-                    .imports = imports(session.import),
+                    .messages = !layout.no_room_message.empty() || has_messages(session),
                     .legend = ui.overlays};
   if (layout.cards) draw_cards(w, session, ui, parts);
-  if (parts.no_room || parts.notice || parts.imports)
+  if (parts.messages)
     draw_messages(w, session, layout.no_room_message);
   else
     draw_sentences(w, session, ui.panel);

@@ -3,7 +3,7 @@
 // if there is no sidebar, messages, and the scene's sentence. It covers nothing of the scene.
 
 #include "app/ui/layout.h"
-#include "app/ui/views/story_card.h"
+#include "app/ui/widgets/widgets.h"
 
 namespace app::ui {
 
@@ -19,15 +19,13 @@ class Strip {
   /// All that the height depends on but the length of texts.
   struct Parts {
     float width = 0;
-    bool cards = false, lights = false, explained = false, story = false, sidebar = false;
-    bool no_room = false, notice = false, imports = false;
+    bool cards = false, lights = false, explained = false, story = false, sidebar = false, messages = false;
     render::Overlays legend;
     bool operator==(const Parts&) const = default;
   };
 
-  void draw_cards(Widgets& widgets, const Session& session, const UiState& ui, const Parts& parts);
+  static void draw_cards(Widgets& widgets, const Session& session, const UiState& ui, const Parts& parts);
 
-  StoryCard story_;
   Parts parts_;
   float height_ = 0;
 };

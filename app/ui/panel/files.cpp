@@ -6,7 +6,6 @@
 #include <fmt/core.h>
 
 #include "app/base/text.h"
-#include "app/render/palette.h"
 #include "app/ui/panel/panel.h"
 
 namespace app::ui {
@@ -196,14 +195,6 @@ void draw_recording(Widgets& w, const session::Exporter& exporter) {
     w.ask([](Session& s) { s.exporter.toggle_recording(); });
 }
 
-/// Draws the message, or an empty line, so that nothing moves.
-void draw_message(Widgets& w, const session::Exporter& exporter) {
-  if (exporter.failed()) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
-  w.text_line(exporter.message());
-  if (exporter.failed()) ImGui::PopStyleColor();
-  w.register_item("Message", exporter.message());
-}
-
 }  // namespace
 
 void draw_files(Widgets& w, const Session& session, const UiState& ui) {
@@ -237,7 +228,7 @@ void draw_export(Widgets& w, const Session& session, const UiState&) {
   if (w.checkbox("With the panel", exporter.with_panel,
                  "Pictures and videos show the whole window, else the scene alone."))
     w.ask([](Session& s) { s.exporter.with_panel = !s.exporter.with_panel; });
-  draw_message(w, exporter);
+  w.wrapped_text("Message", exporter.message(), exporter.failed());
 }
 
 }  // namespace app::ui

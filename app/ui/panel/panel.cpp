@@ -144,9 +144,7 @@ void draw_sections(Widgets& w, const Session& session, const UiState& ui) {
       section.draw(w, session, ui);
   }
   if (left_out.empty()) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextWrapped("without %s: %s", left_out.c_str(), no_solver_text);
-  ImGui::PopStyleColor();
+  w.pale_text("without " + left_out + ": " + no_solver_text);
   w.register_item("Left out", "What needs a solver is left out, and so are the keys for it. Open a scene to have it.");
 }
 

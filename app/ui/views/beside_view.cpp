@@ -6,7 +6,6 @@
 
 #include "app/compare/difference.h"
 #include "app/render/halves.h"
-#include "app/render/palette.h"
 #include "app/ui/state/ui_state.h"
 #include "app/ui/views/views.h"
 
@@ -35,13 +34,6 @@ std::string cost_text(const compare::RunTotals& run) {
                          : fmt::format("detection {:.3g} ms a frame", run.detect_ms / run.frames);
 }
 
-void draw_text(Widgets& w, const std::string& label, const std::string& text, bool bad) {
-  if (bad) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::contact_missed_colour));
-  ImGui::TextWrapped("%s", text.c_str());
-  if (bad) ImGui::PopStyleColor();
-  w.register_item(label);
-}
-
 void draw_half(Widgets& w, const Session& session, Half half, const std::string& side) {
   const session::Beside& beside = *session.simulation.beside();
   const compare::RunTotals& run = beside.figures(half).totals();
@@ -50,12 +42,11 @@ void draw_half(Widgets& w, const Session& session, Half half, const std::string&
     w.ask([half](Session& s) { s.simulation.edits = half; });
   w.register_item(side + " half", "The panel shows and changes the settings of this half.");
   ImGui::SameLine();
-  ImGui::TextWrapped("%s: %s", side.c_str(),
-                     beside.difference().text({world.scene(), world.integrator_choice()}).c_str());
-  draw_text(w, side + " missed", contacts_text(run), run.missed > 0);
+  w.paragraph(side + ": " + beside.difference().text({world.scene(), world.integrator_choice()}));
+  w.wrapped_text(side + " missed", contacts_text(run), run.missed > 0);
   const std::string why = session.simulation.stopped(half);
-  draw_text(w, side + " inside", why.empty() ? inside_text(run) : "stopped: " + why, run.inside > 0 || !why.empty());
-  draw_text(w, side + " cost", cost_text(run), false);
+  w.wrapped_text(side + " inside", why.empty() ? inside_text(run) : "stopped: " + why, run.inside > 0 || !why.empty());
+  w.wrapped_text(side + " cost", cost_text(run));
 }
 
 /// Draws the line between the halves, which can be dragged.
@@ -63,11 +54,10 @@ void draw_line(Widgets& w, const UiState& ui, const ScreenRect& scene) {
   const float width = scene.max.x - scene.min.x, grip = w.px(9);
   const float at = scene.min.x + std::clamp(ui.line, render::min_half, 1 - render::min_half) * width;
   ImGui::GetBackgroundDrawList()->AddLine({at, scene.min.y}, {at, scene.max.y}, to_imgui(glm::vec3(1.0f)), w.px(2));
-  ImGui::SetNextWindowPos({at - grip / 2, scene.min.y});
-  ImGui::SetNextWindowSize({grip, scene.max.y - scene.min.y});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
-  ImGui::Begin("Line", nullptr, frameless_window | ImGuiWindowFlags_NoBackground);
+  begin_dock("Line", {{at - grip / 2, scene.min.y}, {at + grip / 2, scene.max.y}}, false,
+             ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoNav);
   ImGui::InvisibleButton("Line", {grip, scene.max.y - scene.min.y});
   w.register_item("Line between the halves", "Drag: moves the line between the two halves.");
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);

@@ -9,11 +9,6 @@
 
 namespace app::ui {
 
-/// ImGui's flags for windows without a frame over the scene, which cannot be moved.
-inline constexpr ImGuiWindowFlags frameless_window = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                                     ImGuiWindowFlags_NoSavedSettings |
-                                                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
-
 struct StatusLight {
   glm::vec3 colour;
   const char* name;      // the colour in words

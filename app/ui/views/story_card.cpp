@@ -1,10 +1,10 @@
-#include "app/ui/views/story_card.h"
+// The card of the first minute: the paper's method and an exact one on the same frame, what the former misses, and why.
 
 #include <fmt/core.h>
 
 #include "app/render/palette.h"
 #include "app/ui/state/ui_state.h"
-#include "app/ui/views/status.h"
+#include "app/ui/views/views.h"
 #include "app/ui/widgets/method_mark.h"
 
 namespace app::ui {
@@ -60,53 +60,33 @@ std::string automatic_cells_sentence(const compare::Price& price, float toleranc
                      missed_share(run), sunk, tolerance);
 }
 
-const char* reason(collide::Coverage coverage) {
-  return coverage == collide::Coverage::exceeded
-             ? "Why: some boxes are larger than a cell. Their corners skip cells, and what lies there is never "
-               "compared."
-             : "Why: a face of the grid lies between these vertices. Their boxes share no cell, so the paper's method "
-               "never compares them.";
-}
-
-}  // namespace
-
-/// Remembers the last miss, since contacts come and go fast.
-void StoryCard::follow(const Session& session) {
-  if (world_ != session.simulation.world_number()) last_.reset();
-  world_ = session.simulation.world_number();
-  if (reports_ == session.comparison.reports()) return;
-  reports_ = session.comparison.reports();
-  const compare::CompareReport& report = session.comparison.report();
-  if (const compare::CompareRow* row = session.comparison.paper_row(); row && !row->missed.empty())
-    last_ = {report.frame, row->missed.size(), report.true_contacts, row->coverage};
-}
-
-std::string StoryCard::sentence(const Session& session) const {
+/// Says what is missed in this frame and why, or why that is not known.
+std::string miss_sentence(const Session& session) {
   const compare::CompareReport& report = session.comparison.report();
   if (report.id != 0 && !report.reference) return "Not measured here: " + report.reference_note + ".";
   const std::size_t paper = compare::method_index(collide::paper_method);
   if (!report.rows.empty() && !report.rows[paper].not_run.empty())
     return "The paper's method was not run: " + report.rows[paper].not_run + ".";
   const compare::CompareRow* row = session.comparison.paper_row();
-  if (row && !row->missed.empty()) return reason(row->coverage);
-  if (last_)
-    return fmt::format("The paper's method last missed contacts in frame {} ({} of {}): {}.", last_->frame,
-                       grouped(last_->missed), grouped(last_->contacts),
-                       last_->coverage == collide::Coverage::exceeded
-                           ? "some boxes were larger than a cell, and their corners skipped cells"
-                           : "a face of the grid lay between the vertices");
+  if (row && !row->missed.empty())
+    return row->coverage == collide::Coverage::exceeded
+               ? "Why: some boxes are larger than a cell. Their corners skip cells, and what lies there is never "
+                 "compared."
+               : "Why: a face of the grid lies between these vertices. Their boxes share no cell, so the paper's "
+                 "method never compares them.";
   if (session.world().all_at_rest()) return "The boxes of each contact of this frame share a bucket.";
   return "Both look for all vertices that come closer than the tolerance. Watch what happens where bodies touch across "
          "a face of the grid.";
 }
 
-void StoryCard::draw(Widgets& w, const Session& session) {
-  follow(session);
+}  // namespace
+
+void draw_story(Widgets& w, const Session& session) {
   draw_method(w, session.comparison, compare::method_index(collide::paper_method), " (the paper's)");
   if (const auto exact = exact_method(session)) draw_method(w, session.comparison, *exact, "");
 }
 
-void StoryCard::draw_sentence(Widgets& w, const Session& session) const {
+void draw_story_sentences(Widgets& w, const Session& session) {
   const auto draw = [&w](const char* button, const char* tooltip, const char* label, const std::string& text,
                          const auto& request) {
     if (w.button(button, tooltip, w.px(120))) w.ask(request);
@@ -126,7 +106,7 @@ void StoryCard::draw_sentence(Widgets& w, const Session& session) const {
                         (session.comparison.paper_row() && !session.comparison.paper_row()->missed.empty());
   const Disabled off(!may_miss);
   draw("Show me a miss###Explain story", "Opens the guided tour at its page on a missed contact.", "Story sentence",
-       price ? automatic_cells_sentence(*price, session.world().collision().tolerance) : sentence(session),
+       price ? automatic_cells_sentence(*price, session.world().collision().tolerance) : miss_sentence(session),
        [](Session& s, UiState& ui) { ui.tour.start(s, ui.overlays, miss_step); });
 }
 

@@ -84,13 +84,7 @@ void draw_buttons(Widgets& w, const Tour& tour) {
 }  // namespace
 
 void draw_tour(Widgets& w, const Session& session, const Tour& tour, const ScreenRect& area) {
-  ImGui::SetNextWindowPos(area.min);
-  ImGui::SetNextWindowSize({area.max.x - area.min.x, area.max.y - area.min.y});
-  ImGui::SetNextWindowBgAlpha(1);  // nothing is drawn behind it
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
-  ImGui::Begin("Tour", nullptr, frameless_window);
-  ImGui::PopStyleVar(2);
+  begin_dock("Tour", area, true, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoNav);
   const TourStep& step = tour_steps()[tour.step()];
   ImGui::TextDisabled("Tour %zu of %zu", tour.step() + 1, tour_steps().size());
   w.wrapped_text("Tour title", std::string(step.title));

@@ -37,6 +37,13 @@ void draw_method_choice(Widgets& w, const Session& session, std::string_view lab
 /// The same, to choose what a view shows. The preview says how many methods are shown.
 void draw_shown_methods(Widgets& w, const Session& session);
 
+/// Draws what the paper's method and an exact one find. The comparison must include the paper's
+/// (CompareChoice::with_paper).
+void draw_story(Widgets& widgets, const Session& session);
+/// Draws what misses cost in this scene, as far as it is known, and a sentence on what is missed, each behind a button
+/// that shows it.
+void draw_story_sentences(Widgets& widgets, const Session& session);
+
 /// Draws the surface oracle's figures of the last step that it judged. The rarely needed ones are in a section that is
 /// folded at first.
 void draw_true_surfaces(Widgets& widgets, const Session& session);
