@@ -110,10 +110,13 @@ void SceneMouse::press(const MouseInput& in, const Aim& aim, const Session& sess
   if (in.double_click) {
     ask(requests, ui::WindowTask::show_selected_body);
   } else if (!session.simulation.clock.paused && session.simulated()) {
-    ask(requests, [grab = softbody::Grab{.body = under->body,
-                                         .corners = under->corners,
-                                         .weights = glm::dvec3(under->weights),
-                                         .target = glm::dvec3(under->point)}](Session& s) { s.simulation.grab(grab); });
+    softbody::Grab grab{.body = under->body,
+                        .corners = under->corners,
+                        .weights = glm::dvec3(under->weights),
+                        .target = glm::dvec3(under->point)};
+    // The hand is the first world's; the other's holds the same point of the body.
+    if (aim.half == session::Half::second) grab.target = session::held_point(*session.simulated(), grab);
+    ask(requests, [grab](Session& s) { s.simulation.grab(grab); });
     drag_ = Drag::body;
   }
 }
@@ -125,9 +128,13 @@ void SceneMouse::drag(const MouseInput& in, const Aim& aim, const Session& sessi
   drag_length_ += glm::length(in.moved);
   if (drag_length_ >= max_click_length) {  // a click moves nothing
     const auto held = grabbed(session.simulation);
-    if (drag_ == Drag::body && held)
-      ask(requests,
-          [to = on_facing_plane(aim.ray, aim.camera, held->target)](Session& s) { s.simulation.pull_to(to); });
+    if (drag_ == Drag::body && held) {
+      const session::Beside* beside = session.simulation.beside();
+      const glm::dvec3 apart = beside && aim.half == session::Half::second ? beside->hands_apart() : glm::dvec3(0.0);
+      ask(requests, [to = on_facing_plane(aim.ray, aim.camera, held->target + apart) - apart](Session& s) {
+        s.simulation.pull_to(to);
+      });
+    }
     // In another world the solids may be others.
     if (drag_ == Drag::solid && session.simulation.world_number() == held_solid_->world_number) {
       const glm::dvec3 way = on_facing_plane(aim.ray, aim.camera, held_solid_->point) - held_solid_->point;

@@ -86,6 +86,16 @@ TEST_F(BesideTest, LetsDropsThrowsDeletionsAndPullsActInBoth) {
   run(session, 30);
   EXPECT_GT(centre(world(Half::second), 0).y, 3);
   session.simulation.release();
+  run(session, 60);
+  const glm::dvec3 before = centre(world(Half::second), 0);
+  softbody::Grab still{.body = 0};
+  still.target = session::held_point(world(Half::first), still);
+  session.simulation.grab(still);
+  run(session, 1);
+  EXPECT_LT(glm::distance(world(Half::second).grabbed()->target, session::held_point(world(Half::second), still)), 0.2)
+      << "a hand that does not pull pulls nothing in the other half, wherever the body is there";
+  EXPECT_LT(glm::distance(centre(world(Half::second), 0), before), 0.2);
+  session.simulation.release();
   run(session, 1);
   EXPECT_FALSE(world(Half::second).grabbed());
 }

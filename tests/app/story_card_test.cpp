@@ -93,7 +93,6 @@ TEST(StoryCard, SaysWhatMissesCostAndShowsItBesideFromTheStart) {
   EXPECT_EQ(run.true_contacts, figures.totals().true_contacts);
   EXPECT_EQ(cell, second.scene.collision.cell_size->x);
   EXPECT_EQ(price.runs[compare::Price::exact].totals.missed, 0u);
-  rig.session.simulation.set_beside({rig.session.world().scene(), {}});  // another one is there
   rig.frames(3);
   rig.click("See it beside");
   ASSERT_TRUE(rig.session.simulation.beside());

@@ -21,6 +21,12 @@ std::vector<std::uint32_t> numbers(const World& world) {
 
 }  // namespace
 
+glm::dvec3 held_point(const World& world, const softbody::Grab& grab) {
+  glm::dvec3 sum(0.0);
+  for (int i = 0; i < 3; ++i) sum += grab.weights[i] * world.particle(grab.body, grab.corners[std::size_t(i)]).position;
+  return sum;
+}
+
 Beside::Beside(std::unique_ptr<World> second, const World& first, const compare::Difference& difference)
     : world_(std::move(second)), difference_(difference) {
   restart(first);
@@ -66,7 +72,12 @@ void Beside::follow(const World& first) {
 void Beside::step(const World& first) {
   before_last_step_.copy(*world_);
   if (stopped_.empty()) {
-    if (first.grabbed() != world_->grabbed()) world_->grab(first.grabbed());
+    std::optional<softbody::Grab> hand = first.grabbed();
+    if (hand && hand->body >= world_->bodies().count()) hand.reset();
+    if (!hand) hands_apart_.reset();
+    if (hand && !hands_apart_) hands_apart_ = held_point(*world_, *hand) - held_point(first, *hand);
+    if (hand) hand->target += *hands_apart_;
+    if (hand != world_->grabbed()) world_->grab(hand);
     world_->step();
     if (StabilityMonitor::looks_at(*world_))
       if (const auto found = monitor_.check(*world_, softbody::measure_bodies(*world_))) stopped_ = found->what;

@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@
 namespace app::session {
 
 enum class Half { first, second };
+
+/// Returns the point (m) of the body that the hand holds. The world must have this body.
+glm::dvec3 held_point(const softbody::World& world, const softbody::Grab& grab);
 
 /// What these functions throw is for the user. If step(), follow() or restart() throws, the worlds are no longer alike,
 /// and the second one must go.
@@ -56,6 +60,8 @@ class Beside {
   const compare::Difference& difference() const { return difference_; }
   /// Returns why the second world is no longer stepped: the sentence of its blow-up; else empty.
   const std::string& stopped() const { return stopped_; }
+  /// Returns how far (m) the hand in the second world is from that in the first: it holds the same point of the body.
+  glm::dvec3 hands_apart() const { return hands_apart_.value_or(glm::dvec3(0.0)); }
   bool at_rest() const { return !stopped_.empty() || world_->all_at_rest(); }
   const compare::WorldPositions& before_last_step() const { return before_last_step_; }
   /// What a half has cost and missed since the second world began.
@@ -71,7 +77,8 @@ class Beside {
   std::unique_ptr<softbody::World> world_;
   compare::Difference difference_;
   std::string stopped_;
-  std::map<int, Kept> past_;  // by the first world's frame
+  std::map<int, Kept> past_;               // by the first world's frame
+  std::optional<glm::dvec3> hands_apart_;  // while the hand holds a body
   compare::WorldPositions before_last_step_;
   compare::BlowUpMonitor monitor_;
   std::array<compare::RunFigures, 2> figures_;  // by Half
