@@ -117,7 +117,7 @@ open_only() {
   printf 'width = 1280\nheight = 950\n[[section]]\nname = "More"\nopen = true\n' >"$preferences"
   for i in "${!sections[@]}"; do
     open=false
-    [ "${sections[i]}" = "$1" ] && open=true && field=$((602 + 25 * i)) && save=$((field + 4 * 29))
+    [ "${sections[i]}" = "$1" ] && open=true && field=$((627 + 25 * i)) && save=$((field + 4 * 29))
     printf '[[section]]\nname = "%s"\nopen = %s\n' "${sections[i]}" $open
   done >>"$preferences"
 }
@@ -213,7 +213,7 @@ has_another_context() { [ "$(wc -l <"$contexts")" = 2 ] && has_window; }
 export ASAN_OPTIONS="$ASAN_OPTIONS:verify_asan_link_order=0"
 rm -f scene.toml
 open_only Files
-LOST_CONTEXT_LOG=$contexts LD_PRELOAD=$lost_context start --mesh mesh.obj --view 0,1,0,2,0,0
+LOST_CONTEXT_LOG=$contexts LD_PRELOAD=$lost_context start --scene drop --mesh mesh.obj --view 0,1,0,2,0,0
 keys d
 until_true "another context after a reset of the driver" has_another_context
 xdotool windowfocus "$window" 2>/dev/null
