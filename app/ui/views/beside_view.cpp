@@ -87,6 +87,8 @@ float draw_beside(Widgets& w, const Session& session, const UiState& ui, const S
     ImGui::TableNextColumn();
     draw_half(w, session, Half::second, ui.beside_as_ghost ? "Ghost" : "Right");
     ImGui::TableNextColumn();
+    if (w.button("Restart both", "Starts both worlds from the beginning of the scene (R).", buttons))
+      w.ask([](Session& s) { s.simulation.reset(); });
     if (w.button("Close###Close beside", "Ends the second world (A).", buttons))
       w.ask([](Session& s) { s.simulation.toggle_beside(); });
     if (w.checkbox("Ghost", ui.beside_as_ghost, "Draws the second world translucent over the first, not beside it."))
