@@ -26,7 +26,7 @@ const collide::DebugGeometry& DetectionInspector::shown_geometry() const {
 const collide::DebugGeometry& DetectionInspector::paper_geometry() const {
   if (world().method().key == collide::paper_method) return shown_geometry();
   constexpr collide::Index max_moving = 100'000;  // vertices: some 10 ms per picture
-  const bool affordable = !simulation_.moves() || world().bodies().vertex_count() <= max_moving;
+  const bool affordable = !moves(simulation_) || world().bodies().vertex_count() <= max_moving;
   const bool was_refused = affordable && paper_.value.buckets == 0;
   if (paper_.revision == simulation_.revision() && !was_refused) return paper_.value;
   paper_ = {simulation_.revision(), {}};

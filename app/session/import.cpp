@@ -233,7 +233,7 @@ void Import::read(decltype(FileReader::Question::file) file) {
   reading_ = true;
   stage_.clear();
   const softbody::World* now = simulation_.simulated();
-  reader_.offer({std::move(file), simulation_.threads(), joins_ ? nullptr : lone_options,
+  reader_.offer({std::move(file), simulation_.threads, joins_ ? nullptr : lone_options,
                  now ? now->integrator_choice() : softbody::IntegratorChoice{}});
 }
 
@@ -333,13 +333,14 @@ void Import::enter(FileReader::World answer) {
 
 bool Import::can_join() const {
   return !lone_.empty() && simulation_.world().scene().key == lone_.front().mesh.file.path.string() &&
-         simulation_.can_undo();
+         can_undo(simulation_);
 }
 
 void Import::join_scene_before() {
   assert(can_join());
   // What was changed in the lone scene goes first.
-  for (bool leaves = false; !leaves && simulation_.can_undo(); simulation_.undo()) leaves = simulation_.undoes(opening);
+  for (bool leaves = false; !leaves && can_undo(simulation_); undo(simulation_))
+    leaves = simulation_.undo_history().next(Way::back).change == opening;
   std::vector<FileReader::Mesh> meshes = std::exchange(lone_, {});
   dismiss_report();
   for (FileReader::Mesh& mesh : meshes) join(std::move(mesh));

@@ -44,7 +44,7 @@ SceneControls::SceneControls(Simulation& simulation, std::filesystem::path folde
 void SceneControls::choose(const std::string& key_or_path) {
   try {
     softbody::Scene scene = softbody::find_scene(key_or_path, folder_);
-    auto world = make_window_world(scene, {}, simulation_.threads());
+    auto world = make_window_world(scene, {}, simulation_.threads);
     enter(std::move(world), std::move(scene), key_or_path);
   } catch (const std::exception& error) {
     simulation_.notice.set(error.what());

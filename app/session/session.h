@@ -53,7 +53,7 @@ class Session : private SimulationObserver {
   const softbody::BodiesInMotion& world() const { return simulation.world(); }
   /// Returns the inspector of Simulation::edited().
   const DetectionInspector& edited_inspector() const {
-    return &simulation.edited() == &world() ? inspector : inspector_beside;
+    return &edited(simulation) == &world() ? inspector : inspector_beside;
   }
   /// Returns the world if it is simulated; nullptr where recorded frames are played.
   const softbody::World* simulated() const { return simulation.simulated(); }

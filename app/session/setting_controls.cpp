@@ -27,7 +27,7 @@ bool SettingControls::set_method(std::string_view key) {
 
 void SettingControls::next_method(const compare::MethodSet& methods) {
   const auto all = collide::method_table().first(methods.size());
-  const auto here = std::ranges::find(all, simulation_.edited().method().key, &collide::Method::key);
+  const auto here = std::ranges::find(all, edited(simulation_).method().key, &collide::Method::key);
   const auto first = static_cast<std::size_t>(here - all.begin());
   for (std::size_t i = 1; i < all.size(); ++i) {
     const std::size_t next = (first + i) % all.size();

@@ -34,8 +34,8 @@ World& solver(const ShownWorld& shown) {
 
 }  // namespace
 
-Simulation::Simulation(files::Opened opened, int threads, std::string scene_name, SimulationObserver* observer)
-    : observer_(observer ? *observer : none_), threads_(threads), shown_(show_in_window(opened, threads)) {
+Simulation::Simulation(files::Opened opened, int thread_count, std::string scene_name, SimulationObserver* observer)
+    : threads(thread_count), observer_(observer ? *observer : none_), shown_(show_in_window(opened, threads)) {
   const softbody::Scene& scene = opened.scene;
   loaded = {scene, SceneFile(scene_name.empty() ? scene.key : scene_name)};
   if (simulated()) stability_.restart(*simulated());
@@ -107,8 +107,6 @@ bool Simulation::stands_still() const {
   return all_at_rest() && (!as_scripted_ || std::ranges::all_of(world().scene().captions, is_past));
 }
 
-float Simulation::between() const { return moves() ? static_cast<float>(clock.fraction(world().frame_time())) : 1.0f; }
-
 std::string Simulation::caption() const {
   std::string text;
   for (const softbody::Caption& caption : world().scene().captions)
@@ -149,21 +147,16 @@ void Simulation::lead_beside(const std::function<void(Beside&)>& action) {
   }
 }
 
-void Simulation::set_beside(const compare::HowSimulated& second) {
+void Simulation::set_beside(const std::optional<compare::HowSimulated>& second) {
   notice.clear();
   attempt([&] {
+    if (!second) return beside_.reset();
     const World& first = solver(shown_);
-    const compare::Difference difference(how(first), second);
+    const compare::Difference difference(how(first), *second);
     if (beside_) return beside_->differ(first, difference);
     edits = Half::first;
-    beside_.emplace(make_window_world({}, {}, threads_), first, difference);
+    beside_.emplace(make_window_world({}, {}, threads), first, difference);
   });
-  ++revision_;
-}
-
-void Simulation::toggle_beside() {
-  if (!beside_) return set_beside(compare::usual_second(world(), solver(shown_).integrator_choice()));
-  beside_.reset();
   ++revision_;
 }
 
@@ -204,11 +197,11 @@ bool Simulation::carry_out(const std::string& name, bool joins, const std::funct
 }
 
 bool Simulation::change_scene(const std::string& name, const std::function<void(softbody::Scene&)>& change) {
-  softbody::Scene scene = edited().scene();
+  softbody::Scene scene = edited(*this).scene();
   change(scene);
-  if (scene == edited().scene()) return true;
+  if (scene == edited(*this).scene()) return true;
   return carry_out(name, kept_.ends_with(name), [&] {
-    if (&edited() != &world()) {
+    if (&edited(*this) != &world()) {
       beside_->differ(*simulated(), {how(*simulated()), {scene, beside_->world().integrator_choice()}});
       scene = compare::Difference::shared(scene, world().scene());
     }
@@ -222,7 +215,7 @@ bool Simulation::set_integrator(const softbody::IntegratorChoice& choice) {
   if (choice == simulated(edits)->integrator_choice()) return true;
   const std::string name = "Integrator";
   return carry_out(name, kept_.ends_with(name), [&] {
-    if (&edited() == &world())
+    if (&edited(*this) == &world())
       solver(shown_).set_integrator(choice);
     else
       beside_->differ(*simulated(), {how(*simulated()), {beside_->world().scene(), choice}});
@@ -296,8 +289,8 @@ void Simulation::enter(ShownWorld world, LoadedScene scene, std::string name) {
 void Simulation::reset() {
   try {
     const softbody::Scene& scene = world().scene();
-    ShownWorld anew = player() ? show_in_window({scene, player()->recording()}, threads_)
-                               : make_window_world(scene, simulated()->integrator_choice(), threads_);
+    ShownWorld anew = player() ? show_in_window({scene, player()->recording()}, threads)
+                               : make_window_world(scene, simulated()->integrator_choice(), threads);
     enter(std::move(anew), loaded, "reset");
   } catch (const std::exception& error) {
     notice.set(error.what());
@@ -314,7 +307,7 @@ void Simulation::go(Way way) {
   };
   if (there.leaves) {
     const bool arrived = attempt([&] {
-      ShownWorld next = bring_back(there.world, threads_);
+      ShownWorld next = bring_back(there.world, threads);
       arrive();
       leave_for(std::move(next));
     });
@@ -359,6 +352,17 @@ void Simulation::after_going_back() {
   if (simulated()) stability_.went_back(*simulated());
   history.forget_from(world().frame());
   replace(false);
+}
+
+void toggle_beside(Simulation& simulation) {
+  if (simulation.beside()) return simulation.set_beside({});
+  simulation.set_beside(compare::usual_second(simulation.world(), simulation.simulated()->integrator_choice()));
+}
+
+std::string stopped(const Simulation& simulation, Half half) {
+  if (half == Half::second) return simulation.beside()->stopped();
+  const auto& blow_up = simulation.stability().blow_up();
+  return blow_up ? blow_up->what : "";
 }
 
 ShownWorld show_in_window(const files::Opened& opened, int threads) {

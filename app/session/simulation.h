@@ -50,6 +50,7 @@ class Simulation {
   /// The notice begins with it if no input explains the error.
   static constexpr std::string_view defect_prefix = "not enough memory, or a defect of this program: ";
 
+  const int threads;
   SimulationClock clock;
   Notice notice;
   LoadedScene loaded;
@@ -59,40 +60,29 @@ class Simulation {
   bool loop = true;          // what is played begins again after its last frame, and else pauses there
 
   /// scene_name: what the scene is found by; empty: its key. `observer`, if any, must outlive this. Throws SceneError.
-  Simulation(files::Opened opened, int threads, std::string scene_name = "", SimulationObserver* observer = nullptr);
+  Simulation(files::Opened opened, int thread_count, std::string scene_name = "",
+             SimulationObserver* observer = nullptr);
   Simulation(const Simulation&) = delete;
 
-  /// Returns what is shown: one of these two, of which the other is nullptr.
-  const softbody::BodiesInMotion& world() const {
+  /// Returns what a half shows; the first one while there is no second. It simulates or plays: of simulated() and
+  /// player() one is nullptr.
+  const softbody::BodiesInMotion& world(Half half = Half::first) const {
+    if (beside_ && half == Half::second) return beside_->world();
     return std::visit([](const auto& shown) -> const softbody::BodiesInMotion& { return *shown; }, shown_);
   }
-  /// The same, of a half; of the first while there is no second.
-  const softbody::BodiesInMotion& world(Half half) const {
-    return beside_ && half == Half::second ? beside_->world() : world();
-  }
-  const softbody::World* simulated() const { return shown_.index() == 0 ? std::get<0>(shown_).get() : nullptr; }
-  const softbody::World* simulated(Half half) const {
-    return beside_ && half == Half::second ? &beside_->world() : simulated();
+  const softbody::World* simulated(Half half = Half::first) const {
+    if (beside_ && half == Half::second) return &beside_->world();
+    return shown_.index() == 0 ? std::get<0>(shown_).get() : nullptr;
   }
   const Player* player() const { return shown_.index() == 1 ? std::get<1>(shown_).get() : nullptr; }
-  int threads() const { return threads_; }
   /// Returns the second world, if there is one: only beside one that is simulated.
   const Beside* beside() const { return beside_ ? &*beside_ : nullptr; }
-  /// Lets a second world go on from the present state, or differ so from now on.
-  void set_beside(const compare::HowSimulated& second);
-  /// Ends the second world, or begins one with compare::usual_second().
-  void toggle_beside();
-  /// Returns why a half of two is no longer stepped: the sentence of its blow-up; else empty.
-  std::string stopped(Half half) const {
-    if (half == Half::second) return beside_->stopped();
-    return stability_.blow_up() ? stability_.blow_up()->what : "";
-  }
+  /// Lets a second world go on from the present state, or differ so from now on, or ends it (nothing).
+  void set_beside(const std::optional<compare::HowSimulated>& second);
   /// Counts what the oracle saw in a half, if there are two.
   void count(Half half, const collide::oracle::SurfaceFigures& seen) {
     if (beside_) beside_->add(half, seen);
   }
-  /// Returns the world whose settings are changed.
-  const softbody::BodiesInMotion& edited() const { return world(edits); }
 
   // Time. The world moves in whole frames.
   /// Takes the steps that are due, now that `elapsed` seconds of real time have passed.
@@ -101,11 +91,7 @@ class Simulation {
   void advance_one(double elapsed, bool allowed);
   /// How long (ms) the last step took, the observer's work with it.
   double step_ms() const { return step_ms_; }
-  const compare::WorldPositions& before_last_step() const { return before_last_step_; }
-  /// How far a picture is on the way from before_last_step() to the present, 0 .. 1: below 1 only in slow motion, which
-  /// would jerk otherwise.
-  float between() const;
-  const compare::WorldPositions& before_last_step(Half half) const {
+  const compare::WorldPositions& before_last_step(Half half = Half::first) const {
     return beside_ && half == Half::second ? beside_->before_last_step() : before_last_step_;
   }
   /// The scene's sentence for this moment. Empty if there is none, or the user changed bodies.
@@ -117,8 +103,6 @@ class Simulation {
     if (!beside_) return world().all_at_rest();
     return (stability_.blow_up() || world().all_at_rest()) && beside_->at_rest();
   }
-  /// Returns true if bodies move from picture to picture.
-  bool moves() const { return !clock.paused && !all_at_rest(); }
   /// Returns true if advance() takes no step: the world is paused, or steps would change nothing but the number of the
   /// frame. All bodies have then been at rest for as long as curves last, and no caption is still to come.
   bool stands_still() const;
@@ -144,15 +128,12 @@ class Simulation {
   /// Restarts with the scene in use, without added bodies. On an error the present world goes on.
   void reset();
 
-  /// Return true if there is a world to go to, to the bit: one before a change, a reset or a choice of scene; or one
-  /// that was left by undo(), until the next such change.
-  bool can_undo() const { return !kept_.empty(Way::back); }
-  bool can_redo() const { return !kept_.empty(Way::forward); }
-  /// Returns true if undo() takes back a change of this name.
-  bool undoes(std::string_view change) const { return can_undo() && kept_.next(Way::back).change == change; }
-  /// Go there; the notice says what was undone. They stay where they are, with an error, if there is too little memory.
-  void undo() { go(Way::back); }
-  void redo() { go(Way::forward); }
+  /// Returns the worlds to go to, to the bit: those before a change, a reset or a choice of scene; and those that were
+  /// left by going back, until the next such change.
+  const UndoHistory& undo_history() const { return kept_; }
+  /// Goes to the next world of the history; the notice says what was undone or redone. Stays where it is, with an
+  /// error, if there is none or too little memory.
+  void go(Way way);
   const StabilityMonitor& stability() const { return stability_; }
   /// Goes to the last snapshot of stability().past() that is not after `frame`, or to this frame if it is played, and
   /// pauses. Settings stay.
@@ -166,7 +147,6 @@ class Simulation {
   bool carry_out(const std::string& name, bool joins, const std::function<bool()>& change);
   void replace(bool new_scene);
   void leave_for(ShownWorld next);
-  void go(Way way);
   void after_going_back();
   bool step(softbody::World& world);
   bool step(Player& player);
@@ -174,7 +154,6 @@ class Simulation {
 
   SimulationObserver none_;
   SimulationObserver& observer_;
-  int threads_;
   ShownWorld shown_;
   std::optional<Beside> beside_;
   UndoHistory kept_;
@@ -192,6 +171,28 @@ class Simulation {
 inline std::optional<softbody::Grab> grabbed(const Simulation& simulation) {
   return simulation.simulated() ? simulation.simulated()->grabbed() : std::nullopt;
 }
+
+// What undo and redo can do, and do.
+inline bool can_undo(const Simulation& simulation) { return !simulation.undo_history().empty(Way::back); }
+inline bool can_redo(const Simulation& simulation) { return !simulation.undo_history().empty(Way::forward); }
+inline void undo(Simulation& simulation) { simulation.go(Way::back); }
+inline void redo(Simulation& simulation) { simulation.go(Way::forward); }
+
+/// Returns true if bodies move from picture to picture.
+inline bool moves(const Simulation& simulation) { return !simulation.clock.paused && !simulation.all_at_rest(); }
+/// Returns how far a picture is on the way from before_last_step() to the present, 0 .. 1: below 1 only in slow motion,
+/// which would jerk otherwise.
+inline float between(const Simulation& simulation) {
+  return moves(simulation) ? static_cast<float>(simulation.clock.fraction(simulation.world().frame_time())) : 1.0f;
+}
+/// Returns the world whose settings are changed.
+inline const softbody::BodiesInMotion& edited(const Simulation& simulation) {
+  return simulation.world(simulation.edits);
+}
+/// Ends the second world, or begins one with compare::usual_second(). A world must be simulated.
+void toggle_beside(Simulation& simulation);
+/// Returns why a half of two is no longer stepped: the sentence of its blow-up; else empty.
+std::string stopped(const Simulation& simulation, Half half);
 
 /// Returns what shows a scene, or plays frames, in a window. Throws SceneError.
 ShownWorld show_in_window(const files::Opened& opened, int threads);

@@ -125,7 +125,7 @@ class Demo {
     const glm::ivec2 size = window_size();
     graphics_->window.wait_for_context_reset();
     graphics_.reset();  // one window at a time
-    graphics_ = std::make_unique<Graphics>(size, session_.simulation.threads());
+    graphics_ = std::make_unique<Graphics>(size, session_.simulation.threads);
     drawn_.reset();
     recreated_at_ = now();
     session_.simulation.notice.set("the graphics driver was reset: the window was made anew, nothing else was lost");
@@ -362,7 +362,7 @@ class Demo {
   bool draw_scene(const ScenePicture& scene, const engine::Viewport& viewport) {
     if (viewport.size.x <= 0 || viewport.size.y <= 0) return false;
     const bool changed = drawn_ != scene;
-    const bool moving = changed || session_.simulation.moves();
+    const bool moving = changed || moves(session_.simulation);
     const bool fine = !moving || session_.exporter.wants_shown_picture();
     graphics_->canvas.update(viewport.size, changed, fine, [&](const engine::Viewport& whole) {
       ScenePicture stretched = scene;

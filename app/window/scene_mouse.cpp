@@ -32,7 +32,7 @@ glm::dvec3 on_facing_plane(const engine::Ray& ray, const engine::Camera& camera,
 }  // namespace
 
 render::DrawnPositions positions_under_mouse(const Session& session, session::Half half) {
-  return drawn_meshes(session, session.simulation.between(), half).shown;
+  return drawn_meshes(session, between(session.simulation), half).shown;
 }
 
 void focus_on(softbody::BodyId body, const Session& session, engine::Camera& camera, glm::ivec2 size) {

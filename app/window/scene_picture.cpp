@@ -44,7 +44,7 @@ ScenePicture scene_picture(const Session& session, const ui::UiState& ui, const 
   if (picture.shown.true_surfaces) picture.surfaces = session.surfaces.reports() + session.surfaces_beside.reports();
   // What is found out about the present state is drawn with the bodies in it.
   const bool of_present = render::shows(picture.shown, render::OverlayBasis::present) || picture.bucket;
-  picture.between = of_present ? 1.0f : session.simulation.between();
+  picture.between = of_present ? 1.0f : between(session.simulation);
   picture.camera = camera;
   picture.scale = scale;
   return picture;

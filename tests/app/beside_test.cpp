@@ -54,7 +54,8 @@ TEST_F(BesideTest, MovesBothHalvesAsTheyWouldMoveAlone) {
 
 TEST_F(BesideTest, IsTheSameToTheBitWithoutADifferenceAndGoesOnFromAnyFrame) {
   run(session, 20);
-  session.simulation.set_beside({session.world().scene(), session.simulated()->integrator_choice()});
+  session.simulation.set_beside(
+      compare::HowSimulated{session.world().scene(), session.simulated()->integrator_choice()});
   run(session, 60);
   EXPECT_EQ(hash(Half::first), hash(Half::second));
   EXPECT_EQ(totals(Half::second).frames, 60);
@@ -113,7 +114,7 @@ TEST_F(BesideTest, ForgetsMissedContactsWhenVerticesHaveOtherNumbers) {
   session.simulation.clock.single_step();
   session.advance(tick);
   ASSERT_EQ(world(Half::second).bodies().count(), 1u);
-  session.simulation.undo();
+  undo(session.simulation);
   EXPECT_TRUE(missed.empty());
 }
 
@@ -124,7 +125,7 @@ TEST_F(BesideTest, ForgetsWhatTheOracleSawInASecondWorldThatHasEnded) {
     session.advance(tick);
     return session.surfaces_beside.report().id != 0;
   }));
-  session.simulation.toggle_beside();
+  toggle_beside(session.simulation);
   session.surfaces_beside.on = false;  // as carry_out() does
   session.advance(tick);
   EXPECT_EQ(session.surfaces_beside.report().id, 0u);
@@ -136,11 +137,11 @@ TEST_F(BesideTest, GoesBackAndForthWithTheFirst) {
   const std::uint64_t first = hash(Half::first), second = hash(Half::second);
   session.bodies.drop();
   run(session, 20);
-  session.simulation.undo();
+  undo(session.simulation);
   EXPECT_EQ(hash(Half::first), first);
   EXPECT_EQ(hash(Half::second), second);
   EXPECT_EQ(totals(Half::second).frames, 30) << "figures go back, too";
-  session.simulation.redo();
+  redo(session.simulation);
   expect_same_numbers();
   session.simulation.rewind_to(30);
   EXPECT_EQ(world(Half::second).frame(), session.world().frame());
@@ -174,7 +175,7 @@ TEST_F(BesideTest, ChangesOnlyTheHalfWhoseSettingsAreEdited) {
   EXPECT_EQ(world(Half::second).scene().gravity.y, -1);
   EXPECT_EQ(world(Half::first).integrator_choice(), softbody::IntegratorChoice{});
   EXPECT_EQ(world(Half::second).integrator_choice().key, "rk4");
-  session.simulation.undo();
+  undo(session.simulation);
   EXPECT_EQ(world(Half::second).integrator_choice(), softbody::IntegratorChoice{});
   session.simulation.edits = Half::first;
   set_level(4);
@@ -188,7 +189,7 @@ TEST_F(BesideTest, StopsTheHalfThatBlowsUpAlone) {
     Session two(stiff, {}, 1);
     const softbody::IntegratorChoice good, bad{"explicit-euler", 1};
     two.settings.set_integrator(unstable == Half::first ? bad : good);
-    two.simulation.set_beside({stiff, unstable == Half::first ? good : bad});
+    two.simulation.set_beside(compare::HowSimulated{stiff, unstable == Half::first ? good : bad});
     run(two, 120);
     const auto frame = [&](Half half) { return two.simulation.world(half).frame(); };
     const Half stable = unstable == Half::first ? Half::second : Half::first;
@@ -208,10 +209,10 @@ TEST_F(BesideTest, IsAtRestWhenBothHalvesHaveStopped) {
   stiff.materials[0][softbody::StructuralSprings::stiffness] = 20'000;
   Session two(stiff, {}, 1);
   two.settings.set_integrator({"explicit-euler", 1});
-  two.simulation.set_beside({stiff, {"explicit-euler", 2}});
+  two.simulation.set_beside(compare::HowSimulated{stiff, {"explicit-euler", 2}});
   run(two, 120);
-  ASSERT_FALSE(two.simulation.stopped(Half::first).empty());
-  ASSERT_FALSE(two.simulation.stopped(Half::second).empty());
+  ASSERT_FALSE(stopped(two.simulation, Half::first).empty());
+  ASSERT_FALSE(stopped(two.simulation, Half::second).empty());
   EXPECT_TRUE(two.simulation.all_at_rest());
 }
 
@@ -223,7 +224,7 @@ TEST_F(BesideTest, LetsBodiesComeIntoTheHalfThatGoesOn) {
   scene.bodies.back().appear = 100;
   Session two(scene, {}, 1);
   two.settings.set_integrator({"explicit-euler", 1});
-  two.simulation.set_beside({scene, {}});
+  two.simulation.set_beside(compare::HowSimulated{scene, {}});
   run(two, 120);
   const auto bodies = [&](Half half) { return two.simulation.world(half).bodies().count(); };
   ASSERT_EQ(bodies(Half::first), 2u);
@@ -250,7 +251,7 @@ TEST_F(BesideTest, IsRefusedWhereItsIntegratorCannotMoveTheBodies) {
   softbody::Scene scene = touching_pair();
   scene.bodies[0].mesh.subdivisions = 4;
   Session large(scene, {}, 1);
-  large.simulation.set_beside({scene, {"implicit", {}}});
+  large.simulation.set_beside(compare::HowSimulated{scene, {"implicit", {}}});
   EXPECT_FALSE(large.simulation.beside());
   EXPECT_NE(large.simulation.notice.text().find("too large a matrix"), std::string::npos)
       << large.simulation.notice.text();
@@ -288,7 +289,7 @@ TEST(BesidePanel, BeginsAndEndsTheSecondWorldAndChoosesWhoseSettingsItShows) {
   EXPECT_TRUE(rig.ui.beside_as_ghost);
   rig.click("Close beside");
   EXPECT_FALSE(rig.session.simulation.beside());
-  rig.session.simulation.toggle_beside();
+  toggle_beside(rig.session.simulation);
   EXPECT_EQ(rig.session.simulation.edits, Half::first);
 }
 

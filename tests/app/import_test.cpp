@@ -108,14 +108,14 @@ TEST_F(ImportTest, OpensAMeshAloneOnTheGroundLargeInTheMiddle) {
   session.bodies.drop();
   EXPECT_EQ(session.world().bodies().count(), 2u) << "another one of its kind";
   EXPECT_EQ(&session.world().model(1), &session.world().model(0));
-  session.simulation.undo();
-  session.simulation.undo();
+  undo(session.simulation);
+  undo(session.simulation);
   EXPECT_EQ(session.world().scene().key, "pair");
   EXPECT_EQ(session.world().frame(), 5) << "the scene before is back";
 }
 
 TEST_F(ImportTest, SaysThatAMeshHasJoinedThoughItEndsTheSecondHalf) {
-  session.simulation.set_beside({session.world().scene(), {"implicit", {}}});
+  session.simulation.set_beside(compare::HowSimulated{session.world().scene(), {"implicit", {}}});
   ASSERT_TRUE(session.simulation.beside());
   import.resolution = 1500;
   join(folder.write("fine.obj", obj_of({.rows = 60, .columns = 60})));
@@ -143,7 +143,7 @@ TEST_F(ImportTest, LetsAMeshJoinTheSceneBeforeItsOwn) {
   import.join_scene_before();
   EXPECT_EQ(session.world().bodies().count(), 5u);
   drop({ball.string()});
-  session.simulation.undo();
+  undo(session.simulation);
   EXPECT_FALSE(import.can_join()) << "its scene was left";
   drop({folder.write("lone.toml", "[[body]]\n").string(), ball.string()});
   EXPECT_EQ(session.world().scene().key, "lone");
@@ -225,7 +225,7 @@ TEST_F(ImportTest, SharesMaterialsAndRemovesMeshesAtAReset) {
   EXPECT_EQ(session.simulation.notice.text(), "");
   run(session, 6);
   EXPECT_EQ(session.world().bodies().count(), 2u);
-  session.simulation.undo();
+  undo(session.simulation);
   EXPECT_EQ(session.world().bodies().count(), 4u);
 }
 
@@ -254,7 +254,7 @@ TEST_F(ImportTest, ReplacesTheSceneWhichRunsMeanwhile) {
   EXPECT_EQ(session.world().bodies().count(), 1u);
   EXPECT_FALSE(refused());
   EXPECT_EQ(report(), "scene lone.toml\n");
-  session.simulation.undo();
+  undo(session.simulation);
   EXPECT_EQ(session.world().bodies().count(), 2u);
 }
 
@@ -351,8 +351,8 @@ TEST_F(ImportTest, AsksWhetherMeshesWithTheSameVerticesAreFramesToPlay) {
   drop(files);
   EXPECT_EQ(import.question(), "") << "no body could join a recording";
   EXPECT_EQ(session.world().positions().z[3], 1.0f);
-  session.simulation.undo();
-  session.simulation.undo();
+  undo(session.simulation);
+  undo(session.simulation);
   EXPECT_TRUE(session.simulated());
   drop({files[0], files[1], scene});
   import.import_each();

@@ -281,7 +281,7 @@ TEST(Layout, KeepsLegendsWithinTheirArea) {
     PanelRig rig(scale);
     for (const render::OverlayRow& row : render::overlay_table) rig.ui.overlays.*row.shown = true;
     rig.change([](softbody::Scene& s) { s.contact_surface = softbody::ContactSurface::surfaces; });
-    rig.session.simulation.toggle_beside();
+    toggle_beside(rig.session.simulation);
     rig.frames(3);
     const auto expect_lines_end_before = [&](float x) {
       for (const ui::WidgetRecorder::Widget& line : rig.recorder.widgets)

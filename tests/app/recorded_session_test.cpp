@@ -49,7 +49,7 @@ TEST_F(RecordedSession, RunsAsFastAsItIsTold) {
   simulation.clock.speed = 0.25;
   run(session, 6);
   EXPECT_EQ(frame(), 1);
-  EXPECT_NEAR(simulation.between(), 0.5, 0.01) << "pictures between two frames";
+  EXPECT_NEAR(between(simulation), 0.5, 0.01) << "pictures between two frames";
   simulation.clock.slow_motion = true;  // a tenth of that
   run(session, 20);
   EXPECT_EQ(frame(), 2);
@@ -117,7 +117,7 @@ TEST_F(RecordedSession, IsResetAndComesBackByUndo) {
   simulation.reset();
   EXPECT_EQ(frame(), 0);
   EXPECT_EQ(session.world().method().key, "grid-hash");
-  simulation.undo();
+  undo(simulation);
   EXPECT_EQ(frame(), 6);
   EXPECT_EQ(session.world().detection().contacts, true_contacts(session.world()));
   const softbody::Scene pair = touching_pair();
@@ -125,7 +125,7 @@ TEST_F(RecordedSession, IsResetAndComesBackByUndo) {
   EXPECT_TRUE(session.simulated());
   EXPECT_EQ(balls->releases, 1) << "undo keeps the recording, but not what it has read";
   EXPECT_EQ(simulation.clock.speed, 1);
-  simulation.undo();
+  undo(simulation);
   EXPECT_EQ(frame(), 6);
   EXPECT_FALSE(session.simulated());
 }
@@ -137,17 +137,17 @@ TEST_F(RecordedSession, TakesBackASettingAndStaysAtItsFrame) {
   EXPECT_EQ(session.world().detection().contacts, true_contacts(session.world()));
   EXPECT_EQ(session.inspector.shown_geometry().buckets, session.world().collision().buckets);
   simulation.rewind_to(7);
-  simulation.undo();
+  undo(simulation);
   EXPECT_EQ(session.world().method().key, before);
   EXPECT_EQ(frame(), 7);
   EXPECT_EQ(session.world().detection().contacts, true_contacts(session.world()));
-  simulation.redo();
+  redo(simulation);
   EXPECT_EQ(session.world().method().key, "grid-hash");
 }
 
 TEST_F(RecordedSession, EndsTheSecondWorldOfTheSceneBefore) {
   Session other(touching_pair(), {}, 1);
-  other.simulation.toggle_beside();
+  toggle_beside(other.simulation);
   ASSERT_TRUE(other.simulation.beside());
   other.scenes.enter(session::show_in_window(opened(balls), 1), opened(balls).scene, "balls");
   EXPECT_FALSE(other.simulation.beside());

@@ -140,7 +140,7 @@ TEST(SaveScene, WritesAddedBodiesWithTheirFrames) {
   session.bodies.select(session.simulated()->added()[1].body);
   session.bodies.remove_selected();
   EXPECT_EQ(session.scenes.with_added_bodies().bodies.size(), begin + 3);
-  session.simulation.undo();
+  undo(session.simulation);
   EXPECT_EQ(session.scenes.with_added_bodies().bodies.size(), begin + 4);
   session.simulation.reset();
   EXPECT_EQ(session.scenes.with_added_bodies().bodies.size(), begin);

@@ -195,20 +195,20 @@ TEST_F(SceneMouseTest, GrabsPullsAndThrows) {
   frame(10);
   EXPECT_LT(body_pixel(1).x, at_release.x - 10);  // the body flies on
   EXPECT_EQ(session.bodies.selected(), 1u);
-  session.simulation.undo();
+  undo(session.simulation);
   EXPECT_EQ(session.simulated()->state_hash(), before);
-  EXPECT_FALSE(session.simulation.can_undo()) << "it was one change";
+  EXPECT_FALSE(can_undo(session.simulation)) << "it was one change";
 }
 
 TEST_F(SceneMouseTest, ChangesNothingByAClickOnABody) {
   session.bodies.drop();
-  session.simulation.undo();
-  ASSERT_TRUE(session.simulation.can_redo());
+  undo(session.simulation);
+  ASSERT_TRUE(can_redo(session.simulation));
   move(body_pixel(1));
   drag({2, 1});
   EXPECT_EQ(session.bodies.selected(), 1u);
-  EXPECT_FALSE(session.simulation.can_undo());
-  EXPECT_TRUE(session.simulation.can_redo());
+  EXPECT_FALSE(can_undo(session.simulation));
+  EXPECT_TRUE(can_redo(session.simulation));
 }
 
 softbody::Scene with_solids() {
@@ -259,9 +259,9 @@ TEST_F(SolidDrag, MovesEachKindOfSolidInThePlaneThatFacesTheCamera) {
     EXPECT_EQ(camera.orbit().azimuth, orbit.azimuth);
     for (std::size_t k = 0; k < others.size(); ++k)
       EXPECT_EQ(session.world().scene().solids[k] == others[k], k != i) << k;
-    session.simulation.undo();
+    undo(session.simulation);
     EXPECT_EQ(place(i), before);
-    EXPECT_FALSE(session.simulation.can_undo()) << "one step a drag";
+    EXPECT_FALSE(can_undo(session.simulation)) << "one step a drag";
   }
 }
 
@@ -290,7 +290,7 @@ TEST_F(SolidDrag, OpensTheSectionOfTheSolidAndChangesNothingByAClick) {
   EXPECT_EQ(ui.solid, 0u);
   EXPECT_TRUE(ui.sections.at("Solids") && ui.sections.at("More"));
   EXPECT_EQ(place(0), glm::dvec3(-1.5, 1.5, 0));
-  EXPECT_FALSE(session.simulation.can_undo());
+  EXPECT_FALSE(can_undo(session.simulation));
   EXPECT_FALSE(session.bodies.selected()) << "as a click beside the bodies";
 }
 
@@ -299,12 +299,12 @@ TEST_F(SolidDrag, LeavesTheGroundAndSolidsThatAreSwitchedOff) {
     move(pixel_of(camera, at));
     EXPECT_FALSE(mouse.can_drag());
     const std::vector<softbody::Solid> before = session.world().scene().solids;
-    const bool could_undo = session.simulation.can_undo();
+    const bool could_undo = can_undo(session.simulation);
     const float azimuth = camera.orbit().azimuth;
     drag({60, 0});
     EXPECT_NE(camera.orbit().azimuth, azimuth);
     EXPECT_TRUE(session.world().scene().solids == before);
-    EXPECT_EQ(session.simulation.can_undo(), could_undo);
+    EXPECT_EQ(can_undo(session.simulation), could_undo);
     camera = camera_at({0, 3, 0}, 8);
   };
   expect_orbit({0, 0, 1});
@@ -335,11 +335,11 @@ TEST_F(SolidDrag, EndsWhenAnotherWorldComes) {
   move(pixel_of(camera, middles[0]));
   button(0, true);
   move(input.at + glm::vec2(40, 0));
-  session.simulation.undo();
+  undo(session.simulation);
   move(input.at + glm::vec2(40, 0));
   EXPECT_EQ(place(0), glm::dvec3(-1.5, 1.5, 0));
   button(0, false);
-  EXPECT_FALSE(session.simulation.can_undo());
+  EXPECT_FALSE(can_undo(session.simulation));
 }
 
 TEST_F(SceneMouseTest, OrbitsByADragOfTheBackgroundAndDeselectsByAClick) {

@@ -37,7 +37,7 @@ TEST_F(ScenePictureTest, ChangesWithAllThatItShows) {
       [&] { ui.overlays.missed = true; },
       [&] { session.comparison.choice.misses_of = compare::method_index("octree"); },
       [&] { session.simulation.grab({.body = 0}); },
-      [&] { session.simulation.toggle_beside(); },
+      [&] { toggle_beside(session.simulation); },
       [&] { ui.line = 0.4f; },
       [&] { ui.beside_as_ghost = true; },
       [&] { ui.tour.start(session, ui.overlays), ui.tour.update(session); },

@@ -54,22 +54,22 @@ TEST_F(SimulationTest, TakesTheStepsOfItsWorldToTheBit) {
 }
 
 TEST_F(SimulationTest, InterpolatesSlowMotionBetweenTwoSteps) {
-  EXPECT_EQ(simulation.between(), 1.0f);
+  EXPECT_EQ(between(simulation), 1.0f);
   simulation.clock.slow_motion = true;
   simulation.clock.slow_factor = 0.25;
   float last = -1;
   for (int i = 0; i < 3; ++i) {
     run(simulation, 1);
-    EXPECT_GT(simulation.between(), last);
-    EXPECT_LT(simulation.between(), 1.0f);
-    last = simulation.between();
+    EXPECT_GT(between(simulation), last);
+    EXPECT_LT(between(simulation), 1.0f);
+    last = between(simulation);
   }
   const float height = simulation.world().positions().y[0];
   run(simulation, 1);
-  EXPECT_LT(simulation.between(), last);
+  EXPECT_LT(between(simulation), last);
   EXPECT_EQ(simulation.before_last_step().shown().y[0], height);
   simulation.clock.paused = true;
-  EXPECT_EQ(simulation.between(), 1.0f);
+  EXPECT_EQ(between(simulation), 1.0f);
 }
 
 TEST_F(SimulationTest, CountsTheTimeOfItsObserverAsPartOfAStep) {
@@ -190,20 +190,20 @@ TEST_F(SimulationUndo, TakesBackSettingsLikeBodies) {
   set_gravity(1.5);
   controls.set_integrator({.key = "rk4"});
   run(simulation, 5);
-  simulation.undo();
+  undo(simulation);
   EXPECT_EQ(simulation.notice.text(), "Undone: Integrator");
   EXPECT_EQ(simulation.simulated()->integrator_choice(), softbody::IntegratorChoice());
   EXPECT_EQ(gravity(), 1.5);
-  simulation.undo();
+  undo(simulation);
   EXPECT_EQ(gravity(), 9.81);
   EXPECT_EQ(simulation.world().method().key, "grid-hash");
-  simulation.undo();
+  undo(simulation);
   EXPECT_EQ(simulation.world().method().key, collide::default_method);
   EXPECT_EQ(count(), 3u);
-  simulation.undo();
+  undo(simulation);
   EXPECT_EQ(hash(), before);
-  EXPECT_FALSE(simulation.can_undo());
-  for (int i = 0; i < 4; ++i) simulation.redo();
+  EXPECT_FALSE(can_undo(simulation));
+  for (int i = 0; i < 4; ++i) redo(simulation);
   EXPECT_EQ(count(), 3u);
   EXPECT_EQ(simulation.world().method().key, "grid-hash");
   EXPECT_EQ(gravity(), 1.5);
@@ -220,17 +220,17 @@ TEST_F(SimulationUndo, TakesChangesOfOneSettingThatFollowEachOtherAsOne) {
   drag_gravity();
   simulation.change_scene("Level", [](softbody::Scene& scene) { scene.collision.levels = 6; });
   set_gravity(7);
-  simulation.undo();
+  undo(simulation);
   EXPECT_EQ(gravity(), 5);
   drag_gravity();
-  simulation.undo();
+  undo(simulation);
   EXPECT_EQ(gravity(), 5) << "what follows an undone change is a step of its own";
-  simulation.undo();
+  undo(simulation);
   EXPECT_EQ(simulation.world().collision().levels, 3);
-  simulation.undo();
+  undo(simulation);
   EXPECT_EQ(gravity(), 9.81);
   EXPECT_EQ(simulation.world().frame(), 0);
-  EXPECT_FALSE(simulation.can_undo());
+  EXPECT_FALSE(can_undo(simulation));
 }
 
 TEST_F(SimulationUndo, IgnoresWhatIsRefused) {
@@ -242,7 +242,7 @@ TEST_F(SimulationUndo, IgnoresWhatIsRefused) {
   bodies.throw_body({0, 0, 0}, {0, 0, -1});  // from inside the solid sphere
   EXPECT_EQ(count(), 2u);
   EXPECT_NE(simulation.notice.text().find("no room"), std::string::npos) << simulation.notice.text();
-  EXPECT_FALSE(simulation.can_undo());
+  EXPECT_FALSE(can_undo(simulation));
 }
 
 TEST_F(SimulationUndo, BringsBackTheSettingsOfAWorldThatWasLeftForAnotherScene) {
@@ -258,7 +258,7 @@ TEST_F(SimulationUndo, BringsBackTheSettingsOfAWorldThatWasLeftForAnotherScene) 
   simulation.enter(session::make_window_world(other, {}, 1), {other, session::SceneFile("other")}, "choice of scene");
   run(simulation, 5);
   ASSERT_EQ(count(), 1u);
-  simulation.undo();
+  undo(simulation);
   EXPECT_EQ(simulation.loaded.scene.bodies.size(), 2u);
   EXPECT_EQ(simulation.world().method().key, "grid-hash");
   EXPECT_EQ(simulation.simulated()->integrator_choice(), undisturbed.simulated()->integrator_choice());
@@ -279,38 +279,38 @@ TEST_F(SimulationUndo, GoesThereAndBackToTheBit) {
   EXPECT_EQ(simulation.world().body(0).number, 1u) << "the body that is left keeps its colour";
   run(simulation, 5);
   hashes.push_back(hash());
-  EXPECT_FALSE(simulation.can_redo());
+  EXPECT_FALSE(can_redo(simulation));
   for (int round = 0; round < 2; ++round) {
     for (std::size_t i = hashes.size() - 1; i-- > 0;) {
-      simulation.undo();
+      undo(simulation);
       EXPECT_EQ(hash(), hashes[i]) << i;
     }
     EXPECT_EQ(simulation.notice.text(), "Undone: drop of 3 bodies");
-    EXPECT_FALSE(simulation.can_undo());
-    simulation.undo();
+    EXPECT_FALSE(can_undo(simulation));
+    undo(simulation);
     EXPECT_EQ(simulation.notice.text(), "Nothing to undo");
     for (std::size_t i = 1; i < hashes.size(); ++i) {
-      ASSERT_TRUE(simulation.can_redo());
-      simulation.redo();
+      ASSERT_TRUE(can_redo(simulation));
+      redo(simulation);
       EXPECT_EQ(hash(), hashes[i]) << i;
     }
     EXPECT_EQ(simulation.notice.text(), "Redone: deletion of a body");
-    EXPECT_FALSE(simulation.can_redo());
+    EXPECT_FALSE(can_redo(simulation));
   }
   run(simulation, 20);
   const std::uint64_t later = hash();
-  simulation.undo();
-  simulation.redo();
+  undo(simulation);
+  redo(simulation);
   EXPECT_EQ(hash(), later) << "the world as it was left";
 }
 
 TEST_F(SimulationUndo, LeavesNothingToRedoAfterANewChange) {
   bodies.drop();
-  simulation.undo();
-  ASSERT_TRUE(simulation.can_redo());
+  undo(simulation);
+  ASSERT_TRUE(can_redo(simulation));
   bodies.drop(2);
-  EXPECT_FALSE(simulation.can_redo());
-  simulation.redo();
+  EXPECT_FALSE(can_redo(simulation));
+  redo(simulation);
   EXPECT_EQ(simulation.notice.text(), "Nothing to redo");
   EXPECT_EQ(count(), 4u);
 }
@@ -318,7 +318,7 @@ TEST_F(SimulationUndo, LeavesNothingToRedoAfterANewChange) {
 TEST_F(SimulationUndo, TakesAPullAsOneChangeAfterTheDropThatCameDuringIt) {
   simulation.grab({.body = 1, .target = {0.5, 3, 0}});
   run(simulation, 3);
-  EXPECT_FALSE(simulation.can_undo()) << "a click pulls nothing";
+  EXPECT_FALSE(can_undo(simulation)) << "a click pulls nothing";
   bodies.drop();
   const std::uint64_t dropped = hash();
   EXPECT_TRUE(simulation.simulated()->grabbed()) << "a drop does not make the hand let go";
@@ -329,13 +329,13 @@ TEST_F(SimulationUndo, TakesAPullAsOneChangeAfterTheDropThatCameDuringIt) {
   simulation.release();
   run(simulation, 10);
   const std::uint64_t thrown = hash();
-  simulation.undo();
+  undo(simulation);
   EXPECT_EQ(simulation.notice.text(), "Undone: pull of a body");
   EXPECT_EQ(hash(), dropped);
-  simulation.redo();
+  redo(simulation);
   EXPECT_EQ(hash(), thrown);
-  simulation.undo();
-  simulation.undo();
+  undo(simulation);
+  undo(simulation);
   EXPECT_EQ(count(), 2u);
   EXPECT_EQ(simulation.world().frame(), 3);
   EXPECT_FALSE(simulation.simulated()->grabbed()) << "nobody would let go";
@@ -353,20 +353,20 @@ TEST_F(SimulationUndo, TakesADragOfASolidAsOneChange) {
   const std::vector<softbody::Solid> dragged = solids();
   EXPECT_NEAR(shape_of<softbody::SolidSphere>(simulation.world().scene()).centre.x, 0.5, 1e-12);
   set_gravity(3);
-  simulation.undo();
+  undo(simulation);
   EXPECT_EQ(gravity(), 9.81);
   EXPECT_TRUE(solids() == dragged);
-  simulation.undo();
+  undo(simulation);
   EXPECT_EQ(simulation.notice.text(), "Undone: change of Sphere");
-  EXPECT_FALSE(simulation.can_undo());
+  EXPECT_FALSE(can_undo(simulation));
   EXPECT_EQ(hash(), before);
   EXPECT_TRUE(solids() == at_first);
-  simulation.redo();
+  redo(simulation);
   simulation.reset();
   EXPECT_TRUE(solids() == dragged) << "a reset keeps them";
   controls.set_solid(0, at_first[0]);
   bodies.drop();
-  simulation.undo();
+  undo(simulation);
   EXPECT_TRUE(solids() == at_first) << "the undo of a drop moves no solid";
 }
 

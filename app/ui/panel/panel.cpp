@@ -51,9 +51,9 @@ void draw_actions(Widgets& w, const Session& session) {
   button("Reset", "Restarts the scene with the present settings and without added bodies (R).", true,
          [](Session& s) { s.simulation.reset(); });
   button("Undo", "Undoes the last change of a body, a setting or the scene, or a reset (Ctrl+Z).",
-         session.simulation.can_undo(), [](Session& s) { s.simulation.undo(); });
-  button("Redo", "Brings back what the last undo took away (Ctrl+Y).", session.simulation.can_redo(),
-         [](Session& s) { s.simulation.redo(); });
+         can_undo(session.simulation), [](Session& s) { undo(s.simulation); });
+  button("Redo", "Brings back what the last undo took away (Ctrl+Y).", can_redo(session.simulation),
+         [](Session& s) { redo(s.simulation); });
   if (has_solver) {
     button("Drop", "Drops another body from above (D); with Shift, twenty.", session.bodies.can_drop(),
            [](Session& s) { s.bodies.drop(); });

@@ -18,7 +18,7 @@ namespace {
 
 /// True if surface contact keeps the bodies apart, not the detector's contacts.
 bool uses_surface_contact(const Session& session) {
-  return session.simulation.edited().scene().contact_surface == softbody::ContactSurface::surfaces;
+  return edited(session.simulation).scene().contact_surface == softbody::ContactSurface::surfaces;
 }
 
 /// Draws the label of a setting of the hash function. If bucket count and primes do not suit each other, the label has
@@ -44,7 +44,7 @@ struct ValueWidgets {
   Widgets& w;
   const Session& session;
   float usual = session.simulation.loaded.scene.collision.tolerance;  // m: tells how large the bodies are
-  const collide::Settings& settings = session.simulation.edited().collision();
+  const collide::Settings& settings = edited(session.simulation).collision();
 
   void label(const softbody::Key& key) const { w.row_label(key.slider.text, w.px(label_column)); }
 
@@ -78,7 +78,7 @@ struct ValueWidgets {
   }
 
   bool draw(const softbody::Key&, const std::string&) const {
-    const collide::Method& method = session.simulation.edited().method();
+    const collide::Method& method = edited(session.simulation).method();
     w.row_label("Method", w.px(label_column));
     draw_method_mark(w, method, ImGui::GetFrameHeight());
     ImGui::SameLine();
@@ -169,7 +169,7 @@ struct ValueWidgets {
 
 void draw_values(Widgets& w, const Session& session, ValuePlace place) {
   const ValueWidgets widgets{w, session};
-  softbody::for_each_value(session.simulation.edited().scene(), [&](const softbody::Key& key, auto value) {
+  softbody::for_each_value(edited(session.simulation).scene(), [&](const softbody::Key& key, auto value) {
     if (!key.slider.text || place_of(key) != place) return;
     if (widgets.draw(key, value))
       w.ask([&key, value](Session& s) {
@@ -183,16 +183,16 @@ void draw_method(Widgets& w, const Session& session) {
   draw_values(w, session, ValuePlace::method);
   ImGui::Separator();
   const collide::Method& owner = session.edited_inspector().shown_method();
-  const bool drives = owner.key == session.simulation.edited().method().key;
+  const bool drives = owner.key == edited(session.simulation).method().key;
   draw_method_mark(w, owner, ImGui::GetTextLineHeight());
   ImGui::SameLine();
   ImGui::TextDisabled("%s, %s", owner.key == collide::paper_method ? "The paper's method" : owner.name.c_str(),
                       drives ? "driving" : "for comparison");
   w.register_item("Hashing of", "Whose boxes and hash table these settings shape, and what it finds with them. " +
-                                    (drives ? "" : session.simulation.edited().method().name + " has no hash table."));
+                                    (drives ? "" : edited(session.simulation).method().name + " has no hash table."));
   draw_values(w, session, ValuePlace::hashing);
   // The comparison is of the first world.
-  const std::string found = &session.simulation.edited() == &session.world()
+  const std::string found = &edited(session.simulation) == &session.world()
                                 ? verdict(session.comparison, compare::method_index(owner.key))
                                 : "see below the halves";
   const bool misses = found.starts_with("misses");
@@ -202,11 +202,11 @@ void draw_method(Widgets& w, const Session& session) {
 }
 
 void draw_detection(Widgets& w, const Session& session, const UiState&) {
-  const std::optional<glm::vec3> cell_size = session.simulation.edited().scene().collision.cell_size;
+  const std::optional<glm::vec3> cell_size = edited(session.simulation).scene().collision.cell_size;
   if (w.checkbox("Automatic cell size", !cell_size,
                  "Makes cells as large as the largest subdivided box at rest plus the tolerance. The paper's method "
                  "can still miss contacts."))
-    w.ask([size = cell_size ? std::nullopt : session.simulation.edited().collision().cell_size](Session& s) {
+    w.ask([size = cell_size ? std::nullopt : edited(session.simulation).collision().cell_size](Session& s) {
       s.simulation.change_scene("Cell size", [&](softbody::Scene& scene) { scene.collision.cell_size = size; });
     });
   draw_values(w, session, ValuePlace::detection);

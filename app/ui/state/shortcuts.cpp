@@ -22,13 +22,13 @@ void tell(Session& session, std::string text) {
 
 void next_method(Session& session) {
   session.settings.next_method(session.comparison.choice.methods);
-  tell(session, "Method: " + session.simulation.edited().method().name);
+  tell(session, "Method: " + edited(session.simulation).method().name);
 }
 
 void next_contact_surface(Session& session) {
   session.settings.next_contact_surface();
   for (const softbody::ContactSurfaceInfo& info : softbody::contact_surfaces)
-    if (info.value == session.simulation.edited().scene().contact_surface)
+    if (info.value == edited(session.simulation).scene().contact_surface)
       tell(session, "Contact: " + std::string(info.name));
 }
 
@@ -44,11 +44,11 @@ constexpr std::array shortcut_table{
              false, [](const Session& s, const UiState&) { return s.simulation.clock.slow_motion; },
              "Runs the simulation slower than real time.", true},
     Shortcut{GLFW_KEY_R, 0, "R", "Reset the scene", [](Session& s, UiState&) { s.simulation.reset(); }},
-    Shortcut{GLFW_KEY_Z, 0, "", redo_text, [](Session& s, UiState&) { s.simulation.redo(); }, false,
+    Shortcut{GLFW_KEY_Z, 0, "", redo_text, [](Session& s, UiState&) { redo(s.simulation); }, false,
              GLFW_MOD_CONTROL | GLFW_MOD_SHIFT},
-    Shortcut{GLFW_KEY_Z, 0, "Ctrl+Z", "Undo the last change", [](Session& s, UiState&) { s.simulation.undo(); }, false,
+    Shortcut{GLFW_KEY_Z, 0, "Ctrl+Z", "Undo the last change", [](Session& s, UiState&) { undo(s.simulation); }, false,
              GLFW_MOD_CONTROL},
-    Shortcut{GLFW_KEY_Y, 0, "Ctrl+Y", redo_text, [](Session& s, UiState&) { s.simulation.redo(); }, false,
+    Shortcut{GLFW_KEY_Y, 0, "Ctrl+Y", redo_text, [](Session& s, UiState&) { redo(s.simulation); }, false,
              GLFW_MOD_CONTROL},
     Shortcut{GLFW_KEY_D, 0, "Shift+D", "Drop twenty bodies",
              [](Session& s, UiState&) { s.bodies.drop(session::BodyControls::many_drops); }, false, GLFW_MOD_SHIFT,
@@ -71,7 +71,7 @@ constexpr std::array shortcut_table{
              }},
     Shortcut{GLFW_KEY_LEFT, 0, "Left", "Tour: previous page", [](Session&, UiState& ui) { ui.tour.back(); }},
     Shortcut{GLFW_KEY_RIGHT, 0, "Right", "Tour: next page", [](Session&, UiState& ui) { ui.tour.next(); }},
-    Shortcut{GLFW_KEY_A, 0, "A", "A second world beside it", [](Session& s, UiState&) { s.simulation.toggle_beside(); },
+    Shortcut{GLFW_KEY_A, 0, "A", "A second world beside it", [](Session& s, UiState&) { toggle_beside(s.simulation); },
              false, 0, true, [](const Session& s, const UiState&) { return s.simulation.beside() != nullptr; },
              "Simulates a second world beside this one with other settings: what these cost, and what they miss."},
     Shortcut{GLFW_KEY_V, 0, "V", "Methods side by side",

@@ -46,7 +46,7 @@ void draw_half(Widgets& w, const Session& session, Half half, const std::string&
   ImGui::SameLine();
   w.paragraph(side + ": " + beside.difference().text({world.scene(), world.integrator_choice()}));
   w.wrapped_text(side + " missed", contacts_text(run), run.missed > 0);
-  const std::string why = session.simulation.stopped(half);
+  const std::string why = stopped(session.simulation, half);
   w.wrapped_text(side + " inside", why.empty() ? inside_text(run) : "stopped: " + why, run.inside > 0 || !why.empty());
   w.wrapped_text(side + " cost", cost_text(run));
 }
@@ -90,7 +90,7 @@ float draw_beside(Widgets& w, const Session& session, const UiState& ui, const S
     if (w.button("Restart both", "Starts both worlds from the beginning of the scene (R).", buttons))
       w.ask([](Session& s) { s.simulation.reset(); });
     if (w.button("Close###Close beside", "Ends the second world (A).", buttons))
-      w.ask([](Session& s) { s.simulation.toggle_beside(); });
+      w.ask([](Session& s) { toggle_beside(s.simulation); });
     if (w.checkbox("Ghost", ui.beside_as_ghost, "Draws the second world translucent over the first, not beside it."))
       w.ask([](UiState& state) { state.beside_as_ghost = !state.beside_as_ghost; });
     ImGui::EndTable();

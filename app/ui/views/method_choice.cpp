@@ -39,7 +39,7 @@ void draw_method_line(Widgets& w, const Session& session, const collide::Method&
   draw_method_mark(w, method, ImGui::GetFrameHeight());
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  if (w.combo_item(method.name, method.key == session.simulation.edited().method().key, method.description))
+  if (w.combo_item(method.name, method.key == edited(session.simulation).method().key, method.description))
     w.ask([&key = method.key](Session& s) { s.settings.set_method(key); });
   const StatusLight light = status_light(method);
   ImGui::SameLine(w.px(promise_column));
