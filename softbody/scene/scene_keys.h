@@ -56,18 +56,17 @@ inline constexpr Key sleep_frames("sleep.frames", "", {1, 1e6}, "They do so afte
 
 /// Calls visit(key, value) for each of these keys, with the member of the scene that it stands for.
 void for_each_value(auto& scene, auto&& visit) {
-  using namespace scene_key;
-  visit(gravity, scene.gravity);
-  visit(method, scene.method);
-  visit(levels, scene.collision.levels);
-  visit(buckets, scene.collision.buckets);
-  visit(primes, scene.collision.primes);
-  visit(cell_size, scene.collision.cell_size);
-  visit(contact_surface, scene.contact_surface);
-  visit(tolerance, scene.collision.tolerance);
-  visit(self_collision, scene.collision.self_collision);  // last of its table: the panel has a button beside it
-  visit(sleep_speed, scene.sleep.speed);
-  visit(sleep_frames, scene.sleep.frames);
+  visit(scene_key::gravity, scene.gravity);
+  visit(scene_key::method, scene.method);
+  visit(scene_key::levels, scene.collision.levels);
+  visit(scene_key::buckets, scene.collision.buckets);
+  visit(scene_key::primes, scene.collision.primes);
+  visit(scene_key::cell_size, scene.collision.cell_size);
+  visit(scene_key::contact_surface, scene.contact_surface);
+  visit(scene_key::tolerance, scene.collision.tolerance);
+  visit(scene_key::self_collision, scene.collision.self_collision);  // last of its table: the panel has a button beside it
+  visit(scene_key::sleep_speed, scene.sleep.speed);
+  visit(scene_key::sleep_frames, scene.sleep.frames);
 }
 
 /// Sets the value of a key, which must be of this type.
