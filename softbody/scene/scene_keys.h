@@ -64,7 +64,8 @@ void for_each_value(auto& scene, auto&& visit) {
   visit(scene_key::cell_size, scene.collision.cell_size);
   visit(scene_key::contact_surface, scene.contact_surface);
   visit(scene_key::tolerance, scene.collision.tolerance);
-  visit(scene_key::self_collision, scene.collision.self_collision);  // last of its table: the panel has a button beside it
+  // The last of its table, since the panel has a button beside it.
+  visit(scene_key::self_collision, scene.collision.self_collision);
   visit(scene_key::sleep_speed, scene.sleep.speed);
   visit(scene_key::sleep_frames, scene.sleep.frames);
 }

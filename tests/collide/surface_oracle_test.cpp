@@ -51,7 +51,7 @@ TEST(SurfaceOracle, FiguresCountEachItemOnce) {
   Overlaps overlaps;
   overlaps.penetrations = {{3, 1, 0, 0.5, {}, {}}, {3, 2, 0, 1.5, {}, {}}, {12, 0, 0, 1, {}, {}}};
   overlaps.piercings = {{{1, 2}, 0, 2, 0, {}}, {{21, 22}, 2, 2, 0, {}}, {{21, 23}, 2, 2, 0, {}}};
-  using enum Crossing::Kind;
+  constexpr Crossing::Kind vertex_face = Crossing::Kind::vertex_face, edge_edge = Crossing::Kind::edge_edge;
   const std::vector<Crossing> crossings{{{vertex_face, {5, 5}, {10, 11, 12}}, 0, 1, 0, true},
                                         {{vertex_face, {5, 5}, {11, 12, 13}}, 0, 1, 0, true},
                                         {{edge_edge, {10, 11}, {20, 21, 21}}, 1, 2, 0, true}};

@@ -249,7 +249,7 @@ TEST(StepController, TakesGasExplicitlyForHalfASecondAfterAVolumeChanged) {
 }
 
 TEST(StepController, PlansSomeStepsEvenForBoundsOutOfReach) {
-  constexpr double infinite = std::numeric_limits<double>::infinity(), none = std::nan("");
+  constexpr double infinite = std::numeric_limits<double>::infinity(), none = std::numeric_limits<double>::quiet_NaN();
   for (const Integrator& i : integrators())
     for (const double rate : {1e300, infinite, none}) {
       StepController steps = with(i.key.data());
