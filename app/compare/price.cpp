@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cassert>
 
+#include "app/base/text.h"
+
 namespace app::compare {
 
 void PriceTrial::begin(HowSimulated how) {
-  collide::Settings& settings = how.scene.collision;
   how.scene.method = collide::default_method;
-  settings.cell_size.reset();
+  how.scene.collision.cell_size.reset();
   trials_.emplace_back(how);
   how.scene.method = collide::paper_method;
   trials_.emplace_back(how);
-  settings.cell_size = 0.5f * trials_.back().world.automatic_cell_size(settings.levels);
-  trials_.emplace_back(how);
+  trials_.emplace_back(usual_second(trials_.front().world, how.integrator));
 }
 
 std::optional<Price> PriceTrial::advance(const HowSimulated& how, const Background<PriceTrial>& background) {
@@ -37,7 +37,7 @@ std::optional<Price> PriceTrial::advance(const HowSimulated& how, const Backgrou
       price.runs[run] = {std::max({cell.x, cell.y, cell.z}), trials_[run].figures.totals()};
     }
   } catch (const std::exception& error) {  // too little memory must not end the demo
-    price.failure = error.what();
+    price.failure = failure_text(error);
   }
   trials_.clear();
   return price;

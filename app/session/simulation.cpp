@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/base/text.h"
 #include "app/base/usage_error.h"
 #include "app/session/window_work.h"
 
@@ -143,7 +144,7 @@ void Simulation::lead_beside(const std::function<void(Beside&)>& action) {
     action(*beside_);
   } catch (const std::exception& error) {
     beside_.reset();
-    notice.set(std::string("the second half has ended: ") + error.what());
+    notice.set("the second half has ended: " + failure_text(error));
   }
 }
 
