@@ -43,9 +43,9 @@ void Strip::draw_cards(Widgets& w, const Session& session, const UiState& ui, co
     if (w.button(label, tooltip, side)) w.ask(put_away);
     ImGui::Dummy({});  // else the next column would align its text with the button's
   };
-  const int columns = parts.lights && parts.story && parts.width >= w.px(2 * min_card_width) ? 4 : 2;
-  if ((parts.lights || parts.story) && ImGui::BeginTable("Cards", columns)) {
-    for (int i = 0; i < columns; ++i)
+  const int cards = parts.lights && parts.story && parts.width >= w.px(2 * min_card_width) ? 4 : 2;
+  if ((parts.lights || parts.story) && ImGui::BeginTable("Cards", cards)) {
+    for (int i = 0; i < cards; ++i)
       ImGui::TableSetupColumn("", i % 2 ? ImGuiTableColumnFlags_WidthFixed : ImGuiTableColumnFlags_WidthStretch,
                               i % 2 ? side : 1);
     if (parts.lights) {

@@ -151,6 +151,8 @@ TEST(CompareView, ShowsWhatTheChosenMethodMisses) {
   EXPECT_FALSE(rig.ui.overlays.missed);
   rig.click("Misses of Grid Hash");
   EXPECT_TRUE(rig.ui.overlays.missed);
+  const std::size_t grid = compare::method_index("grid-hash");
+  ASSERT_TRUE(wait_until(rig, [&](const auto& rows) { return rows[grid].scored; }));
   EXPECT_TRUE(rig.session.comparison.missed()->empty()) << "it is exact";
 }
 
