@@ -6,6 +6,13 @@
 #include <string_view>
 
 namespace engine {
+namespace {
+
+bool is_opengl_es() {
+  return std::string_view(reinterpret_cast<const char*>(glGetString(GL_VERSION))).starts_with("OpenGL ES");
+}
+
+}  // namespace
 
 void load_opengl() {
   glewExperimental = GL_TRUE;
@@ -19,11 +26,15 @@ void load_opengl() {
   GLint major = 0, minor = 0;
   glGetIntegerv(GL_MAJOR_VERSION, &major);
   glGetIntegerv(GL_MINOR_VERSION, &minor);
-  if (major * 10 + minor < 33) {
-    throw ContextError("the graphics driver offers OpenGL " + std::to_string(major) + "." + std::to_string(minor) +
-                       ", but 3.3 is needed: update it, or set LIBGL_ALWAYS_SOFTWARE=1");
+  const bool es = is_opengl_es();
+  if (major * 10 + minor < (es ? 30 : 33)) {
+    throw ContextError(std::string("the graphics driver offers OpenGL ") + (es ? "ES " : "") + std::to_string(major) +
+                       "." + std::to_string(minor) + ", but " + (es ? "3.0" : "3.3") +
+                       " is needed: update it, or set LIBGL_ALWAYS_SOFTWARE=1");
   }
 }
+
+const char* glsl_version() { return is_opengl_es() ? "#version 300 es" : "#version 330 core"; }
 
 bool uses_software_renderer() {
   const std::string_view name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));

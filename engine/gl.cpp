@@ -1,6 +1,8 @@
 #include "engine/gl.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <stdexcept>
 #include <string>
 
@@ -39,6 +41,32 @@ void set_attributes(const Buffer& buffer, std::size_t stride, std::initializer_l
 void Texture::bind(int unit, GLenum target) const {
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   glBindTexture(target, id());
+}
+
+void TableTexture::upload(int unit, const float* values, std::size_t count, std::size_t components) {
+  struct Format {
+    GLint stored;
+    GLenum given;
+  };
+  constexpr std::array<Format, 4> formats{
+      {{GL_R32F, GL_RED}, {GL_RG32F, GL_RG}, {GL_RGB32F, GL_RGB}, {GL_RGBA32F, GL_RGBA}}};
+  assert(components >= 1 && components <= formats.size());
+  const auto [stored, given] = formats[components - 1];
+  constexpr std::size_t width = 2048;  // as in shaders/table.glsl; every driver supports it
+  const std::size_t full_rows = count / width;
+  texture_.bind(unit, GL_TEXTURE_2D);
+  if (full_rows >= rows_) {
+    rows_ = full_rows + 1;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexImage2D(GL_TEXTURE_2D, 0, stored, width, static_cast<GLsizei>(rows_), 0, given, GL_FLOAT, nullptr);
+  }
+  const auto replace = [&, given = given](std::size_t row, std::size_t columns, std::size_t rows) {
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, static_cast<GLint>(row), static_cast<GLsizei>(columns),
+                    static_cast<GLsizei>(rows), given, GL_FLOAT, values + row * width * components);
+  };
+  replace(0, width, full_rows);
+  replace(full_rows, count % width, 1);
 }
 
 void set_linear_clamped() {

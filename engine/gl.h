@@ -37,6 +37,7 @@ namespace detail {
 inline void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
 inline void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
 inline void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
+inline void delete_shader(GLuint name) { glDeleteShader(name); }
 inline void delete_program(GLuint name) { glDeleteProgram(name); }
 inline void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
 inline void delete_renderbuffer(GLuint name) { glDeleteRenderbuffers(1, &name); }
@@ -104,6 +105,24 @@ class Texture {
 
  private:
   GlName<detail::delete_texture> name_{generated(glGenTextures)};
+};
+
+/// Values that a shader reads by their numbers, with table_value() of shaders/table.glsl. They lie in the rows of a 2D
+/// texture, because WebGL 2 has no buffer textures.
+class TableTexture {
+ public:
+  /// Replaces the values, each of 1 to 4 floats. Leaves the texture bound to `unit`.
+  template <class T>
+  void stream(int unit, std::span<const T> values) {
+    static_assert(sizeof(T) % sizeof(float) == 0);
+    upload(unit, reinterpret_cast<const float*>(values.data()), values.size(), sizeof(T) / sizeof(float));
+  }
+
+ private:
+  void upload(int unit, const float* values, std::size_t count, std::size_t components);
+
+  Texture texture_;
+  std::size_t rows_ = 0;
 };
 
 /// Filters the bound 2D texture linearly and repeats its outermost texels beyond its edges.

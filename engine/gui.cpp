@@ -13,6 +13,7 @@
 #include <fstream>
 #include <utility>
 
+#include "engine/context.h"
 #include "engine/window.h"
 
 namespace engine {
@@ -181,14 +182,14 @@ Gui::Gui(Window& window) : window_(&window) {
   ImGui_ImplGlfw_InitForOpenGL(window.handle(), false);  // false: take_input() passes mouse and keys on
   glfwSetWindowFocusCallback(window.handle(), ImGui_ImplGlfw_WindowFocusCallback);
   glfwSetCursorEnterCallback(window.handle(), ImGui_ImplGlfw_CursorEnterCallback);
-  ImGui_ImplOpenGL3_Init("#version 330 core");
+  ImGui_ImplOpenGL3_Init(glsl_version());
   apply_scale(window.content_scale(), window.pixel_ratio());
 }
 
 Gui::Gui(float scale) {
   create_imgui();
   ImGui::GetIO().BackendPlatformName = "headless";
-  ImGui_ImplOpenGL3_Init("#version 330 core");
+  ImGui_ImplOpenGL3_Init(glsl_version());
   apply_scale(scale, 1.0f);
 }
 

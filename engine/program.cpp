@@ -7,6 +7,8 @@
 #include <sstream>
 #include <vector>
 
+#include "engine/context.h"
+
 namespace engine {
 namespace fs = std::filesystem;
 
@@ -38,6 +40,22 @@ void append_file(ShaderSource& source, const fs::path& file) {
   }
 }
 
+// In OpenGL ES, not every type has a default precision.
+constexpr const char* precision =
+    "#ifdef GL_ES\n"
+    "precision highp float;\n"
+    "precision highp int;\n"
+    "precision highp sampler2D;\n"
+    "precision highp sampler2DShadow;\n"
+    "#endif\n";
+
+ShaderSource read_source(const fs::path& file, const std::string& version) {
+  ShaderSource source{version + "\n" + precision, {}};
+  source.lines.assign(static_cast<std::size_t>(std::ranges::count(source.text, '\n')), {file, 1});
+  append_file(source, file);
+  return source;
+}
+
 template <class Get, class GetLog>
 std::string info_log(GLuint name, Get get, GetLog get_log) {
   GLint length = 0;
@@ -67,20 +85,21 @@ std::string with_file_and_line(const std::string& log, const ShaderSource& sourc
   return result;
 }
 
+using ShaderName = GlName<detail::delete_shader>;
+
 /// Compiles a shader and attaches it to `program`. Throws ShaderError.
-GLuint compile(GLuint program, GLenum stage, const fs::path& file) {
-  ShaderSource source;
-  append_file(source, file);
-  const GLuint shader = glCreateShader(stage);
+ShaderName compile(GLuint program, GLenum stage, const fs::path& file) {
+  const ShaderSource source = read_source(file, glsl_version());
+  ShaderName name(glCreateShader(stage));
+  const GLuint shader = name.get();
   const char* text = source.text.c_str();
   glShaderSource(shader, 1, &text, nullptr);
   glCompileShader(shader);
   glAttachShader(program, shader);
-  glDeleteShader(shader);  // takes effect when the program detaches it
   GLint ok = GL_FALSE;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
   if (!ok) throw ShaderError(with_file_and_line(info_log(shader, glGetShaderiv, glGetShaderInfoLog), source));
-  return shader;
+  return name;
 }
 
 [[maybe_unused]] GLuint current_program() {
@@ -91,14 +110,16 @@ GLuint compile(GLuint program, GLenum stage, const fs::path& file) {
 
 }  // namespace
 
+std::string shader_text(const fs::path& file, const std::string& version) { return read_source(file, version).text; }
+
 Program::Program(const fs::path& folder, const std::string& vertex_file, const std::string& fragment_file)
     : name_(glCreateProgram()) {
   const GLuint program = name_.get();
-  const GLuint vertex = compile(program, GL_VERTEX_SHADER, folder / vertex_file);
-  const GLuint fragment = compile(program, GL_FRAGMENT_SHADER, folder / fragment_file);
+  const ShaderName vertex = compile(program, GL_VERTEX_SHADER, folder / vertex_file);
+  const ShaderName fragment = compile(program, GL_FRAGMENT_SHADER, folder / fragment_file);
   glLinkProgram(program);
-  glDetachShader(program, vertex);
-  glDetachShader(program, fragment);
+  glDetachShader(program, vertex.get());
+  glDetachShader(program, fragment.get());
   GLint ok = GL_FALSE;
   glGetProgramiv(program, GL_LINK_STATUS, &ok);
   if (!ok) {

@@ -16,8 +16,11 @@ struct ShaderError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A vertex and a fragment shader. A line `#include "name"` in a shader inserts a file of the same folder. The uniform
-/// block "Frame" reads binding point 0.
+/// Returns the text of a shader for a driver. It begins with the line `version`, see glsl_version(); a line
+/// `#include "name"` in `file` inserts a file of the same folder. Throws ShaderError.
+std::string shader_text(const std::filesystem::path& file, const std::string& version);
+
+/// A vertex and a fragment shader, each a shader_text(). The uniform block "Frame" reads binding point 0.
 class Program {
  public:
   /// Throws ShaderError.

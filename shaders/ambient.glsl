@@ -1,6 +1,6 @@
 // Light from the sky and from the floor.
-uniform samplerBuffer occluders;  // spheres: centre, radius
-uniform sampler2D floor_map;      // light of the sky that reaches the floor (sRGB)
+uniform sampler2D occluders;  // a table of spheres: centre, radius
+uniform sampler2D floor_map;  // light of the sky that reaches the floor (sRGB)
 
 // Share of the sky that a point sees past `count` spheres, from the sphere `first` on (Quilez, "sphere ambient
 // occlusion"). A sphere's share falls to 0 at 2.2 of its radii, so that nothing jumps when it leaves the list.
@@ -8,7 +8,7 @@ float visible_sky(vec3 position, vec3 normal, uint first, uint count) {
   const float min_share = 1.0 / (2.2 * 2.2);
   float visibility = 1.0;
   for (uint i = 0u; i < count; ++i) {
-    vec4 sphere = texelFetch(occluders, int(first + i));
+    vec4 sphere = table_value(occluders, int(first + i));
     vec3 to = sphere.xyz - position;
     float squared = max(dot(to, to), sphere.w * sphere.w);
     float share = max((sphere.w * sphere.w / squared - min_share) / (1.0 - min_share), 0.0);

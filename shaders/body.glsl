@@ -2,18 +2,15 @@
 layout(location = 0) in uvec3 corners;
 layout(location = 1) in vec2 weights;
 layout(location = 2) in uint first_vertex;
-uniform samplerBuffer positions;  // three floats per vertex
-uniform samplerBuffer normals;
+uniform sampler2D positions;  // tables with one value per vertex
+uniform sampler2D normals;
 
-vec3 fetch(samplerBuffer buffer, uint vertex) {
-  int at = 3 * int(first_vertex + vertex);
-  return vec3(texelFetch(buffer, at).r, texelFetch(buffer, at + 1).r, texelFetch(buffer, at + 2).r);
-}
+vec3 fetch(sampler2D table, uint vertex) { return table_value(table, int(first_vertex + vertex)).xyz; }
 
 // A value of each vertex, interpolated linearly.
-float body_value(samplerBuffer buffer) {
+float body_value(sampler2D table) {
   vec3 values;
-  for (int i = 0; i < 3; ++i) values[i] = texelFetch(buffer, int(first_vertex + corners[i])).r;
+  for (int i = 0; i < 3; ++i) values[i] = table_value(table, int(first_vertex + corners[i])).r;
   return dot(values, vec3(weights, 1.0 - weights.x - weights.y));
 }
 

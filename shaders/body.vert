@@ -1,12 +1,12 @@
-#version 330 core
 #include "frame.glsl"
+#include "table.glsl"
 #include "body.glsl"
 #include "ambient.glsl"
 
 layout(location = 3) in float radius;
 layout(location = 4) in uvec2 occluder_range;
 layout(location = 5) in vec3 colour;
-uniform samplerBuffer marks;
+uniform sampler2D marks;
 out vec3 world_position;
 out vec3 world_normal;
 out vec3 bounce;

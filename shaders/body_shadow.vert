@@ -1,4 +1,4 @@
-#version 330 core
+#include "table.glsl"
 #include "body.glsl"
 uniform mat4 light_clip_from_world;
 

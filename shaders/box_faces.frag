@@ -1,4 +1,3 @@
-#version 330 core
 uniform float opacity;
 flat in vec4 face_colour;
 out vec4 fragment;

@@ -1,4 +1,3 @@
-#version 330 core
 // The faces of a box.
 #include "frame.glsl"
 #include "cube.glsl"

@@ -1,3 +1,2 @@
-#version 330 core
 // Writes depth only.
 void main() {}

@@ -1,4 +1,3 @@
-#version 330 core
 #include "frame.glsl"
 layout(location = 0) in vec2 position;  // x, z
 out vec2 floor_position;

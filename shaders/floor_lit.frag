@@ -1,4 +1,3 @@
-#version 330 core
 #include "frame.glsl"
 #include "colour.glsl"
 #include "backdrop.glsl"

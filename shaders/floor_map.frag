@@ -1,4 +1,3 @@
-#version 330 core
 #include "colour.glsl"
 in vec2 offset;
 flat in vec2 height_and_radius;

@@ -1,4 +1,3 @@
-#version 330 core
 // A square on the floor below a sphere, as large as the part of the floor that the sphere darkens.
 #include "frame.glsl"
 layout(location = 0) in vec4 sphere;  // centre, radius

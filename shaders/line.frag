@@ -1,4 +1,3 @@
-#version 330 core
 uniform float width;
 uniform float opacity;
 flat in vec4 ends;  // of the line on the screen, pixels

@@ -1,4 +1,3 @@
-#version 330 core
 // A line, longer and wider than asked for, so that line.frag can draw round ends and a soft edge. It is either a
 // rectangle that faces the screen or only the rectangle's axis, which the driver widens (glLineWidth).
 #include "frame.glsl"

@@ -1,5 +1,5 @@
-#version 330 core
 #include "frame.glsl"
+#include "table.glsl"
 #include "ambient.glsl"
 #include "cube.glsl"
 

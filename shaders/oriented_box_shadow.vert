@@ -1,4 +1,3 @@
-#version 330 core
 #include "cube.glsl"
 layout(location = 0) in vec3 centre;
 layout(location = 1) in mat3 half_axes;

@@ -1,4 +1,3 @@
-#version 330 core
 // A patch of a plane: the face y = 1 of a cube.
 #include "frame.glsl"
 #include "cube.glsl"

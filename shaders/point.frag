@@ -1,8 +1,7 @@
-#version 330 core
 #include "frame.glsl"
 uniform float diameter;
 uniform float opacity;
-noperspective in vec2 offset;
+in vec2 offset;
 flat in vec4 point_colour;
 out vec4 fragment;
 

@@ -1,9 +1,8 @@
-#version 330 core
 #include "frame.glsl"
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 colour;
 uniform float diameter;
-noperspective out vec2 offset;  // pixels from the centre
+out vec2 offset;  // pixels from the centre
 flat out vec4 point_colour;
 
 void main() {

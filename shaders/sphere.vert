@@ -1,5 +1,5 @@
-#version 330 core
 #include "frame.glsl"
+#include "table.glsl"
 #include "ambient.glsl"
 
 layout(location = 0) in vec3 direction;

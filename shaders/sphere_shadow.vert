@@ -1,4 +1,3 @@
-#version 330 core
 layout(location = 0) in vec3 direction;
 layout(location = 1) in vec4 sphere;
 layout(location = 4) in vec3 segment;

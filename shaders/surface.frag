@@ -1,7 +1,6 @@
-#version 330 core
 #include "frame.glsl"
 #include "surface.glsl"
-uniform float opacity = 1.0;
+uniform float opacity;
 out vec4 fragment;
 
 void main() { fragment = vec4(surface_colour(), opacity); }

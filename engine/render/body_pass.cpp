@@ -26,11 +26,6 @@ int choose_level(const MeshDraw& draw, float radius, float distance, float pixel
   return std::min(static_cast<int>(std::ceil(0.5f * std::log2(gap / max_gap))), BodyPass::levels - 1);
 }
 
-void attach_buffer(const Texture& texture, const Buffer& buffer, int unit, GLenum format) {
-  texture.bind(unit, GL_TEXTURE_BUFFER);
-  glTexBuffer(GL_TEXTURE_BUFFER, format, buffer.id());
-}
-
 }  // namespace
 
 BodyPass::BodyPass(const std::filesystem::path& shaders)
@@ -94,16 +89,11 @@ void BodyPass::check(const MeshDraw& draw, const FrameData& frame) const {
 void BodyPass::update(const FrameData& frame, const AmbientOcclusion& occlusion, const glm::vec3& eye,
                       float pixels_at_one_metre) {
   build_batches(frame, occlusion, eye, pixels_at_one_metre);
-  occluder_buffer_.stream(GL_TEXTURE_BUFFER, occlusion.occluders());
-  attach_buffer(occluders_, occluder_buffer_, unit_occluders, GL_RGBA32F);
+  occluders_.stream(unit_occluders, occlusion.occluders());
   if (frame.positions.empty()) return;
-  position_buffer_.stream(GL_TEXTURE_BUFFER, frame.positions);
-  attach_buffer(positions_, position_buffer_, unit_positions, GL_R32F);
-  normal_buffer_.stream(GL_TEXTURE_BUFFER, frame.normals);
-  attach_buffer(normals_, normal_buffer_, unit_normals, GL_R32F);
-  if (frame.marks.empty()) return;
-  mark_buffer_.stream(GL_TEXTURE_BUFFER, std::span(frame.marks));
-  attach_buffer(marks_, mark_buffer_, unit_marks, GL_R32F);
+  positions_.stream(unit_positions, frame.positions);
+  normals_.stream(unit_normals, frame.normals);
+  marks_.stream(unit_marks, std::span(frame.marks));
 }
 
 void BodyPass::build_batches(const FrameData& frame, const AmbientOcclusion& occlusion, const glm::vec3& eye,

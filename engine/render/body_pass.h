@@ -1,6 +1,6 @@
 #pragma once
 // Draws deforming bodies: one instanced draw per mesh and level of detail. The shader fetches a body's vertices from
-// buffer textures, so a frame uploads only positions and normals, at any level of detail.
+// textures, so a frame uploads only positions and normals, at any level of detail.
 
 #include <array>
 #include <cstdint>
@@ -75,8 +75,8 @@ class BodyPass {
   Batches batches_;
   std::vector<std::pair<const TranslucentSet*, Batches>> translucent_;  // sets of the current frame
   std::vector<std::pair<float, std::uint32_t>> distances_;              // from the eye, with the index of the body
-  Buffer position_buffer_, normal_buffer_, mark_buffer_, occluder_buffer_, instances_;
-  Texture positions_, normals_, marks_, occluders_;
+  Buffer instances_;
+  TableTexture positions_, normals_, marks_, occluders_;
 };
 
 }  // namespace engine::render

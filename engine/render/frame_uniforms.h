@@ -27,7 +27,7 @@ enum TextureUnit : int { unit_positions, unit_normals, unit_marks, unit_occluder
 /// Bits of the stencil buffer: pixels that show solid bodies; the last set of overlays drawn behind a surface.
 enum StencilBits : GLuint { stencil_bodies = 0x80, stencil_overlays = 0x7f };
 
-/// Builds a program and assigns its samplers to their texture units. Throws ShaderError.
+/// Builds a program, opaque until told otherwise, and assigns its samplers to their texture units. Throws ShaderError.
 inline Program scene_program(const std::filesystem::path& shaders, const char* vertex_file, const char* fragment_file) {
   Program program(shaders, vertex_file, fragment_file);
   program.use();
@@ -37,6 +37,7 @@ inline Program scene_program(const std::filesystem::path& shaders, const char* v
   program.set("occluders", unit_occluders);
   program.set("floor_map", unit_floor_map);
   program.set("shadow_map", unit_shadow_map);
+  program.set("opacity", 1.0f);
   return program;
 }
 

@@ -60,10 +60,16 @@ std::vector<Line> merged_edges(const std::vector<Box>& boxes) {
   return lines;
 }
 
+bool draws_wide_lines() {
+  std::array<float, 2> widths{};  // least and most
+  glGetFloatv(GL_ALIASED_LINE_WIDTH_RANGE, widths.data());
+  return widths[1] > 1;
+}
+
 }  // namespace
 
 OverlayPass::OverlayPass(const std::filesystem::path& shaders)
-    : uses_gl_lines_(uses_software_renderer()),
+    : uses_gl_lines_(uses_software_renderer() && draws_wide_lines()),
       line_program_(shaders, "line.vert", "line.frag"),
       point_program_(shaders, "point.vert", "point.frag"),
       box_program_(shaders, "box_faces.vert", "box_faces.frag") {

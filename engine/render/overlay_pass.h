@@ -24,7 +24,7 @@ class OverlayPass {
   void draw_faces(const BoxSet& set);
 
   // True: GL_LINES, false: rectangles. Software renderers draw a wide line in half the time of the two triangles of a
-  // rectangle. Other drivers may not support the width, or draw it less exactly.
+  // rectangle. Other drivers, and browsers, may not support the width, or draw it less exactly.
   bool uses_gl_lines_;
   std::vector<Line> line_vertices_;  // for GL_LINES: each line twice, once per end
   Program line_program_, point_program_, box_program_;

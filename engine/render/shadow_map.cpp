@@ -30,7 +30,8 @@ ShadowMap::ShadowMap() : framebuffer_(generated(glGenFramebuffers)) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.id(), 0);
-  glDrawBuffer(GL_NONE);
+  constexpr GLenum none = GL_NONE;
+  glDrawBuffers(1, &none);
   glReadBuffer(GL_NONE);
 }
 

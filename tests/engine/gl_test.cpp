@@ -4,13 +4,13 @@
 
 #include <stdexcept>
 
-#include "engine/headless.h"
+#include "tests/engine/drawing_context.h"
 
 namespace engine {
 namespace THIS_FILE {
 
 TEST(Framebuffer, ReadsRowsFromTheTop) {
-  const HeadlessContext context;
+  const DrawingContext context;
   for (const int samples : {0, 4}) {
     const Framebuffer framebuffer({8, 4}, samples);
     framebuffer.bind();
@@ -28,13 +28,13 @@ TEST(Framebuffer, ReadsRowsFromTheTop) {
 }
 
 TEST(Framebuffer, ReducesSamplesToWhatTheDriverSupports) {
-  const HeadlessContext context;
+  const DrawingContext context;
   for (const int samples : {1000, 1, -1}) EXPECT_NO_THROW(Framebuffer({4, 4}, samples)) << samples;
   EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
 TEST(Framebuffer, RefusesUnsupportedSizes) {
-  const HeadlessContext context;
+  const DrawingContext context;
   for (const glm::ivec2 size : {glm::ivec2(0, 10), glm::ivec2(10, -1), glm::ivec2(1 << 20, 10)}) {
     EXPECT_THROW(Framebuffer{size}, std::runtime_error);
   }

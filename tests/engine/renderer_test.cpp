@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "engine/gl.h"
-#include "engine/headless.h"
 #include "engine/resources.h"
+#include "tests/engine/drawing_context.h"
 #include "tests/engine/shapes.h"
 
 namespace engine {
@@ -57,7 +57,7 @@ class RendererTest : public testing::Test {
   static bool red(const glm::ivec3& c) { return c.r > c.g + 60 && c.r > c.b + 60; }
   static int brightness(const glm::ivec3& c) { return (c.r + c.g + c.b) / 3; }
 
-  HeadlessContext context;
+  DrawingContext context;
   render::Renderer renderer{find_folder("shaders")};
   MeshHandle mesh = renderer.add_mesh(icosahedron().triangles, 12);
   Camera camera;
@@ -150,14 +150,16 @@ TEST_F(RendererTest, LitFloorShowsNoShadowAcne) {
 }
 
 TEST_F(RendererTest, DrawsABodyInItsColourAtItsVertices) {
-  positions.assign(5, glm::vec3(9.0f));  // another body's
-  normals.assign(5, glm::vec3(0, 1, 0));
-  frame.meshes = {body(middle, 0.5f)};
-  for (const bool tessellated : {false, true}) {
-    frame.tessellated = tessellated;
-    const Image image = picture();
-    EXPECT_TRUE(red(colour(image, middle)));
-    EXPECT_FALSE(red(colour(image, middle + glm::vec3(0.6f, 0, 0))));
+  for (const std::size_t before : {5, 2043, 4084, 4096}) {  // vertices of other bodies; a row holds 2,048
+    positions.assign(before, glm::vec3(9.0f));
+    normals.assign(before, glm::vec3(0, 1, 0));
+    frame.meshes = {body(middle, 0.5f)};
+    for (const bool tessellated : {false, true}) {
+      frame.tessellated = tessellated;
+      const Image image = picture();
+      EXPECT_TRUE(red(colour(image, middle))) << before;
+      EXPECT_FALSE(red(colour(image, middle + glm::vec3(0.6f, 0, 0)))) << before;
+    }
   }
 }
 
