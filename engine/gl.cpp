@@ -57,6 +57,7 @@ void TableTexture::upload(int unit, const float* values, std::size_t count, std:
   texture_.bind(unit, GL_TEXTURE_2D);
   if (full_rows >= rows_) {
     rows_ = full_rows + 1;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);  // software renderers then read it faster
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTexImage2D(GL_TEXTURE_2D, 0, stored, width, static_cast<GLsizei>(rows_), 0, given, GL_FLOAT, nullptr);

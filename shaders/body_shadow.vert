@@ -2,8 +2,5 @@
 #include "body.glsl"
 uniform mat4 light_clip_from_world;
 
-void main() {
-  vec3 position, normal;
-  body_vertex(position, normal);
-  gl_Position = light_clip_from_world * vec4(position, 1.0);
-}
+// Shadows are drawn at the coarsest level of detail, where each vertex is one of the mesh.
+void main() { gl_Position = light_clip_from_world * vec4(fetch(positions, corners.x), 1.0); }
