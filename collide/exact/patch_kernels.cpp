@@ -322,15 +322,16 @@ void FindGroupHits(const Patches& patches, Index group, const KnownPairs* known,
   out.known.size = out.found.size = 0;
   out.tested = 0;
   for (Index patch = group * size; patch < group * size + patches.count[group]; ++patch) {
+    const Index local = patch - offset * size, first = known ? known->first_other[local] : 0;
+    const Index listed = known ? known->first_other[local + std::size_t{1}] - first : 0;
+    const Index near_count = near_patches(patches, patch, cutoff, out);
+    if (listed + near_count == 0) continue;
     const Spread same(patches, patch, 0), near(patches, patch, std::uint8_t{ByteUnit::reach + 128});
     if (known) {
-      const Index local = patch - offset * size, first = known->first_other[local];
-      const Index count = known->first_other[local + std::size_t{1}] - first;
-      add_hits<true>(patches, patch, same, near, unit, offset * size, known->other.data() + first, count,
+      add_hits<true>(patches, patch, same, near, unit, offset * size, known->other.data() + first, listed,
                      known->mask.data() + first, out, out.known);
     }
-    const Index count = near_patches(patches, patch, cutoff, out);
-    add_hits<false>(patches, patch, same, near, unit, 0, out.list.data(), count, nullptr, out, out.found);
+    add_hits<false>(patches, patch, same, near, unit, 0, out.list.data(), near_count, nullptr, out, out.found);
   }
   for (GroupHits::List* list : {&out.known, &out.found}) keep_close(patches, tolerance2, *list);
 }
