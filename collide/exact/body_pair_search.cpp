@@ -129,8 +129,8 @@ void BodyPairSearch::deal(const RestingContacts& resting, Workers& workers) {
   shared_.clear();
   loose_.clear();
   double work = pair_ns * static_cast<double>(near_.pairs()) + body_ns * static_cast<double>(live_.size());
-  const bool any = std::ranges::any_of(
-      live_, [&](Index body) { return frame_->bodies->size(body) > FacingScratch::max_vertices; });
+  const bool any =
+      std::ranges::any_of(live_, [&](Index body) { return frame_->bodies->size(body) > FacingScratch::max_vertices; });
   for (const Index a : any ? std::span<const Index>(live_) : std::span<const Index>()) {
     if (resting.group(a, near_)) continue;
     const std::size_t before = shared_.size();
@@ -213,8 +213,7 @@ void BodyPairSearch::find_between(Thread& own, Index a, Index b) {
   const VertexRun run_a = vertices_of(*frame_, a), run_b = vertices_of(*frame_, b);
   const Index first_a = frame_->bodies->first[a], first_b = frame_->bodies->first[b];
   const Slab slab = slab_between(bounds_[a], bounds_[b], cutoff_);
-  const Index facing =
-      find_facing_contacts(run_a, first_a, run_b, first_b, slab, tolerance2_, own.facing, own.group);
+  const Index facing = find_facing_contacts(run_a, first_a, run_b, first_b, slab, tolerance2_, own.facing, own.group);
   own.separated += facing == 0;
   own.pair_tests += facing;
 }
@@ -236,7 +235,8 @@ void BodyPairSearch::find_self(Thread& own, Index body) {
       own.group.push_back({first + i, first + j});
     }
   }
-  for (const Index outlier : risk.outliers) contacts_of(vertices, first, outlier, tolerance2_, own.group);
+  for (const Index outlier : risk.outliers)
+    contacts_of(vertices, first, outlier, tolerance2_, own.vertex_count, own.group);
   own.unfolded += risk.outliers.empty();
   own.pair_tests += risk.pairs.size() + std::uint64_t{risk.outliers.size()} * (vertices.size - 1);
   if (!own.group.empty()) sort_self_contacts(own, body);

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cassert>
 #include <limits>
+#include <span>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "collide/exact/pair_kernels.cpp"
@@ -125,17 +126,19 @@ Index FindFacingContacts(const VertexRun& a, Index first_a, const VertexRun& b, 
   return list_a.size() * facing_b;
 }
 
-void ContactsOf(const VertexRun& run, Index first, Index i, float tolerance2, std::vector<Contact>& contacts) {
+void ContactsOf(const VertexRun& run, Index first, Index i, float tolerance2, std::vector<Index>& scratch,
+                std::vector<Contact>& contacts) {
+  if (scratch.size() < run.size + std::size_t{lanes}) scratch.resize(run.size + std::size_t{lanes});
   Copy copy;
   const VertexRun at = readable(run, copy);
   const V x = all(run.x[i]), y = all(run.y[i]), z = all(run.z[i]), limit = all(tolerance2);
+  ListWriter list(scratch.data());
   for_blocks(run.size, [&](std::ptrdiff_t j, Index skip) HWY_ATTR {
     const V d2 = squared_length(hn::Sub(x, load(at.x + j)), hn::Sub(y, load(at.y + j)), hn::Sub(z, load(at.z + j)));
-    for (std::uint64_t bits = bits_of(Floats(), hn::Lt(d2, limit)) >> skip << skip; bits != 0; bits &= bits - 1) {
-      const auto other = static_cast<Index>(j + std::countr_zero(bits));
-      if (other != i) contacts.push_back({first + i, first + other});
-    }
+    list.add(hn::Lt(d2, limit), j, skip);
   });
+  for (const Index other : std::span(scratch).first(list.size()))
+    if (other != i) contacts.push_back({first + i, first + other});
 }
 
 }  // namespace
@@ -155,8 +158,9 @@ Index find_facing_contacts(const VertexRun& a, Index first_a, const VertexRun& b
   return HWY_DYNAMIC_DISPATCH(FindFacingContacts)(a, first_a, b, first_b, slab, tolerance2, scratch, contacts);
 }
 
-void contacts_of(const VertexRun& run, Index first, Index i, float tolerance2, std::vector<Contact>& contacts) {
-  HWY_DYNAMIC_DISPATCH(ContactsOf)(run, first, i, tolerance2, contacts);
+void contacts_of(const VertexRun& run, Index first, Index i, float tolerance2, std::vector<Index>& scratch,
+                 std::vector<Contact>& contacts) {
+  HWY_DYNAMIC_DISPATCH(ContactsOf)(run, first, i, tolerance2, scratch, contacts);
 }
 
 }  // namespace collide::exact

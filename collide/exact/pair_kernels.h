@@ -36,6 +36,7 @@ Index find_facing_contacts(const VertexRun& a, Index first_a, const VertexRun& b
 
 /// Appends every pair of vertex i of a run and another vertex of it, in this order, whose squared_distance() is below
 /// tolerance2. first: the number of the run's first vertex.
-void contacts_of(const VertexRun& run, Index first, Index i, float tolerance2, std::vector<Contact>& contacts);
+void contacts_of(const VertexRun& run, Index first, Index i, float tolerance2, std::vector<Index>& scratch,
+                 std::vector<Contact>& contacts);
 
 }  // namespace collide::exact

@@ -120,7 +120,7 @@ PatchSearch::Found PatchSearch::find(const Task& task, const Patches& patches, s
   for (Index group = task.groups.begin; group < task.groups.end; ++group) {
     const Range others{self ? group : task.b->groups().begin, task.b->groups().end};
     list_near_groups(patches, group, others, known, offset, cutoff_, hits);
-    find_group_hits(patches, group, known, offset, cutoff_, unit_, tolerance2_, hits);
+    find_group_hits(patches, group, known, offset, cutoff_, tolerance2_, hits);
     found.pair_tests += hits.tested;
     add_contacts(task, hits.known, true, contacts);
     add_contacts(task, hits.found, false, contacts);
@@ -131,22 +131,16 @@ PatchSearch::Found PatchSearch::find(const Task& task, const Patches& patches, s
 }
 
 /// known: the shape has nothing more to say of these pairs.
-void PatchSearch::add_contacts(const Task& task, const GroupHits::List& pairs, bool known,
+void PatchSearch::add_contacts(const Task& task, std::span<const std::array<Index, 2>> pairs, bool known,
                                std::vector<Contact>& contacts) const {
   const Body &a = *task.a, &b = *task.b;
-  const Index *const vertex_a = a.cut->vertices().data(), *const vertex_b = b.cut->vertices().data();
-  const Index *const place_a = pairs.a.data(), *const place_b = pairs.b.data();
-  const std::size_t before = contacts.size();
-  contacts.resize(before + pairs.close);
-  Contact* end = contacts.data() + before;
-  for (Index n = 0; n < pairs.close; ++n) {
-    const Index one = vertex_a[place_a[n] - a.first_group * Patches::group_size];
-    const Index other = vertex_b[place_b[n] - b.first_group * Patches::group_size];
+  for (const auto& [place_a, place_b] : pairs) {
+    const Index one = a.cut->vertices()[place_a - a.first_group * Patches::group_size];
+    const Index other = b.cut->vertices()[place_b - b.first_group * Patches::group_size];
     if (!known && &a == &b && a.shape->excludes(one, other, tolerance2_)) continue;
     const Index first = a.first_vertex + one, second = b.first_vertex + other;
-    *end++ = {std::min(first, second), std::max(first, second)};
+    contacts.push_back({std::min(first, second), std::max(first, second)});
   }
-  contacts.resize(static_cast<std::size_t>(end - contacts.data()));
 }
 
 std::size_t PatchSearch::patches() const {

@@ -65,7 +65,8 @@ class PatchSearch {
   Found find(const Task& task, const Patches& patches, std::size_t max_contacts, GroupHits& hits,
              std::vector<Contact>& contacts) const;
   static void add_boxes(const Body& body, const Patches& patches, std::vector<DebugGeometry::Box>& boxes);
-  void add_contacts(const Task& task, const GroupHits::List& pairs, bool known, std::vector<Contact>& contacts) const;
+  void add_contacts(const Task& task, std::span<const std::array<Index, 2>> pairs, bool known,
+                    std::vector<Contact>& contacts) const;
 
   float tolerance2_ = 0, cutoff_ = 0;
   ByteUnit unit_{1};
