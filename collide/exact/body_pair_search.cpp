@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -17,17 +16,17 @@ namespace {
 constexpr std::size_t max_uncounted_pairs = 1u << 16;  // of one thread
 constexpr std::size_t few_share = 16;                  // so many times as many vertices as contacts: these are few
 
-// Of work: the bounds of a vertex; two near bodies, a body, a vertex of a large body; a contact in its order.
+// Of work: the bounds of a vertex; two near bodies, a body, a vertex of a shared body; a contact in its order.
 constexpr double bounds_ns = 1, pair_ns = 100, body_ns = 50, patch_ns = 30, contact_ns = 10;
 
 /// See Slab. With u = 2^-24, a projection errs by at most 7u of the largest coordinate, the sum with the cutoff by 3u
-/// of it, and the normal is longer than 1 by a few u. Nothing where squares could overflow or underflow.
-std::optional<Slab> slab_between(const BodyBounds& a, const BodyBounds& b, float cutoff) {
+/// of it, and the normal is longer than 1 by a few u. Separates nothing where squares could overflow or underflow.
+Slab slab_between(const BodyBounds& a, const BodyBounds& b, float cutoff) {
   const float largest = std::max(a.largest, b.largest);
   const glm::vec3 d = b.centre - a.centre;
   const float length2 = d.x * d.x + d.y * d.y + d.z * d.z;
-  if (!(largest < 1e18f && length2 > 1e-30f)) return std::nullopt;
-  return Slab{d * (1 / std::sqrt(length2)), cutoff * (1 + 0x1p-19f) + largest * 0x1p-18f};
+  if (!(largest < 1e18f && length2 > 1e-30f)) return {glm::vec3(0), cutoff};
+  return {d * (1 / std::sqrt(length2)), cutoff * (1 + 0x1p-19f) + largest * 0x1p-18f};
 }
 
 }  // namespace
@@ -103,7 +102,6 @@ void BodyPairSearch::insert_loose() {
 void BodyPairSearch::begin(const Frame& frame, const Settings& settings) {
   frame_ = &frame;
   self_collision_ = settings.self_collision;
-  levels_ = settings.levels;
   cutoff_ = contact_cutoff(settings.tolerance);
   tolerance2_ = settings.tolerance * settings.tolerance;
   if (self_collision_) references_.update(frame, live_, cutoff_);
@@ -112,7 +110,6 @@ void BodyPairSearch::begin(const Frame& frame, const Settings& settings) {
 }
 
 void BodyPairSearch::begin(Thread& own) const {
-  own.tree.begin(levels_, cutoff_, tolerance2_, contact_limit);
   own.pairs.clear();
   own.loose.clear();
   own.patches.boxes.clear();
@@ -121,30 +118,32 @@ void BodyPairSearch::begin(Thread& own) const {
   own.self_contacts = own.pair_tests = own.separated = own.unfolded = own.kept = 0;
 }
 
-/// Decides in how many parts the search is cut, and deals the large bodies.
+/// Inside a body, all threads share the search if it is so large that nothing can prove that it does not touch itself.
+bool BodyPairSearch::is_shared(Index a, Index b) const {
+  const Index size = std::max(frame_->bodies->size(a), frame_->bodies->size(b));
+  return size > (a == b ? CullingReference::max_vertices : FacingScratch::max_vertices);
+}
+
+/// Decides in how many parts the search is cut, and deals what threads share.
 void BodyPairSearch::deal(const RestingContacts& resting, Workers& workers) {
-  large_.clear();
+  shared_.clear();
   loose_.clear();
   double work = pair_ns * static_cast<double>(near_.pairs()) + body_ns * static_cast<double>(live_.size());
-  for (const Index body : live_) {
-    if (!is_large(body)) continue;
-    large_.push_back(body);
-    if (resting.group(body, near_)) continue;
-    loose_.push_back(body);
-    work += patch_ns * frame_->bodies->size(body);
+  const bool any =
+      std::ranges::any_of(live_, [&](Index body) { return frame_->bodies->size(body) > FacingScratch::max_vertices; });
+  for (const Index a : any ? std::span<const Index>(live_) : std::span<const Index>()) {
+    if (resting.group(a, near_)) continue;
+    const std::size_t before = shared_.size();
+    if (self_collision_ && is_shared(a, a)) shared_.push_back({a, a});
+    for (const Index b : near_.later_neighbours(a))
+      if (is_shared(a, b)) shared_.push_back({a, b});
+    if (shared_.size() == before) continue;
+    loose_.push_back(a);
+    work += patch_ns * frame_->bodies->size(a);
   }
   const int parts = workers.threads_for(work);
   threads_.resize(static_cast<std::size_t>(parts));
-  patch_tasks_ = 0;
-  if (loose_.empty()) return;
-  patches_.take(*frame_, large_, workers);
-  for (const Index a : loose_) {
-    if (self_collision_) patches_.add(a, a);
-    for (const Index b : near_.later_neighbours(a)) {
-      if (is_large(b)) patches_.add(a, b);
-    }
-  }
-  patch_tasks_ = patches_.deal(parts);
+  patch_tasks_ = shared_.empty() ? 0 : patches_.take(*frame_, shared_, parts, workers);
 }
 
 void BodyPairSearch::find_patch_contacts(int thread, int threads) {
@@ -166,8 +165,6 @@ void BodyPairSearch::find_part(int thread, int threads, const RestingContacts& r
     if (place < part.begin || place >= part.end) continue;
     if (const auto group = resting.group(body, near_)) {
       keep_group(own, body, *group);
-    } else if (is_large(body)) {
-      find_loose_group(own, body);
     } else {
       find_group(own, body);
     }
@@ -184,32 +181,24 @@ void BodyPairSearch::keep_group(Thread& own, Index a, std::span<const Contact> g
   own.pairs.insert(own.pairs.end(), group.begin(), group.end());
 }
 
-/// Leaves a gap for the group of a large body, and adds its contacts with small bodies to those that patches_ found.
-void BodyPairSearch::find_loose_group(Thread& own, Index a) {
-  own.segments.push_back({own.pairs.size(), 0});
-  for (const Index b : near_.later_neighbours(a)) {
-    own.group.clear();
-    if (!is_large(b)) find_between(own, a, b);
-    own.loose.insert(own.loose.end(), own.group.begin(), own.group.end());
-  }
-}
-
+/// Of a loose group, finds what threads do not share, and leaves a gap where it belongs.
 void BodyPairSearch::find_group(Thread& own, Index a) {
   own.group.clear();
-  if (self_collision_) find_self(own, a);
-  std::size_t runs = own.group.empty() ? 0 : 1;
+  if (self_collision_ && !is_shared(a, a)) find_self(own, a);
   own.self_contacts += own.group.size();
-  bool ordered = true;
+  std::size_t runs = own.group.empty() ? 0 : 1;
   for (const Index b : near_.later_neighbours(a)) {
-    const std::size_t before = own.group.size(), leaves = own.tree.leaves();
+    if (is_shared(a, b)) continue;
+    const std::size_t before = own.group.size();
     find_between(own, a, b);
     if (own.group.size() > contact_limit) throw_too_many_contacts(contact_limit);
-    if (own.group.size() == before) continue;
-    ++runs;
-    ordered = ordered && own.tree.leaves() == leaves;
+    runs += own.group.size() != before;
   }
-  if (runs > 1 || !ordered) sort_group(own, a, ordered);
-  own.pairs.insert(own.pairs.end(), own.group.begin(), own.group.end());
+  const bool loose = std::ranges::binary_search(loose_, a);
+  if (loose) own.segments.push_back({own.pairs.size(), 0});
+  if (runs > 1 && !loose) sort_group(own, a);
+  std::vector<Contact>& to = loose ? own.loose : own.pairs;
+  to.insert(to.end(), own.group.begin(), own.group.end());
 }
 
 void BodyPairSearch::check_contact_limit(Thread& own) {
@@ -223,19 +212,10 @@ void BodyPairSearch::check_contact_limit(Thread& own) {
 void BodyPairSearch::find_between(Thread& own, Index a, Index b) {
   const VertexRun run_a = vertices_of(*frame_, a), run_b = vertices_of(*frame_, b);
   const Index first_a = frame_->bodies->first[a], first_b = frame_->bodies->first[b];
-  if (const std::optional<Slab> slab = slab_between(bounds_[a], bounds_[b], cutoff_)) {
-    const FacingResult facing = find_facing_contacts(run_a, first_a, run_b, first_b, *slab, tolerance2_,
-                                                     OverlapTree::leaf_tests, own.facing, own.group);
-    own.separated += facing.tests == 0;
-    if (facing.done) {
-      own.pair_tests += facing.tests;
-      return;
-    }
-  } else {
-    own.facing.near_a.take(run_a, first_a);
-    own.facing.near_b.take(run_b, first_b);
-  }
-  own.tree.between(own.facing.near_a, own.facing.near_b, a, own.group);
+  const Slab slab = slab_between(bounds_[a], bounds_[b], cutoff_);
+  const Index facing = find_facing_contacts(run_a, first_a, run_b, first_b, slab, tolerance2_, own.facing, own.group);
+  own.separated += facing == 0;
+  own.pair_tests += facing;
 }
 
 void BodyPairSearch::find_self(Thread& own, Index body) {
@@ -255,7 +235,8 @@ void BodyPairSearch::find_self(Thread& own, Index body) {
       own.group.push_back({first + i, first + j});
     }
   }
-  for (const Index outlier : risk.outliers) contacts_of(vertices, first, outlier, tolerance2_, own.words, own.group);
+  for (const Index outlier : risk.outliers)
+    contacts_of(vertices, first, outlier, tolerance2_, own.vertex_count, own.group);
   own.unfolded += risk.outliers.empty();
   own.pair_tests += risk.pairs.size() + std::uint64_t{risk.outliers.size()} * (vertices.size - 1);
   if (!own.group.empty()) sort_self_contacts(own, body);
@@ -273,11 +254,11 @@ void BodyPairSearch::sort_self_contacts(Thread& own, Index body) {
   own.group.erase(std::unique(own.group.begin(), own.group.end()), own.group.end());
 }
 
-/// Sorts a group. If each of its runs is ordered and they come by their second body, it takes a stable sort by the
-/// first vertex: counting, unless the body has far more vertices than contacts.
-void BodyPairSearch::sort_group(Thread& own, Index a, bool runs_ordered) {
+/// Sorts a group. Each of its runs is ordered, and they come by their second body: so a stable sort by the first vertex
+/// is enough, which counts unless the body has far more vertices than contacts.
+void BodyPairSearch::sort_group(Thread& own, Index a) {
   const Index first = frame_->bodies->first[a], size = frame_->bodies->size(a);
-  if (!runs_ordered || own.group.size() < size / few_share) {
+  if (own.group.size() < size / few_share) {
     std::sort(own.group.begin(), own.group.end());
     return;
   }
@@ -300,13 +281,13 @@ void BodyPairSearch::concatenate(Workers& workers, std::vector<Contact>& pairs) 
     for_parts([&](int part) { rows_.count(part, threads_[static_cast<std::size_t>(part)].loose); });
   }
   std::size_t total = 0;
-  auto large = loose_.begin();
+  auto loose = loose_.begin();
   for (Thread& thread : threads_) {
     std::size_t begin = 0;
     for (Segment& segment : thread.segments) {
       segment.place = total;
       total += segment.end - std::exchange(begin, segment.end);
-      const Index body = *large++;
+      const Index body = *loose++;
       total = rows_.place({frame_->bodies->first[body], frame_->bodies->first[body + 1]}, total);
     }
     thread.segments.push_back({thread.pairs.size(), total});
@@ -328,8 +309,8 @@ void BodyPairSearch::concatenate(Workers& workers, std::vector<Contact>& pairs) 
 void BodyPairSearch::count(Result& result) const {
   for (const Thread& thread : threads_) {
     result.self_contacts += thread.self_contacts;
-    result.counters.pair_tests += thread.pair_tests + thread.tree.pair_tests();
-    result.counters.boxes += thread.tree.leaves() + thread.patches.boxes.size();
+    result.counters.pair_tests += thread.pair_tests;
+    result.counters.boxes += thread.patches.boxes.size();
     result.skip(Skip::separated_pairs) += thread.separated;
     result.skip(Skip::unfolded_bodies) += thread.unfolded;
     result.skip(Skip::kept_pairs) += thread.kept;
@@ -350,10 +331,8 @@ std::vector<DebugGeometry::Box> BodyPairSearch::boxes() const {
       boxes.push_back({glm::max(one.lo, other.lo) - half, glm::min(one.hi, other.hi) + half, a});
     }
   }
-  for (const Thread& thread : threads_) {
-    for (const auto* some : {&thread.tree.leaf_boxes(), &thread.patches.boxes})
-      boxes.insert(boxes.end(), some->begin(), some->end());
-  }
+  for (const Thread& thread : threads_)
+    boxes.insert(boxes.end(), thread.patches.boxes.begin(), thread.patches.boxes.end());
   patches_.add_boxes(boxes);
   return boxes;
 }

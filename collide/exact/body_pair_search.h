@@ -1,13 +1,13 @@
 #pragma once
-// Finds all contacts of a frame, body by body, except that all threads share large bodies. The group of a body holds
-// every contact whose first vertex belongs to the body. The groups one after another are all contacts of the frame in
-// their order.
+// Finds all contacts of a frame, body by body, except that all threads share the pairs that are found by patches. The
+// group of a body holds every contact whose first vertex belongs to the body. The groups one after another are all
+// contacts of the frame in their order.
 
 #include <atomic>
 
 #include "collide/exact/body_broad_phase.h"
 #include "collide/exact/contact_rows.h"
-#include "collide/exact/overlap_tree.h"
+#include "collide/exact/pair_kernels.h"
 #include "collide/exact/patch_search.h"
 #include "collide/exact/resting_contacts.h"
 #include "collide/exact/self_collision_culling.h"
@@ -28,12 +28,12 @@ class BodyPairSearch {
 
   const BodyBroadPhase& near() const { return near_; }
 
-  /// Copies all groups, one after another, into `pairs`, and sorts those of large bodies there.
+  /// Copies all groups, one after another, into `pairs`, and sorts the loose ones there.
   void concatenate(Workers& workers, std::vector<Contact>& pairs);
 
   /// Adds the counters of the last search, and what it left out, to the result.
   void count(Result& result) const;
-  /// Returns the areas where bodies overlap and the leaves of the cuts there, for drawing.
+  /// Returns the areas where bodies overlap and the boxes of patches, for drawing.
   std::vector<DebugGeometry::Box> boxes() const;
 
   void forget() {
@@ -42,20 +42,17 @@ class BodyPairSearch {
   }
 
  private:
-  /// Pairs of a thread that no large body's group interrupts.
+  /// Contacts of a thread that no loose group interrupts.
   struct Segment {
     std::size_t end;    // behind its last pair; it begins where the one before it ends
     std::size_t place;  // of the first one among those of all threads
   };
   struct alignas(64) Thread {
-    OverlapTree tree;
     FacingScratch facing;
     CullingReference::Scratch self;
-    Words words;
-    VertexSet whole;  // of one body
     PatchSearch::Scratch patches;
     std::vector<Contact> pairs;  // of its groups, in order
-    std::vector<Contact> loose;  // of the groups of large bodies, in no order
+    std::vector<Contact> loose;  // of loose groups, in no order
     std::size_t checked = 0;     // how many of both are counted in found_
     std::vector<Segment> segments;
     std::vector<Contact> group, sorted;
@@ -65,36 +62,35 @@ class BodyPairSearch {
 
   void begin(const Frame& frame, const Settings& settings);
   void begin(Thread& own) const;
-  bool is_large(Index body) const { return frame_->bodies->size(body) > CullingReference::max_vertices; }
+  /// Returns whether all threads share the search inside a body, or between two.
+  bool is_shared(Index a, Index b) const;
   void deal(const RestingContacts& resting, Workers& workers);
-  /// Finds one thread's share of the contacts inside large bodies and between them.
+  /// Finds one thread's share of these contacts.
   void find_patch_contacts(int thread, int threads);
   /// Finds the groups of one thread's share of the bodies. Each thread gets consecutive bodies, with about as many near
   /// pairs as every other thread.
   void find_part(int thread, int threads, const RestingContacts& resting);
   void find_group(Thread& own, Index a);
-  void find_loose_group(Thread& own, Index a);
   void keep_group(Thread& own, Index a, std::span<const Contact> group);
   void find_between(Thread& own, Index a, Index b);
   void find_self(Thread& own, Index body);
   void sort_self_contacts(Thread& own, Index body);
-  void sort_group(Thread& own, Index a, bool runs_ordered);
+  void sort_group(Thread& own, Index a);
   void check_contact_limit(Thread& own);
   void insert_loose();
 
   const Frame* frame_ = nullptr;
   bool self_collision_ = true;
-  int levels_ = 0;
   float cutoff_ = 0, tolerance2_ = 0;
   std::vector<BodyBounds> bounds_;  // of every body
   std::vector<Index> live_;
   BodyBroadPhase near_;
   SelfCollisionCulling references_;
-  std::vector<Index> large_;     // the live bodies that is_large()
-  std::vector<Index> loose_;     // those of them whose groups are not kept: their contacts come in no order
-  PatchSearch patches_;          // of the large bodies
+  std::vector<std::array<Index, 2>> shared_;  // pairs of bodies that is_shared(), without groups that are kept
+  std::vector<Index> loose_;                  // their first bodies: the contacts of these groups come in no order
+  PatchSearch patches_;
   std::size_t patch_tasks_ = 0;  // of this frame
-  ContactRows rows_;             // of the large bodies' groups
+  ContactRows rows_;             // of loose groups
   std::vector<Thread> threads_;
   std::atomic<std::size_t> found_ = 0;
 };

@@ -11,25 +11,21 @@
 
 namespace collide::exact {
 
-/// How coordinates become bytes, and what bytes say of distances. With a power of two P, a coordinate x becomes the
-/// whole number q = trunc(x P), where nothing is rounded but the fraction cut off, and then the low byte of
-/// floor(q factor / 2^24), in integers that wrap around. Both are monotone. So if two coordinates differ by at most the
-/// cutoff, their q differ by at most floor(cutoff P) + 1 <= 128, and their bytes by at most `reach`; bytes that wrap
-/// around, and numbers beyond all integers, only let more pairs pass. And if bytes differ by n > 1, up to `reach`, the
-/// coordinates differ by more than ((n - 1) 2^24 / factor - 1) / P.
+/// How coordinates become bytes. With a power of two P, a coordinate x becomes the whole number q = trunc(x P), where
+/// nothing is rounded but the fraction cut off, and then the low byte of floor(q factor / 2^24), in integers that wrap
+/// around. Both are monotone. So if two coordinates differ by at most the cutoff, their q differ by at most
+/// floor(cutoff P) + 1 <= 128, and their bytes by at most `reach`; bytes that wrap around, and numbers beyond all
+/// integers, only let more pairs pass.
 struct ByteUnit {
-  static constexpr std::uint8_t reach = 14;
+  static constexpr std::uint8_t reach = 10;
   float per_metre = 0;  // P
   std::uint32_t factor = 0;
-  std::array<std::uint8_t, 16> square{};  // by n: a lower bound of the square of the difference; `limit` beyond reach
-  static constexpr std::uint8_t limit = 255;  // more than the square of the cutoff
 
   explicit ByteUnit(float cutoff);
 };
 
-/// Patches of up to `size` vertices, in groups of up to `size` patches. A vertex has a lane of its patch, and a place:
-/// the first lanes of a group's patches come first, then their second lanes, and so on. A patch that is not there is
-/// near nothing.
+/// Patches of up to `size` vertices, in groups of up to `size` patches. A vertex has a lane of its patch: its place is
+/// patch * size + lane. A patch that is not there is near nothing.
 struct Patches {
   static constexpr Index size = 16, group_size = size * size;
   struct Boxes {
@@ -38,12 +34,11 @@ struct Patches {
   };
 
   std::array<std::vector<float>, 3> at;            // m, by place; NaN where there is no vertex
-  std::array<std::vector<std::uint8_t>, 3> bytes;  // by patch and lane
+  std::array<std::vector<std::uint8_t>, 3> bytes;  // by place
   Boxes patch, group;
   std::vector<Index> count;     // by group: its patches
   std::vector<Index> vertices;  // by patch
 
-  static Index place(Index patch, Index lane) { return patch / size * group_size + lane * size + patch % size; }
   void resize(std::size_t groups);
 };
 
@@ -62,22 +57,10 @@ struct KnownPairs {
   std::vector<Rows> rows;                 // of each of these pairs: such patches
 };
 
-/// Pairs of four vertices of a patch with the vertices of another one that may be in contact.
-struct LaneHits {
-  Index a, b;          // places of the first of the four, and of the other patch's first vertex
-  std::uint64_t bits;  // 16 i + j: places a + 16 i and b + 16 j
-};
-
 /// The pairs of vertices of one group that are close. Keeps its memory from call to call.
 struct GroupHits {
-  struct List {
-    std::vector<LaneHits> hits;
-    std::size_t size = 0;
-    std::vector<Index> a, b;  // places of the pairs that are hit, then of those of them that are close
-    Index close = 0;          // how many are
-  };
-  List known, found;         // of known pairs of patches, and of the others that are near
-  std::uint64_t tested = 0;  // pairs of vertices of patches that are near each other
+  std::vector<std::array<Index, 2>> known, found;  // places: of known pairs of patches, and of others that are near
+  std::uint64_t tested = 0;                        // pairs of vertices of patches that are near each other
 
   /// A group that is near, and its rows of known pairs.
   struct NearGroup {
@@ -86,9 +69,9 @@ struct GroupHits {
   };
   std::vector<NearGroup> near;
   std::vector<Index> list;  // scratch
-  struct Passed {
-    Index other;
-    KnownPairs::Mask lanes;
+  struct Passed {           // four vertices of a patch and another patch, whose bytes are near
+    Index a, b;             // places of their first vertices
+    std::uint64_t lanes;    // bit 16 i + j: places a + i and b + j
   };
   std::vector<Passed> passed;  // the same
 };
@@ -102,10 +85,10 @@ Index list_near_patches(const Patches& patches, Index patch, float cutoff, Group
 /// Finds the pairs of a group with the groups near it whose squared_distance() is below tolerance2, after
 /// list_near_groups().
 void find_group_hits(const Patches& patches, Index group, const KnownPairs* known, Index offset, float cutoff,
-                     const ByteUnit& unit, float tolerance2, GroupHits& out);
+                     float tolerance2, GroupHits& out);
 
-/// Returns which pairs of vertices of two patches are not closer than the tolerance at rest. x, y, z: m at rest, by
-/// patch and lane; NaN where it is not known.
-KnownPairs::Mask apart_at_rest(const std::array<std::vector<float>, 3>& rest, Index a, Index b, float tolerance2);
+/// Returns which pairs of vertices of two patches have a squared_distance() below tolerance2. at: m, by place; a vertex
+/// at NaN is close to none.
+KnownPairs::Mask close_pairs(const std::array<std::vector<float>, 3>& at, Index a, Index b, float tolerance2);
 
 }  // namespace collide::exact

@@ -1,7 +1,7 @@
 #include "collide/exact/patch_search.h"
 
 #include <algorithm>
-#include <cassert>
+#include <utility>
 
 namespace collide::exact {
 
@@ -14,26 +14,34 @@ void PatchSearch::begin(float tolerance2, float cutoff) {
   std::erase_if(cuts_, [](const auto& item) { return !item.second.shape(); });
 }
 
-void PatchSearch::take(const Frame& frame, std::span<const Index> which, Workers& workers) {
+std::size_t PatchSearch::take(const Frame& frame, std::span<const std::array<Index, 2>> pairs, int threads,
+                              Workers& workers) {
+  std::vector<Index> which;
+  for (const auto& pair : pairs) which.insert(which.end(), pair.begin(), pair.end());
+  std::ranges::sort(which);
+  which.erase(std::ranges::unique(which).begin(), which.end());
   Index groups = 0;
   for (const Index body : which) {
-    bodies_.push_back(lay_out(frame, body, groups));
+    bodies_.push_back(lay_out(frame, body, groups, false));
     groups = bodies_.back().groups().end;
   }
   patches_.resize(groups);
   fill(frame, workers);
-  if (!cut_spread_shapes(frame)) return;
-  fill(frame, workers);
-  for (const Body& body : bodies_)
-    body.cut->spread = std::max(body.cut->spread, spread_of(patches_.patch, body.patches()));
+  if (cut_spread_shapes(frame)) {
+    fill(frame, workers);
+    for (const Body& body : bodies_)
+      body.cut->spread = std::max(body.cut->spread, spread_of(patches_.patch, body.patches()));
+  }
+  deal(pairs, threads);
+  return tasks_.size();
 }
 
-/// Cuts a shape that is new.
-PatchSearch::Body PatchSearch::lay_out(const Frame& frame, Index body, Index first_group) {
+/// Cuts a shape that is new. self: whether pairs inside the body are to be found.
+PatchSearch::Body PatchSearch::lay_out(const Frame& frame, Index body, Index first_group, bool self) {
   const std::shared_ptr<const Shape>& shape = frame.bodies->shape[body];
   const std::lock_guard lock(mutex_);
   PatchedShape& cut = cuts_.try_emplace(shape.get(), shape, vertices_of(frame, body)).first->second;
-  cut.list_pairs(tolerance2_, cutoff_);
+  if (self) cut.list_pairs(tolerance2_, cutoff_);
   return {&cut, shape.get(), body, frame.bodies->first[body], first_group};
 }
 
@@ -62,7 +70,6 @@ bool PatchSearch::cut_spread_shapes(const Frame& frame) {
   for (const Body& body : bodies_) {
     if (!(spread_of(patches_.patch, body.patches()) > 2 * body.cut->spread)) continue;
     body.cut->cut(vertices_of(frame, body.body));
-    body.cut->list_pairs(tolerance2_, cutoff_);
     any = true;
   }
   return any;
@@ -73,28 +80,20 @@ void PatchSearch::forget() {
   std::erase_if(cuts_, [](const auto& item) { return !item.second.is_of_rest(); });
 }
 
-void PatchSearch::add(Index a, Index b) {
-  const auto find = [&](Index body) {
-    const auto at = std::ranges::lower_bound(bodies_, body, {}, &Body::body);
-    assert(at != bodies_.end() && at->body == body);
-    return &*at;
-  };
-  tasks_.push_back({find(a), find(b), find(a)->groups()});
-}
-
-std::size_t PatchSearch::deal(int threads) {
-  if (threads == 1) return tasks_.size();
-  constexpr Index groups_a_task = 8;
-  std::vector<Task> parts;
-  for (Task task : tasks_) {
-    const Index end = task.groups.end;
-    for (Index& begin = task.groups.begin; begin < end; begin += groups_a_task) {
-      task.groups.end = std::min(end, begin + groups_a_task);
-      parts.push_back(task);
+/// The first body of a task is the one with fewer groups.
+void PatchSearch::deal(std::span<const std::array<Index, 2>> pairs, int threads) {
+  const Index groups_a_task = threads == 1 ? ~Index{0} : 8;
+  const auto find = [&](Index body) { return &*std::ranges::lower_bound(bodies_, body, {}, &Body::body); };
+  for (const auto& pair : pairs) {
+    const Body *a = find(pair[0]), *b = find(pair[1]);
+    if (a == b) a->cut->list_pairs(tolerance2_, cutoff_);
+    if (b->cut->groups() < a->cut->groups()) std::swap(a, b);
+    const Range all = a->groups();
+    for (Index begin = all.begin, end; begin < all.end; begin = end) {
+      end = begin + std::min(groups_a_task, all.end - begin);
+      tasks_.push_back({a, b, {begin, end}});
     }
   }
-  tasks_.swap(parts);
-  return tasks_.size();
 }
 
 PatchSearch::Found PatchSearch::find(std::size_t task, std::size_t max_contacts, Scratch& scratch,
@@ -104,7 +103,7 @@ PatchSearch::Found PatchSearch::find(std::size_t task, std::size_t max_contacts,
 
 PatchSearch::Found PatchSearch::find_within(const Frame& frame, Index number, std::size_t max_contacts,
                                             Scratch& scratch, std::vector<Contact>& contacts) {
-  const Body body = lay_out(frame, number, 0);
+  const Body body = lay_out(frame, number, 0, true);
   if (scratch.patches.count.size() < body.cut->groups()) scratch.patches.resize(body.cut->groups());
   fill(frame, body, body.groups(), scratch.patches);
   add_boxes(body, scratch.patches, scratch.boxes);
@@ -121,7 +120,7 @@ PatchSearch::Found PatchSearch::find(const Task& task, const Patches& patches, s
   for (Index group = task.groups.begin; group < task.groups.end; ++group) {
     const Range others{self ? group : task.b->groups().begin, task.b->groups().end};
     list_near_groups(patches, group, others, known, offset, cutoff_, hits);
-    find_group_hits(patches, group, known, offset, cutoff_, unit_, tolerance2_, hits);
+    find_group_hits(patches, group, known, offset, cutoff_, tolerance2_, hits);
     found.pair_tests += hits.tested;
     add_contacts(task, hits.known, true, contacts);
     add_contacts(task, hits.found, false, contacts);
@@ -132,22 +131,16 @@ PatchSearch::Found PatchSearch::find(const Task& task, const Patches& patches, s
 }
 
 /// known: the shape has nothing more to say of these pairs.
-void PatchSearch::add_contacts(const Task& task, const GroupHits::List& pairs, bool known,
+void PatchSearch::add_contacts(const Task& task, std::span<const std::array<Index, 2>> pairs, bool known,
                                std::vector<Contact>& contacts) const {
   const Body &a = *task.a, &b = *task.b;
-  const Index *const vertex_a = a.cut->vertices().data(), *const vertex_b = b.cut->vertices().data();
-  const Index *const place_a = pairs.a.data(), *const place_b = pairs.b.data();
-  const std::size_t before = contacts.size();
-  contacts.resize(before + pairs.close);
-  Contact* end = contacts.data() + before;
-  for (Index n = 0; n < pairs.close; ++n) {
-    const Index one = vertex_a[place_a[n] - a.first_group * Patches::group_size];
-    const Index other = vertex_b[place_b[n] - b.first_group * Patches::group_size];
+  for (const auto& [place_a, place_b] : pairs) {
+    const Index one = a.cut->vertices()[place_a - a.first_group * Patches::group_size];
+    const Index other = b.cut->vertices()[place_b - b.first_group * Patches::group_size];
     if (!known && &a == &b && a.shape->excludes(one, other, tolerance2_)) continue;
     const Index first = a.first_vertex + one, second = b.first_vertex + other;
-    *end++ = {std::min(first, second), std::max(first, second)};
+    contacts.push_back({std::min(first, second), std::max(first, second)});
   }
-  contacts.resize(static_cast<std::size_t>(end - contacts.data()));
 }
 
 std::size_t PatchSearch::patches() const {

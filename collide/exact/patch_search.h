@@ -18,13 +18,9 @@ class PatchSearch {
   /// Starts a frame. cutoff: m.
   void begin(float tolerance2, float cutoff);
 
-  // Bodies that all threads share:
-  /// Takes the positions of some bodies; ascending.
-  void take(const Frame& frame, std::span<const Index> which, Workers& workers);
-  /// Adds the pairs inside one of these bodies, or between two of them.
-  void add(Index a, Index b);
-  /// Shares the pairs among threads: as many tasks as the caller should deal.
-  std::size_t deal(int threads);
+  /// Takes the positions of the bodies of some pairs, of which some may be pairs inside a body, and shares the pairs
+  /// among threads. Returns how many tasks the caller should deal.
+  std::size_t take(const Frame& frame, std::span<const std::array<Index, 2>> pairs, int threads, Workers& workers);
 
   /// The memory of a thread.
   struct Scratch {
@@ -61,14 +57,16 @@ class PatchSearch {
     const Body *a, *b;
     Range groups;  // of a
   };
-  Body lay_out(const Frame& frame, Index body, Index first_group);
+  Body lay_out(const Frame& frame, Index body, Index first_group, bool self);
+  void deal(std::span<const std::array<Index, 2>> pairs, int threads);
   void fill(const Frame& frame, Workers& workers);
   void fill(const Frame& frame, const Body& body, Range groups, Patches& patches) const;
   bool cut_spread_shapes(const Frame& frame);
   Found find(const Task& task, const Patches& patches, std::size_t max_contacts, GroupHits& hits,
              std::vector<Contact>& contacts) const;
   static void add_boxes(const Body& body, const Patches& patches, std::vector<DebugGeometry::Box>& boxes);
-  void add_contacts(const Task& task, const GroupHits::List& pairs, bool known, std::vector<Contact>& contacts) const;
+  void add_contacts(const Task& task, std::span<const std::array<Index, 2>> pairs, bool known,
+                    std::vector<Contact>& contacts) const;
 
   float tolerance2_ = 0, cutoff_ = 0;
   ByteUnit unit_{1};

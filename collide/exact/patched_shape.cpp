@@ -102,7 +102,7 @@ void PatchedShape::cut(const VertexRun& body) {
   for (auto& values : rest_) values.assign(vertex_.size(), nan);
   for (Index slot = 0; slot < body.size; ++slot) {
     const Index v = items[slot].number;
-    vertex_[Patches::place(slot / Patches::size, slot % Patches::size)] = v;
+    vertex_[slot] = v;
     slot_[v] = slot;
     if (at_rest.empty()) continue;
     for (int axis = 0; axis < 3; ++axis) rest_[static_cast<std::size_t>(axis)][slot] = at_rest[v][axis];
@@ -152,7 +152,8 @@ void PatchedShape::list_pairs(const Topology& topology, Index patch, float toler
     known_.rows[at][row] |= static_cast<std::uint16_t>(1u << other % Patches::size);
     listed_[other] = static_cast<Index>(known_.other.size());
     known_.other.push_back(other);
-    known_.mask.push_back(apart_at_rest(rest_, patch, other, tolerance2));
+    known_.mask.push_back(close_pairs(rest_, patch, other, tolerance2));
+    for (std::uint64_t& word : known_.mask.back()) word = ~word;
     if (other != patch) continue;
     for (Index k = 0; k < Patches::size; ++k)  // each pair once
       known_.mask.back()[k / 4] &= ~(((std::uint64_t{2} << k) - 1) << k % 4 * Patches::size);
@@ -176,7 +177,7 @@ void PatchedShape::leave_out_joined(const Topology& topology, Index patch) {
   const Index begin = patch * Patches::size, end = std::min(begin + Patches::size, static_cast<Index>(slot_.size()));
   for (Index slot = begin; slot < end; ++slot) {
     const Index k = slot - begin;
-    for (const Index neighbour : topology.neighbours(vertex_[Patches::place(patch, k)])) {
+    for (const Index neighbour : topology.neighbours(vertex_[slot])) {
       const Index other = slot_[neighbour];
       const Index bit = k % 4 * Patches::size + other % Patches::size;
       known_.mask[listed_[other / Patches::size]][k / 4] &= ~(std::uint64_t{1} << bit);

@@ -35,8 +35,8 @@ class PatchedShape {
   std::weak_ptr<const Shape> shape_;
   bool of_rest_ = false;
   Patches reference_;                       // boxes of what it was cut by
-  std::array<std::vector<float>, 3> rest_;  // m, by patch and lane; NaN where it is not known
-  std::vector<Index> vertex_, slot_;        // of each place; patch and lane of each vertex
+  std::array<std::vector<float>, 3> rest_;  // m, by place; NaN where it is not known
+  std::vector<Index> vertex_, slot_;        // of each place; the place of each vertex
   float tolerance2_ = 0;                    // of known_; 0: of none
   KnownPairs known_;
   std::vector<Index> listed_;  // by patch: which of known_.other names it for a patch; 0 if none does

@@ -8,7 +8,6 @@
 #include <glm/matrix.hpp>
 
 #include "collide/core/cutoff.h"
-#include "collide/exact/pair_kernels.h"
 
 namespace collide::exact {
 
@@ -76,17 +75,14 @@ CullingReference::CullingReference(const VertexRun& positions, const Topology& t
 }
 
 void CullingReference::list_pairs(const Topology& topology) {
-  VertexSet all;
-  all.take({x_.data(), y_.data(), z_.data(), static_cast<Index>(x_.size())}, 0);
+  const auto size = static_cast<Index>(x_.size());
   covered_ = cutoff_ + 0.3f * radius_;
-  Words words;
-  std::vector<Contact> close;
-  contacts_between(all, all, covered_ * covered_, std::size_t{max_vertices} * max_vertices, words, close);
   std::vector<std::pair<float, std::array<Index, 2>>> listed;
-  for (const Contact& pair : close) {
-    if (pair.a >= pair.b || topology.joined(pair.a, pair.b)) continue;
-    const float d2 = squared_distance(x_[pair.a], y_[pair.a], z_[pair.a], x_[pair.b], y_[pair.b], z_[pair.b]);
-    listed.push_back({std::sqrt(d2), {pair.a, pair.b}});
+  for (Index a = 0; a < size; ++a) {
+    for (Index b = a + 1; b < size; ++b) {
+      const float d2 = squared_distance(x_[a], y_[a], z_[a], x_[b], y_[b], z_[b]);
+      if (d2 < covered_ * covered_ && !topology.joined(a, b)) listed.push_back({std::sqrt(d2), {a, b}});
+    }
   }
   const std::size_t max_pairs = x_.size() * x_.size() / 128;  // to test them takes a third of a self pass
   if (listed.size() > max_pairs) {
