@@ -97,6 +97,14 @@ void BodyControls::select(std::optional<BodyId> body) {
   if (selected_) simulation_.notice.clear();
 }
 
+void BodyControls::switch_hold(softbody::Index particle) {
+  assert(selected_);
+  simulation_.change_bodies("hold of a vertex", [&](World& world) {
+    world.switch_hold(*selected_, particle);
+    return true;
+  });
+}
+
 void BodyControls::remove_selected() {
   if (!selected_) return simulation_.notice.set("click a body first, then delete it");
   simulation_.change_bodies("deletion of a body", [body = *selected_](World& world) {

@@ -26,6 +26,8 @@ class BodyControls {
   const std::optional<softbody::BodyId>& selected() const { return selected_; }
   void select(std::optional<softbody::BodyId> body);
   void remove_selected();
+  /// Holds a particle of the selected body where it is, or lets go of it.
+  void switch_hold(softbody::Index particle);
 
  private:
   Simulation& simulation_;

@@ -346,6 +346,7 @@ class Demo {
     if (task == Task::reset_camera) reset_camera(size);
     if (task == Task::show_selected_body && selected) focus_on(*selected, session_, camera_, size);
     if (task == Task::throw_body) throw_body(size);
+    if (task == Task::switch_hold) switch_hold(size);
     if (task == Task::show_highlight && highlight)
       camera_.glide_to(highlight->centre, tour_radius_factor * highlight->radius, size);
     if (task == Task::show_as_before_tour && orbit_before_tour_) camera_.glide_to(*orbit_before_tour_);
@@ -356,6 +357,15 @@ class Demo {
     const float distance = render::distance_to_scene(ray, session_.world(), positions_under_mouse(session_))
                                .value_or(camera_.orbit().distance);
     session_.bodies.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.origin + distance * ray.direction));
+  }
+
+  /// Holds, or lets go of, the vertex nearest to the point under the mouse, if that is the selected body's.
+  void switch_hold(glm::ivec2 size) {
+    const auto under = render::pick(mouse_.ray(camera_, size), session_.world(), positions_under_mouse(session_));
+    if (!under || under->body != session_.bodies.selected())
+      return session_.simulation.notice.set("click a body first, then point at one of its vertices");
+    const glm::vec3& w = under->weights;
+    session_.bodies.switch_hold(under->corners[w.x >= w.y && w.x >= w.z ? 0 : w.y >= w.z ? 1 : 2]);
   }
 
   /// Draws the scene if its picture has changed. Returns true if it has, or if the bodies move.

@@ -36,6 +36,10 @@ struct ContactRow {
 /// The value of ContactRow::feature where nothing is remembered of a row.
 inline constexpr std::uint32_t uncached = std::numeric_limits<std::uint32_t>::max();
 
+/// The mobility of the corners that are held: so little that no impulse moves them, and more than 0, so that their
+/// velocities count.
+inline constexpr float held_mobility = 1e-30f;
+
 /// Returns the relative velocity (m/s) of the two closest points. A body that does not move has none, whatever it will
 /// set out with.
 inline glm::vec3 relative_velocity(const ContactRow& row, Field<const float> v) {

@@ -179,6 +179,7 @@ void SolidContact::note_velocities(const Batch& b) {
 /// Particles first, then what lies between them, which may push particles back.
 void SolidContact::apply(const Batch& b, float h) {
   if (apply_to_particles(b, h, false)) apply_to_features(b, h);
+  state_.held.impose(b, field(state_.v));
 }
 
 /// Applies each solid in turn. Where two act on one body the later may push a particle into the earlier, as in a
@@ -211,11 +212,13 @@ void SolidContact::add_particle_rows(BodyId body, float travel, std::vector<Cont
   const Batch& b = state_.batch_of(body);
   const auto lane = std::size_t(state_.body(body).lane);
   const std::vector<SolidArguments>& near = of_batch_[b.index].near;
+  const std::span<const char> held = state_.held.of(body);
   for (std::uint32_t i = 0; i < near.size(); ++i) {
     const SolidArguments& s = near[i];
     if (!(s.near >> lane & 1u) || s.moves[lane] == 0) continue;
     const glm::vec3 place(s.place.x[lane], s.place.y[lane], s.place.z[lane]);
     for (Index v = 0; v < b.particles(); ++v) {
+      if (!held.empty() && held[v]) continue;
       const auto slot = std::uint32_t(state_.slot(body, v));
       const glm::vec3 at = read(field(std::as_const(state_.x)), slot) - place;
       const SurfaceAt<float> surface = simd::surface_at(s.shape, simd::Vec<float>{at.x, at.y, at.z});

@@ -172,12 +172,14 @@ void SolidContact::add_row(const Batch& b, SolidFeature& f, float h) {
   const auto surface = gap_of(f, m, s.shape, s.place[lane]);
   if (!surface) return;
 
+  const std::span<const char> held = state_.held.of(b.body[lane]);
   float mobility = 0;
   for (std::size_t k = 0; k < corners; ++k) {
     row.weight[k] = m.weight[k];
-    row.mobility[k] = m.weight[k] / s.mass;
+    row.mobility[k] = !held.empty() && held[f.vertices[k]] ? held_mobility : m.weight[k] / s.mass;
     mobility += row.weight[k] * row.mobility[k];
   }
+  if (mobility <= 1e6f * held_mobility) return;
   row.mass = 1 / mobility;
   row.normal = {surface->normal.x, surface->normal.y, surface->normal.z};
   row.friction = s.friction;

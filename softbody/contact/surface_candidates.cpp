@@ -264,7 +264,8 @@ void SurfaceCandidates::colour() {
 SurfaceCandidates::Side SurfaceCandidates::side(const Pair& pair, bool second) const {
   const Index id = second ? pair.range.b : pair.range.a;
   const ContactBody& body = bodies_[id];
-  return {traits_[id].surface, body.first_slot, body.stride, second ? pair.offset : glm::vec3(0.0f), body.inverse_mass};
+  return {traits_[id].surface, body.first_slot, body.stride, second ? pair.offset : glm::vec3(0.0f),
+          body.inverse_mass,   body.held};
 }
 
 std::vector<collide::surface::ItemPair> SurfaceCandidates::interactions() const {

@@ -28,6 +28,7 @@ struct ContactBody {
   float inverse_mass = 0;  // 1/kg, of a particle; 0: it does not move
   float friction = 0, restitution = 0;
   const std::vector<glm::vec3>* rest = nullptr;  // its vertices at rest, m
+  std::vector<char> held{};                      // whether each of them is; empty if none is
 };
 
 class SurfaceCandidates {
@@ -66,6 +67,9 @@ class SurfaceCandidates {
     std::size_t slot, stride;  // as of ContactBody
     glm::vec3 offset;
     float inverse_mass;
+    std::span<const char> held;
+
+    bool holds(Index vertex) const { return !held.empty() && held[vertex]; }
   };
 
   /// Everything that is kept from one substep to the next.

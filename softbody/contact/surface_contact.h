@@ -66,7 +66,7 @@ class SurfaceContact {
   /// Returns true if some row pressed in the last substep. A snapshot keeps such rows only.
   bool presses() const;
   /// Adds up what the rows of a substep do, which all threads must have solved. On every thread.
-  void add_row_work(int thread, int threads);
+  void add_row_work(int thread, int threads, Field<const float> v);
   /// Returns the energy (J) that pushing apart has given to bodies since the last call. Adds the impulses of pairs that
   /// have restitution to `rebounds`.
   double take_work(Rebounds& rebounds);

@@ -20,7 +20,7 @@ constexpr float push_kept = 0.8f;  // of an impulse that pushes out is handed on
 void set_corner(ContactRow& row, std::size_t k, const SurfaceCandidates::Side& side, Index vertex, float weight) {
   row.slot[k] = std::uint32_t(side.slot + vertex * side.stride);
   row.weight[k] = weight;
-  row.mobility[k] = side.inverse_mass * weight;
+  row.mobility[k] = side.inverse_mass > 0 && side.holds(vertex) ? held_mobility : side.inverse_mass * weight;
 }
 
 ContactRow corners_of(const Closest& c, const SurfaceCandidates::Side& vertex_side, Index vertex,
@@ -224,12 +224,12 @@ void SurfaceRowMaker::edges_on_edges(Pair& pair) {
   }
 }
 
-/// Adds a row, unless neither side moves. apart: between the surfaces, negative where they overlap.
+/// Adds a row, unless nothing can move either side. apart: between the surfaces, negative where they overlap.
 void SurfaceRowMaker::add_row(const Pair& pair, const ContactRow& corners, const glm::vec3& normal, float apart,
                               CachedContact& cached) {
   float mobility = 0;
   for (std::size_t k = 0; k < 4; ++k) mobility += corners.weight[k] * corners.mobility[k];
-  if (mobility <= 0) return;
+  if (mobility <= 1e6f * held_mobility) return;
   const float distance = corners.feature == uncached ? pair.distance : candidates_.max_gap(pair, corners.feature);
   const float gap = apart - distance;
   ContactRow& row = rows_.emplace_back(corners);

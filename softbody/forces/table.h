@@ -24,6 +24,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "softbody/forces/air_drag.h"
 #include "softbody/forces/gas.h"
 #include "softbody/forces/hand.h"
 #include "softbody/forces/penalty_contact.h"
@@ -35,7 +36,8 @@ namespace softbody {
 template <class... Force>
 struct List {};
 
-using Forces = List<StructuralSprings, BendSprings, ShearSprings, GasPressure, ShapeMatching, PenaltyContact, Hand>;
+using Forces =
+    List<StructuralSprings, BendSprings, ShearSprings, GasPressure, ShapeMatching, AirDrag, PenaltyContact, Hand>;
 
 template <class Force>
 struct Name {};

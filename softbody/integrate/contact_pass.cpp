@@ -68,9 +68,14 @@ double ContactPass::find(double left, double ahead, double least) {
     const auto edge = float(model.mean_edge);
     const float margin = std::clamp(0.5f * float(model.material[Material::thickness]), 0.001f * edge, 0.1f * edge);
     traits.push_back({model.surface.get(), margin, 0, edge, body.moves()});
-    contacts.push_back({body.origin, state_.slot(id, 0), std::size_t(state_.batch_of(id).width),
-                        body.moves() ? float(1 / model.particle_mass) : 0.0f, float(model.material[contact::friction]),
-                        float(model.material[contact::restitution]), &model.shape->rest()});
+    contacts.push_back({body.origin,
+                        state_.slot(id, 0),
+                        std::size_t(state_.batch_of(id).width),
+                        body.moves() ? float(1 / model.particle_mass) : 0.0f,
+                        float(model.material[contact::friction]),
+                        float(model.material[contact::restitution]),
+                        &model.shape->rest(),
+                        {state_.held.of(id).begin(), state_.held.of(id).end()}});
   }
   surfaces_.candidates().find(
       motion(now), std::move(traits), std::move(contacts),
@@ -109,7 +114,8 @@ void ContactPass::apply(const BatchShare& share, float h, float since_start) {
     barrier();
     solids();
   }
-  surfaces_.add_row_work(share.thread, shares_.active());
+  if (state_.held.moves()) barrier();  // their velocities are read
+  surfaces_.add_row_work(share.thread, shares_.active(), field(std::as_const(state_.v)));
 }
 
 /// Solves contacts of bodies together with those of the solids that they lie on, which apply() takes in turn.

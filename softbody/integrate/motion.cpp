@@ -23,8 +23,9 @@ void Motion::set_plan(const Plan& plan) {
   forces_.set_plan(taken);
 }
 
-void Motion::begin_frame(const Integrator& integrator, const glm::dvec3& gravity, const BatchShares& shares) {
-  gravity_ = gravity;
+void Motion::begin_frame(const Integrator& integrator, const glm::dvec3& gravity, const glm::dvec3& wind,
+                         const BatchShares& shares) {
+  gravity_ = gravity, wind_ = wind;
   scratch_.resize(std::size_t(integrator.scratch));
   for (auto& one : scratch_)
     for (auto& c : one) c.resize(parts_.state.x[0].size());
@@ -68,6 +69,7 @@ void Motion::advance_velocities(const BatchShare& share, const Batch& b, float h
     drift = field(parts_.state.x, b.base);
   }
   forces_.advance(step, {how, drift}, volumes_[b.index]);
+  impose_holds(b);
 }
 
 void Motion::advance_positions(const BatchShare& share, const Batch& b, float h) {
@@ -88,7 +90,10 @@ void Motion::contacts_under_pressure(const BatchShare& share, float h) {
     return;
   for (int i = 0; i < times; ++i) {
     for (const Batch* b : share.batches)
-      if (touch || near(*b)) forces_.press_again(step_of(*b, h), volumes_[b->index]);
+      if (touch || near(*b)) {
+        forces_.press_again(step_of(*b, h), volumes_[b->index]);
+        impose_holds(*b);
+      }
     contacts(share, h);
   }
 }
@@ -111,23 +116,41 @@ void Motion::solve_implicit(const BatchShare& share, const Batch& b, Quantity me
                           {.batch = b,
                            .x = field(state.x),
                            .v = field(state.v),
-                           .gravity = gravity_,
+                           .gravity = acceleration_of(b),
                            .near_solids = parts_.solids.near(b),
                            .features = parts_.solids.find_feature_rows(b, h),
                            .penalty = penalty,
                            .ends = penalty.ends_of(b),
+                           .held = state.held.of(b),
                            .is_moving = [&state](BodyId body) { return state.body(body).moves(); }},
                           {field(array(mean)), field(array(rest)), parts_.solids.sums(b)}, double(h));
 }
 
 void Motion::kick(const Batch& b, float h) {
   state_kernels(b.width).kick(used(b), step_of(b, h).kick_arguments(), f(b), v(b));
+  impose_holds(b);
+}
+
+void Motion::drift(const Batch& b, float h) {
+  impose_holds(b);
+  add(b, positions, h, velocities);
 }
 
 void Motion::accelerations(const Batch& b) {
-  const glm::vec3 g(gravity_);
+  const glm::vec3 g(acceleration_of(b));
   state_kernels(b.width).accelerate(
       used(b), {b.particles(), 1, float(1 / b.model->particle_mass), g.x, g.y, g.z, b.moves.data()}, f(b));
+  for (const HeldParticle& p : parts_.state.held.of(b))
+    for (auto& component : parts_.state.f) component[p.slot] = 0;
+}
+
+void Motion::count_work_of_holds(const BatchShare& share, const Batch& b, float h) {
+  VectorArray& own = own_forces_[std::size_t(share.thread)];
+  ForceBatch step = step_of(b, h);
+  step.f = field(own);
+  forces_.add(step);
+  parts_.state.held.end_substep(parts_.state, b, step.f, step.gravity, h);
+  for (auto& component : own) std::ranges::fill(component, 0.0f);
 }
 
 VectorArray& Motion::array(Quantity q) {

@@ -20,6 +20,7 @@ struct Facts {
   std::size_t bodies() const {  // a dropper can always add another
     return scene.dropper ? 2 : scene.bodies.size() + added_bodies.bodies;
   }
+  bool any_source(bool (*test)(const BodySource&)) const { return std::ranges::any_of(scene.bodies, test); }
   template <class Test>
   bool any(Test test) const {
     return std::any_of(models.begin(), models.end(), [&](const auto& model) { return test(*model); });
@@ -34,9 +35,15 @@ using Why = const char* (*)(const Facts&);  // nullptr: the stage is needed
 const char* needed(const Facts&) { return nullptr; }
 
 const char* arrivals(const Facts& f) {
-  const bool late = std::any_of(f.scene.bodies.begin(), f.scene.bodies.end(),
-                                [](const BodySource& b) { return b.appear > 0 || b.release > 0; });
+  const bool late = f.any_source([](const BodySource& b) {
+    return b.appear > 0 || b.release > 0 || std::ranges::any_of(b.holds, [](const Hold& h) { return h.until > 0; });
+  });
   return late ? nullptr : "all bodies are there and free from the start";
+}
+
+const char* holds(const Facts& f) {
+  const bool any = f.added_bodies.holds || f.any_source([](const BodySource& b) { return !b.holds.empty(); });
+  return any ? nullptr : "no vertex is held";
 }
 
 const char* contacts(const Facts& f) {
@@ -101,6 +108,7 @@ struct Row {
 
 constexpr std::array before_forces{
     Row{Stage::arrive, "arrive", arrivals},
+    Row{Stage::hold, "hold", holds},
     Row{Stage::surface_contact, "surface-contact", surface_contacts},
 };
 

@@ -18,6 +18,7 @@ struct ShapeTraits;
 /// A stage of a step. That of a force of the table (forces/table.h) is first_force plus its place there: see stage_of.
 enum class Stage {
   arrive,
+  hold,
   surface_contact,
   gravity,
   integrate,
@@ -53,6 +54,7 @@ struct Plan {
 struct AddedBodies {
   std::size_t bodies = 0;  // dropped or thrown in by hand
   bool grabs = false;      // a hand holds a body
+  bool holds = false;      // vertices are held by hand
 };
 
 /// `models`: those of the scene's bodies, of its dropper and of the visitors.

@@ -41,6 +41,8 @@ void Solver::set_plan(const Plan& plan) {
   solids_.set_parts(plan.has(Stage::solid_features), plan.has(Stage::restitution));
   if (!plan.has(stage_of<PenaltyContact>)) penalty_.clear();
   if (!plan.has(Stage::restitution)) rebounds_ = {};
+  has_holds_ = plan.has(Stage::hold);
+  if (!has_holds_) state_.held = {};
 }
 
 void Solver::remove(BodyId body) {
@@ -77,7 +79,7 @@ void Solver::mark_touched() {
     for (const BodyId body : *bodies) join(body);
   if (hand_.grab()) mark_pushed(hand_.grab()->body);
   for (const Batch* b : shares_.moving())
-    if (has_external_force(*b->model)) pushed_[b->index] = ~0u;
+    if (has_external_force(*b->model) || state_.held.any(*b)) pushed_[b->index] = ~0u;
 }
 
 StepBound Solver::begin_frame(double seconds) {
@@ -88,11 +90,13 @@ StepBound Solver::begin_frame(double seconds) {
   pushed_.assign(state_.batches().size(), 0);
   joined_.assign(state_.batches().size(), false);
   const std::size_t particles = take_moving_batches();
+  if (has_holds_) state_.held.begin_frame(state_);
   const std::vector<const Batch*>& moving = shares_.moving();
   std::vector<Extent> extents(moving.size());
   shares_.for_each(moving.size(), [&](std::size_t i) { extents[i] = state_.extent(*moving[i], state_.x, state_.v); });
   for (std::size_t i = 0; i < moving.size(); ++i)
-    solids_.add(*moving[i], extents[i], scene_.solids, scene_.gravity, seconds);
+    solids_.add(*moving[i], extents[i], scene_.solids,
+                uniform_acceleration(*moving[i]->model, scene_.gravity, scene_.wind), seconds);
   const bool eased_out = std::ranges::any_of(moving, [&](const Batch* b) { return solids_.pushed(*b) != 0; });
   if (eased_out && !penalty_.pairs().empty())
     penalty_.gather(field(std::as_const(state_.x)), field(std::as_const(state_.v)));
@@ -111,20 +115,34 @@ StepBound Solver::begin_frame(double seconds) {
        .sleep_speed = scene_.sleep.speed},
       bound);
   steps_.spend(work::surface * searches);
-  motion_.begin_frame(*steps_.plan().integrator, gravity_, shares_);
+  motion_.begin_frame(*steps_.plan().integrator, gravity_, scene_.wind, shares_);
   mark_touched();
   return bound;
 }
 
+/// Returns the sum of the works (J) that the wind's uniform force does on all bodies up to where they are.
+double Solver::work_of_wind() const {
+  double sum = 0;
+  if (scene_.wind == glm::dvec3(0.0)) return sum;
+  for (BodyId id = 0; id < state_.body_count(); ++id) {
+    const auto* air = data<AirDrag>(state_.model(id));
+    for (Index i = 0; air && i < state_.batch_of(id).particles(); ++i)
+      sum += air->damping * glm::dot(scene_.wind, state_.particle(id, i).position);
+  }
+  return sum;
+}
+
 FrameResult Solver::advance(double seconds, const AfterSubstep& after_substep) {
   const StepBound bound = begin_frame(seconds);
-  const double held = penalty_energy();
+  const double held = penalty_energy(), blown = work_of_wind();
   const FrameResult done =
       shares_.moving().empty() ? FrameResult{.seconds = seconds} : take_substeps(seconds, bound, after_substep);
   solids_.end_frame();
   penalty_.take_impacts(rebounds_);
   state_.ledger.book(WorkBy::surfaces, rebounds_.give_back(state_, done.seconds));
   state_.ledger.book(WorkBy::penalty, held - penalty_energy());
+  state_.ledger.book(WorkBy::holds, state_.held.take_work());
+  state_.ledger.book(WorkBy::wind, work_of_wind() - blown);
   return done;
 }
 
@@ -253,11 +271,19 @@ void Solver::run(int count, float h, bool first, const AfterSubstep& after_subst
   if (integrator.implicit) prepare_implicit(h);
   const auto holds_body = [&](const Batch* b) { return hand_.holds(state_, *b); };
   const auto advance = [&](const BatchShare& share, int s) {
-    for (const Batch* b : share.batches) solids_.note_velocities(*b);
+    for (const Batch* b : share.batches) {
+      state_.held.begin_substep(state_, *b, h);
+      solids_.note_velocities(*b);
+    }
     const bool holds = std::ranges::any_of(share.batches, holds_body);
     if (holds) hand_.note_point(state_);
     integrator.advance(motion_, share, {h, first && s == 0});
     if (holds) hand_.book_work(state_);
+    for (const Batch* b : share.batches) {
+      state_.held.impose(*b, field(state_.v));
+      if (state_.held.moves(*b)) motion_.count_work_of_holds(share, *b, h);
+    }
+    if (state_.held.moves()) share.barrier();  // until then nobody evaluates contacts anew
   };
   share_batches(bool(after_substep));
   std::atomic<std::size_t> next = 0;
@@ -293,8 +319,10 @@ void Solver::finish(const Batch& b, double seconds) {
   for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
     pushes[l] = solids_.push(b.body[l]);
     impacts[l] = state_.memory(b.body[l]).impact;
+    if (!state_.held.of(b.body[l]).empty()) pushes[l] = {}, impacts[l] = {};  // it does not move as a whole
   }
   resistance_.apply({b, field(state_.x, b.base), field(state_.v, b.base)}, pushes, seconds, impacts);
+  state_.held.impose(b, field(state_.v));
   state_.recentre(b);
   const std::array<double, lanes> speeds = state_.max_particle_speeds(b);
   for (std::size_t l = 0; l < std::size_t(b.used); ++l) {

@@ -118,6 +118,7 @@ class Solver {
   Series plan_series(double left, StepBound& bound);
   int trusted_substeps(const Series& series, double fastest, bool surfaces_decide) const;
   void count_work(int count);
+  double work_of_wind() const;
   double staggering(float h) const;
   void set_staggering(double seconds);
   void prepare_implicit(float h);
@@ -138,6 +139,7 @@ class Solver {
   Rebounds rebounds_;
   StepController steps_;
   StepBounds bounds_;
+  bool has_holds_ = false;        // the plan has them
   glm::dvec3 gravity_{0.0};       // m/s^2; 0 if the plan has none
   std::vector<unsigned> pushed_;  // of each batch, bits: lanes that something may push in this frame
   std::vector<char> joined_;      // of each batch: whether contacts may join it to others, or act within it

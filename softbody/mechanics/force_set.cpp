@@ -52,7 +52,7 @@ void ForceSet::press_again(const ForceBatch& b, LaneVolumes& volumes) const {
 void ForceSet::project(const ForceBatch& b, Field<const float> x0, Field<float> d) const {
   const ForceKernels& kernels = force_kernels(b.batch.width);
   const LaneBodies<float> bodies = lanes_of(b);
-  const Projection projection{float(b.h), b.batch.moves.data(), x0, d, bodies.f};
+  const Projection projection{float(b.h), b.batch.moves.data(), x0, d, bodies.f, b.state.held.free(b.batch)};
   for (const bool volumes : {true, false})
     for_each_force(Forces{}, [&]<class F>(Name<F>) {
       if constexpr (is_projected<F>())
@@ -88,6 +88,11 @@ ForceBound bound_of(const Batch& b, Field<const float> x, bool projects) {
     bound.volume_change = std::max(bound.volume_change, std::abs(shapes[l].volume / model.start_volume - 1));
   }
   return bound;
+}
+
+glm::dvec3 uniform_acceleration(const BodyModel& model, const glm::dvec3& gravity, const glm::dvec3& wind) {
+  const auto* air = data<AirDrag>(model);
+  return air ? gravity + air->damping / model.particle_mass * wind : gravity;
 }
 
 bool has_external_force(const BodyModel& model) {

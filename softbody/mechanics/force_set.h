@@ -47,6 +47,9 @@ class ForceSet {
 /// moves the particles, so that only those forces count that act as forces in it.
 ForceBound bound_of(const Batch& batch, Field<const float> x, bool projects);
 
+/// Returns the acceleration (m/s^2) of all particles of a model by gravity (m/s^2) and the wind (m/s).
+glm::dvec3 uniform_acceleration(const BodyModel& model, const glm::dvec3& gravity, const glm::dvec3& wind);
+
 /// True if some force of a model acts on its bodies from outside.
 bool has_external_force(const BodyModel& model);
 

@@ -316,11 +316,18 @@ HWY_INLINE void drift(const LaneBodies<float>& b, const KickArguments& k, Field<
 /// constraint of compliance 1 / k with its damper. Particles are at x0 + d. Their displacements d in this step are
 /// small, so that velocities lose no digits in floats. No element moves a particle by more than the body's radius: what
 /// is farther off is no longer near its first order, and a body that is torn out that far would fling itself apart.
-template <class V, int width>
+/// holds: some particles are held, and do not move.
+template <class V, int width, bool holds>
 struct Project {
   const LaneBodies<float>& b;
   const Projection& p;
   float inverse_mass;  // 1/kg, of a particle
+
+  /// Returns a vector for a particle: 0 if it is held.
+  HWY_INLINE Vec<V> if_free(std::size_t at, const Vec<V>& vector) const {
+    if constexpr (holds) return load<V>(p.free + at) * vector;
+    return vector;
+  }
 
   HWY_INLINE void operator()(Length c, const auto& law) const {
     const std::size_t i = c.i * width, j = c.j * width;
@@ -331,12 +338,19 @@ struct Project {
     const V length = square_root(dot(dx, dx));
     const Vec<V> n = (1.0f / larger(length, tiny)) * dx;
     const float damping = law.damping * inverse_h;
-    const float yields = 1 / ((law.stiffness + damping) * 2 * inverse_mass + inverse_h2);
+    const auto yields = [&] {
+      if constexpr (holds) {
+        const V both = load<V>(p.free + i) + load<V>(p.free + j);
+        return V(1.0f) / ((law.stiffness + damping) * inverse_mass * both + V(inverse_h2));
+      } else {
+        return 1 / ((law.stiffness + damping) * 2 * inverse_mass + inverse_h2);
+      }
+    }();
     const V impulse = yields * (pull_at(law, length) + damping * dot(moved, n));
     const V most = V(float(b.model.radius)), way = (inverse_mass * load<V>(p.moves)) * impulse;
     const Vec<V> shift = smaller(larger(way, -most), most) * n;
-    store(p.d, i, di + shift);
-    store(p.d, j, dj - shift);
+    store(p.d, i, di + if_free(i, shift));
+    store(p.d, j, dj - if_free(j, shift));
   }
 
   /// The limit of one constraint on the volume V, with the law as its compliance: along the gradient g of V that pull
@@ -350,6 +364,8 @@ struct Project {
     for (std::size_t at = 0; at < size; at += width) store(p.scratch, at, Vec<V>{});
     simd::volume<V, width>(b.model.mesh.triangles, b.x, volume);
     push_faces<V, width>(b.model.mesh.triangles, b.x, unit, p.scratch);
+    if constexpr (holds)
+      for (std::size_t at = 0; at < size; at += width) store(p.scratch, at, if_free(at, load<V>(p.scratch, at)));
     for (const float* gradient : {p.scratch.x, p.scratch.y, p.scratch.z})
       for (std::size_t at = 0; at < size; at += width)
         for (std::size_t l = 0; l < run; ++l) {
@@ -372,7 +388,8 @@ struct Project {
   HWY_INLINE void operator()(Path c, const auto& law) const {
     const std::size_t i = c.i * width;
     const float lost = 1 - 1 / (1 + p.h * float(law.damping) * inverse_mass);
-    store(p.d, i, (V(1.0f) - V(lost) * load<V>(p.moves)) * load<V>(p.d, i));
+    const Vec<V> d = load<V>(p.d, i);
+    store(p.d, i, d - if_free(i, V(lost) * load<V>(p.moves) * d));
   }
 };
 

@@ -43,9 +43,12 @@ struct Projection {
   const float* moves;       // 0 or 1 for each lane
   Field<const float> x0;    // m
   Field<float> d, scratch;  // m; scratch: room for as much
+  const float* free;        // of each particle of each lane: 0 if it is held, else 1; nullptr: none is
 
   /// Returns that of the bodies from a lane on.
-  Projection from(std::size_t lane) const { return {h, moves + lane, x0 + lane, d + lane, scratch + lane}; }
+  Projection from(std::size_t lane) const {
+    return {h, moves + lane, x0 + lane, d + lane, scratch + lane, free ? free + lane : free};
+  }
 };
 
 /// Bodies of one model side by side, the first `used` of them, in double.

@@ -38,7 +38,11 @@ struct Kernels {
     for (std::size_t l = 0; l < std::size_t(all.used); l += step) {
       const LaneBodies<float> b = all.from(l);
       const Projection own = p.from(l);
-      visit<F, V>(b.model, *d, {}, Project<V, width>{b, own, float(1 / b.model.particle_mass)});
+      const auto inverse_mass = float(1 / b.model.particle_mass);
+      if (own.free)
+        visit<F, V>(b.model, *d, {}, Project<V, width, true>{b, own, inverse_mass});
+      else
+        visit<F, V>(b.model, *d, {}, Project<V, width, false>{b, own, inverse_mass});
     }
   }
   /// Calls at(bodies, arguments, velocities, lane) for each run of lanes.

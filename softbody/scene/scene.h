@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "collide/methods.h"
@@ -19,13 +21,34 @@
 
 namespace softbody {
 
+/// A rotation that goes on.
+struct Spin {
+  glm::dvec3 axis{0, 1, 0};       // unit
+  double degrees_per_second = 0;  // counter-clockwise, seen from the axis' tip
+  glm::dvec3 vector() const { return glm::radians(degrees_per_second) * axis; }  // rad/s
+  bool operator==(const Spin&) const = default;
+};
+
+/// Holds the vertices of a body that are in a shape where it appears, its surface included.
+struct Hold {
+  Solid::Shape where = SolidBox{};
+  int until = 0;             // the frame in which it lets them go; 0: never
+  glm::dvec3 velocity{0.0};  // m/s, with which it moves them ...
+  Spin turn{};               // ... and turns them, about an axis through a place that moves with them:
+  glm::dvec3 through{0.0};   // m
+  bool operator==(const Hold&) const = default;
+};
+
 struct BodySource {
   MeshSource mesh;
   int material = 0;              // index into Scene::materials
   glm::dvec3 position{0, 3, 0};  // m, of the mesh's origin
-  glm::dvec3 velocity{0.0};      // m/s
+  glm::dmat3 axes{1.0};          // columns: the mesh's axes in the world, orthonormal; it turns about its origin
+  glm::dvec3 velocity{0.0};      // m/s, of its middle ...
+  Spin spin{};                   // ... about which it spins
   int appear = 0;                // the frame in which it joins the scene ...
   int release = 0;               // ... held in place until this one
+  std::vector<Hold> holds{};
   bool operator==(const BodySource&) const = default;
 };
 
@@ -80,6 +103,7 @@ struct Scene {
   std::string name;
   std::string look_at;              // one sentence for the user: what to look at
   glm::dvec3 gravity{0, -9.81, 0};  // m/s^2
+  glm::dvec3 wind{0.0};             // m/s, of the air
   std::string method{collide::default_method};
   ContactSurface contact_surface = ContactSurface::vertices;
   collide::Settings collision;  // without a cell size: the automatic one

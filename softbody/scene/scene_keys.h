@@ -23,6 +23,8 @@ namespace scene_key {
 inline constexpr Key gravity("gravity", "m/s\u00b2", {-max_gravity, max_gravity},
                              "Acceleration along x, y and z. On Earth it is 9.81.",
                              {"Gravity", "%.2f m/s\u00b2", 0, 30});
+inline constexpr Key wind("air.wind", "m/s", {-1e3, 1e3},
+                          "Velocity of the air along x, y and z. It acts on bodies whose material has `air_drag`.");
 inline constexpr Key method("collision.method", "", {}, "How contacts are found.", {"Method"});
 inline constexpr Key levels("collision.levels", "", {0, collide::max_levels},
                             "Level n cuts the box of a body into 2^n boxes (\u00a72.1; the paper uses 3).",
@@ -57,6 +59,7 @@ inline constexpr Key sleep_frames("sleep.frames", "", {1, 1e6}, "They do so afte
 /// Calls visit(key, value) for each of these keys, with the member of the scene that it stands for.
 void for_each_value(auto& scene, auto&& visit) {
   visit(scene_key::gravity, scene.gravity);
+  visit(scene_key::wind, scene.wind);
   visit(scene_key::method, scene.method);
   visit(scene_key::levels, scene.collision.levels);
   visit(scene_key::buckets, scene.collision.buckets);

@@ -17,6 +17,9 @@
 namespace softbody {
 namespace {
 
+constexpr int forever = 1'000'000'000;  // frames
+constexpr double max_speed = 1e3;       // m/s
+
 /// Reads the value of a key, if the table has it.
 template <class Value>
 void read(Table& t, const std::string& name, const Key& key, Value& value) {
@@ -116,6 +119,29 @@ MeshSource read_mesh(Table table, std::vector<MeshSource>& files) {
   return m;
 }
 
+Spin read_spin(Table table) {
+  constexpr double most = 36'000;
+  const Spin s{read_direction(table, "axis", Spin().axis), table.number("degrees_per_second", 0, -most, most)};
+  table.close();
+  return s;
+}
+
+/// appear: the first frame of the body.
+Hold read_hold(Table& table, int appear) {
+  Hold h;
+  if (table.has("box") == table.has("sphere")) table.fail("box", "or sphere must say where: one of them");
+  h.where =
+      table.has("box") ? read_shape(table.child("box"), SolidBox()) : read_shape(table.child("sphere"), SolidSphere());
+  if (table.has("until")) h.until = table.integer("until", 0, appear + 1, forever);
+  h.velocity = table.vector("velocity", h.velocity, -max_speed, max_speed);
+  if (!table.has("turn")) return table.close(), h;
+  Table turn = table.child("turn");
+  h.through = turn.vector("through", h.through, -1e6, 1e6);
+  h.turn = read_spin(std::move(turn));
+  table.close();
+  return h;
+}
+
 /// Reads the keys that bodies and the dropper have in common.
 BodySource read_body(Table& table, const std::vector<Material>& materials, std::vector<MeshSource>& files) {
   BodySource b;
@@ -124,7 +150,9 @@ BodySource read_body(Table& table, const std::vector<Material>& materials, std::
   while (std::size_t(b.material) < materials.size() && materials[std::size_t(b.material)].name != name) ++b.material;
   if (std::size_t(b.material) == materials.size()) table.fail("material", "names no [[material]] of this file");
   b.position = table.vector("position", b.position, -1e6, 1e6);
-  b.velocity = table.vector("velocity", b.velocity, -1e3, 1e3);
+  if (table.has("rotation")) b.axes = read_rotation(table.child("rotation"));
+  b.velocity = table.vector("velocity", b.velocity, -max_speed, max_speed);
+  b.spin = read_spin(table.child("spin"));
   return b;
 }
 
@@ -186,7 +214,6 @@ std::vector<Material> read_materials(Table& root, const std::filesystem::path& p
 void read_bodies(Table& root, Scene& scene, const std::filesystem::path& presets) {
   scene.materials = read_materials(root, presets);
   if (scene.materials.empty()) scene.materials.emplace_back();
-  constexpr int forever = 1'000'000'000;
   std::uint64_t particles = 0;
   std::vector<MeshSource> files;
   for (Table& t : root.children("body")) {
@@ -194,6 +221,7 @@ void read_bodies(Table& root, Scene& scene, const std::filesystem::path& presets
     b.appear = t.integer("appear", 0, 0, forever);
     b.release = t.integer("release", b.appear, 0, forever);
     if (b.release < b.appear) t.fail("release", "must not come before appear");
+    for (Table& hold : t.children("hold")) b.holds.push_back(read_hold(hold, b.appear));
     add_lattice(t, t.child("lattice"), b, scene.bodies, particles);
     t.close();
   }

@@ -76,11 +76,26 @@ TomlInline mesh(const MeshSource& m, const fs::path& folder) {
   return out;
 }
 
+TomlInline spin(const Spin& s) {
+  return TomlInline().add("axis", s.axis).add("degrees_per_second", s.degrees_per_second);
+}
+
+TomlInline hold(const Hold& h) {
+  TomlInline out;
+  out.add(std::holds_alternative<SolidBox>(h.where) ? "box" : "sphere", write_shape(h.where));
+  if (h.until > 0) out.add("until", h.until);
+  if (h.velocity != glm::dvec3(0.0)) out.add("velocity", h.velocity);
+  if (h.turn != Spin() || h.through != glm::dvec3(0.0)) out.add("turn", spin(h.turn).add("through", h.through));
+  return out;
+}
+
 void write_body(TomlLines& out, const BodySource& b, const Scene& scene, const fs::path& folder) {
   out.add("mesh", mesh(b.mesh, folder));
   out.add("material", scene.materials[std::size_t(b.material)].name);
   out.add("position", b.position);
+  write_rotation(out, "rotation", b.axes);
   if (b.velocity != glm::dvec3(0.0)) out.add("velocity", b.velocity);
+  if (b.spin != Spin()) out.add("spin", spin(b.spin));
 }
 
 void write_bodies(TomlLines& out, const Scene& scene, const fs::path& folder) {
@@ -89,6 +104,10 @@ void write_bodies(TomlLines& out, const Scene& scene, const fs::path& folder) {
     write_body(out, b, scene, folder);
     if (b.appear != 0) out.add("appear", b.appear);
     if (b.release != b.appear) out.add("release", b.release);
+    if (b.holds.empty()) continue;
+    std::vector<TomlInline> holds;
+    std::ranges::transform(b.holds, std::back_inserter(holds), hold);
+    out.add("hold", holds);
   }
   if (!scene.dropper) return;
   out.heading("[dropper]");

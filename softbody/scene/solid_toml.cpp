@@ -12,14 +12,6 @@ constexpr Key::Limits places = solid::PlaceKind::limits, lengths = solid::Length
 
 constexpr double unit_error = 1e-14;  // of the square of a length that was made 1, at most
 
-/// Reads a direction of any length but zero and returns its unit vector. A unit vector is returned unchanged, to the
-/// bit, so that saved scenes are equal.
-glm::dvec3 read_direction(Table& table, const std::string& key, const glm::dvec3& fallback) {
-  const glm::dvec3 v = table.vector(key, fallback, places.least, places.most);
-  if (glm::length(v) < lengths.least) table.fail(key, "must have a length, e.g. [0, 1, 0]");
-  return std::abs(glm::dot(v, v) - 1) < unit_error ? v : glm::normalize(v);
-}
-
 /// Reads a rotation as a matrix, column by column. Saved scenes use this form, since it is exact.
 glm::dmat3 read_axes(Table table) {
   const glm::dmat3 axes = table.matrix("axes");
@@ -29,8 +21,14 @@ glm::dmat3 read_axes(Table table) {
   return axes;
 }
 
-/// Returns the matrix that rotates by `degrees` about `axis`, counter-clockwise as seen from its tip (Rodrigues). Sine
-/// and cosine are rounded, so that quarter turns are exact and processors agree in the last digits.
+}  // namespace
+
+glm::dvec3 read_direction(Table& table, const std::string& key, const glm::dvec3& fallback) {
+  const glm::dvec3 v = table.vector(key, fallback, places.least, places.most);
+  if (glm::length(v) < lengths.least) table.fail(key, "must have a length, e.g. [0, 1, 0]");
+  return std::abs(glm::dot(v, v) - 1) < unit_error ? v : glm::normalize(v);
+}
+
 glm::dmat3 read_rotation(Table table) {
   if (table.has("axes")) return read_axes(std::move(table));
   const glm::dvec3 axis = read_direction(table, "axis", {0, 1, 0});
@@ -47,7 +45,8 @@ glm::dmat3 read_rotation(Table table) {
   return columns;
 }
 
-/// Reads the values of a shape. A key that is missing leaves its value as it is.
+namespace {
+
 struct ShapeReader {
   Table& table;
   void operator()(const std::string& key, solid::Place p) const {
@@ -64,13 +63,12 @@ struct ShapeReader {
   void operator()(const std::string& key, solid::Axes a) const { a.value = read_rotation(table.child(key)); }
 };
 
+template <class Out>
 struct ShapeWriter {
-  TomlLines& out;
+  Out& out;
   void operator()(std::string_view key, auto v) const { out.add(key, v.value); }
   void operator()(std::string_view key, solid::HalfSize s) const { out.add(key, 2.0 * s.value); }
-  void operator()(std::string_view key, solid::Axes a) const {
-    if (a.value != glm::dmat3(1.0)) out.add(key, TomlInline().add("axes", a.value));
-  }
+  void operator()(std::string_view key, solid::Axes a) const { write_rotation(out, key, a.value); }
 };
 
 template <class Shape>
@@ -103,12 +101,24 @@ std::vector<Solid> read_solids(Table& root) {
   return solids;
 }
 
+Solid::Shape read_shape(Table table, Solid::Shape shape) {
+  std::visit([&](auto& one) { one.values(ShapeReader{table}); }, shape);
+  table.close();
+  return shape;
+}
+
+TomlInline write_shape(Solid::Shape shape) {
+  TomlInline out;
+  std::visit([&](auto& one) { one.values(ShapeWriter<TomlInline>{out}); }, shape);
+  return out;
+}
+
 void write_solids(TomlLines& out, std::vector<Solid> solids) {
   for (Solid& s : solids) {
     const auto& [key, name, friction, half_space, single] = s.traits();
     std::string heading(single ? "[" : "[[");
     out.heading(heading.append(key).append(single ? "]" : "]]"));
-    s.values(ShapeWriter{out});
+    s.values(ShapeWriter<TomlLines>{out});
     out.add("friction", s.friction).add("restitution", s.restitution);
     if (!s.enabled) out.add("enabled", false);
   }

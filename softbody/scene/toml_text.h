@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -36,6 +37,12 @@ class TomlInline {
  private:
   std::string text_;
 };
+
+inline std::string toml_value(const std::vector<TomlInline>& tables) {
+  std::string text;
+  for (const TomlInline& table : tables) text.append(text.empty() ? "" : ", ").append(toml_value(table));
+  return "[" + text + "]";
+}
 
 /// Builds the lines of a file. add() and heading() return the object, so that calls can be chained.
 class TomlLines {

@@ -18,10 +18,12 @@ enum class WorkBy {
   surfaces,  // of bodies push each other apart
   penalty,   // contact: what its pairs hold at the start of a frame, less what they hold at its end
   hand,
+  holds,  // move vertices
+  wind,   // but for the drag that bodies would have in calm air, which only dissipates
   steps,  // that become longer or shorter: what EnergyLedger::staggering changes
   user,   // changes between frames; bodies that come and go
 };
-inline constexpr std::size_t ledger_accounts = 7;
+inline constexpr std::size_t ledger_accounts = 9;
 
 /// The work (J) that was booked since the start of a world. Different threads may book on different accounts.
 class EnergyLedger {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -52,6 +53,13 @@ inline glm::dmat3 rotation(const glm::dvec3& turn) {
   }
   const glm::dmat3 cross(0, u.z, -u.y, -u.z, 0, u.x, u.y, -u.x, 0);  // u x ...
   return glm::dmat3(1) + 2.0 * (w * cross + cross * cross);
+}
+
+/// Returns places that are turned by `axes` about the origin; without a turn, the same to the bit.
+inline std::vector<glm::dvec3> turned(std::vector<glm::dvec3> places, const glm::dmat3& axes) {
+  if (axes != glm::dmat3(1.0))
+    for (glm::dvec3& place : places) place = axes * place;
+  return places;
 }
 
 /// Returns the rigid motion of `count` particles with position(i) and velocity(i).

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/state/kernels.h"
+#include "softbody/state/rigid_motion.h"
 
 namespace softbody {
 
@@ -53,16 +54,19 @@ void State::widen(Batch& b) {
     }
 }
 
-BodyId State::add(const std::shared_ptr<const BodyModel>& model, const glm::dvec3& position,
-                  const glm::dvec3& velocity) {
+BodyId State::add(const std::shared_ptr<const BodyModel>& model, const glm::dvec3& position, const glm::dvec3& velocity,
+                  const glm::dmat3& axes, const glm::dvec3& spin) {
   Batch& batch = batch_with_free_lane(model);
   const BodyId id = body_count();
   const std::uint32_t number = bodies_.empty() ? 0 : bodies_.back().number + 1;  // numbers ascend
   const Body& body = bodies_.emplace_back(Body{{.number = number, .origin = position}, batch.index, batch.used++});
   batch.body[std::size_t(body.lane)] = id;
+  const std::vector<glm::dvec3> start = turned(model->start, axes);
+  glm::dvec3 middle(0.0);
+  for (const glm::dvec3& place : start) middle += place / double(start.size());
   for (Index i = 0; i < batch.particles(); ++i) {
-    field_of(id, x).set(i, model->start[i]);
-    field_of(id, v).set(i, velocity);
+    field_of(id, x).set(i, start[i]);
+    field_of(id, v).set(i, velocity + glm::cross(spin, start[i] - middle));
   }
   update_moves(body);
   return id;
@@ -217,6 +221,8 @@ void State::restore(const State& saved) {
 
 std::size_t State::bytes() const {
   std::size_t sum = bytes_of(batches_) + bytes_of(bodies_);
+  for (const Body& body : bodies_)
+    for (const HeldVertices& hold : body.memory.holds) sum += bytes_of(hold.vertices);
   for (const auto* array : {&x, &v, &f})
     for (const auto& c : *array) sum += bytes_of(c);
   return sum;

@@ -9,9 +9,12 @@
 #include <span>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
+
 #include "softbody/model/body_model.h"
 #include "softbody/state/body.h"
 #include "softbody/state/energy_ledger.h"
+#include "softbody/state/held_particles.h"
 #include "softbody/state/kernel_types.h"
 #include "softbody/state/lanes.h"
 
@@ -49,13 +52,24 @@ struct Impact {
   float given = 0;         // J, that it gave back in the last frame
 };
 
+/// Vertices of a body that are moved, whatever acts on them.
+struct HeldVertices {
+  std::vector<Index> vertices;
+  glm::dvec3 velocity{0.0};  // m/s ...
+  glm::dvec3 spin{0.0};      // ... and rad/s, about an axis through a place that moves at this velocity, too:
+  glm::dvec3 through{0.0};   // m
+  int until = 0;             // the frame in which they are let go; 0: never
+  bool moves() const { return velocity != glm::dvec3(0.0) || spin != glm::dvec3(0.0); }
+};
+
 /// What World, sleep and Resistance remember of a body from one frame to the next.
 struct BodyMemory {
-  int release = 0;               // the frame until which it is pinned
-  int calm_frames = 0;           // for how many frames it has been slow enough to sleep
-  bool may_lie_in_solid = true;  // it has been placed there, or solids have been moved, and not come out since
-  Impact impact;                 // on the solids that it touches
-  double speed = 0;              // m/s, of its fastest particle, as of the end of the last frame in which it moved
+  int release = 0;                    // the frame until which it is pinned
+  int calm_frames = 0;                // for how many frames it has been slow enough to sleep
+  bool may_lie_in_solid = true;       // it has been placed there, or solids have been moved, and not come out since
+  Impact impact;                      // on the solids that it touches
+  double speed = 0;                   // m/s, of its fastest particle, as of the end of the last frame in which it moved
+  std::vector<HeldVertices> holds{};  // of a vertex in two of them, the first one decides
 };
 
 struct Body : BodyState {
@@ -78,8 +92,12 @@ class State {
  public:
   VectorArray x, v, f;  // m relative to the bodies' origins, m/s, N
   EnergyLedger ledger;
+  HeldParticles held;  // in the frame at hand
 
-  BodyId add(const std::shared_ptr<const BodyModel>& model, const glm::dvec3& position, const glm::dvec3& velocity);
+  /// Adds a body at `position` (m), turned about there by `axes`. It moves at `velocity` (m/s), and turns about its
+  /// middle by `spin` (rad/s).
+  BodyId add(const std::shared_ptr<const BodyModel>& model, const glm::dvec3& position, const glm::dvec3& velocity,
+             const glm::dmat3& axes = glm::dmat3(1.0), const glm::dvec3& spin = glm::dvec3(0.0));
   /// Removes a body; the ids of later bodies move up by one.
   void remove(BodyId body);
   /// Gives the bodies of the model `from` the model `to`, of the same mesh. They stay where they are.

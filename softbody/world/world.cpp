@@ -1,9 +1,13 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <set>
 #include <utility>
 
+#include "softbody/contact/solid_surface.h"
 #include "softbody/integrate/force_stage.h"
+#include "softbody/mesh/shortest_text.h"
+#include "softbody/state/rigid_motion.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/world_parts.h"
 
@@ -14,6 +18,20 @@ using Clock = std::chrono::steady_clock;
 
 double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Returns the particles that carry vertices of a body's mesh, at `places` (m), that are in a shape.
+std::vector<Index> particles_in(const Solid& where, const BodyModel& model, const std::vector<glm::dvec3>& places) {
+  constexpr double rounding = 1e-9;  // m
+  std::set<Index> found;
+  for (Index vertex = 0; vertex < places.size(); ++vertex) {
+    if (surface_at(where, places[vertex]).distance > rounding) continue;
+    if (model.fine)
+      found.insert(model.fine->embedding()[vertex].corner.begin(), model.fine->embedding()[vertex].corner.end());
+    else
+      found.insert(vertex);
+  }
+  return {found.begin(), found.end()};
 }
 
 /// Returns the automatic cell size for the bodies at rest.
@@ -45,6 +63,7 @@ World::Parts::Parts(Scene s, const Options& o)
   solver.set_vertices(particles.bodies);
   solver.set_plan(plan);
   check_sizes(models, choice);
+  for (const BodySource& source : scene.bodies) held_vertices(source);
   set_integrator();
   arrive();
   update_positions();
@@ -68,9 +87,28 @@ void World::Parts::check_sizes(const BodyModelSet& all, const IntegratorChoice& 
                        std::to_string(max_implicit_particles) + " vertices); choose another integrator");
 }
 
+/// Returns what the holds of a body hold. Throws SceneError if one holds nothing.
+std::vector<HeldVertices> World::Parts::held_vertices(const BodySource& source) const {
+  std::vector<HeldVertices> list;
+  if (source.holds.empty()) return list;
+  const BodyModel& model = *models.of(source);
+  std::vector<glm::dvec3> places = turned(model.shown_at_rest(), source.axes);
+  for (glm::dvec3& place : places) place += source.position;
+  for (const Hold& h : source.holds) {
+    list.push_back({particles_in(Solid{h.where}, model, places), h.velocity, h.turn.vector(), h.through, h.until});
+    if (!list.back().vertices.empty()) continue;
+    std::string at;
+    for (int k = 0; k < 3; ++k) at += (k > 0 ? ", " : "") + shortest_text(source.position[k]);
+    throw SceneError("scene '" + scene.key + "': hold[" + std::to_string(list.size() - 1) + "] of the body at [" + at +
+                     "] holds no vertex; put it where the body has some when it appears, in the world's coordinates");
+  }
+  return list;
+}
+
 BodyId World::Parts::add(const BodySource& source, const glm::dvec3& position) {
   const auto& model = models.of(source);
-  const BodyId id = solver.state().add(model, position, source.velocity);
+  const BodyId id = solver.state().add(model, position, source.velocity, source.axes, source.spin.vector());
+  solver.state().memory(id).holds = held_vertices(source);
   if (model->fine && !fine) {
     count_vertices();  // the first one: the bodies before it are shown as they are
   } else {
@@ -95,6 +133,8 @@ void World::Parts::arrive() {
   for (BodyId b = 0; b < particles.bodies.count(); ++b) {
     const Body& body = solver.state().body(b);
     if (body.pinned && body.memory.release <= frame) solver.state().set_pinned(b, false);
+    const auto ends = [&](const HeldVertices& h) { return h.until > 0 && h.until <= frame; };
+    if (std::erase_if(solver.state().memory(b).holds, ends) > 0) solver.state().set_asleep(b, false);
   }
 }
 

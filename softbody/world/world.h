@@ -75,6 +75,8 @@ class World : public BodiesInMotion {
   /// body wakes up, stays awake, and is no longer held in place.
   void grab(const std::optional<Grab>& grab);
   const std::optional<Grab>& grabbed() const;
+  /// Holds a particle where it is, or lets go of it if it is held.
+  void switch_hold(BodyId body, Index particle);
 
   /// Makes `wanted` the scene, all but its bodies and dropper: those of the world stay. Materials are told apart by
   /// their place in the list; those beyond the end of the wanted list stay, further ones are for later bodies. Bodies

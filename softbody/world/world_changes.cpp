@@ -11,6 +11,7 @@
 
 #include "softbody/mesh/limits.h"
 #include "softbody/scene/scene_keys.h"
+#include "softbody/state/rigid_motion.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/snapshot.h"
 #include "softbody/world/world_parts.h"
@@ -72,10 +73,12 @@ BodyId World::Parts::spawn(BodySource source) {
 
 Dropper World::Parts::dropper() const { return scene.dropper ? *scene.dropper : Dropper{.body = scene.bodies.front()}; }
 
-/// True if a new body at `position` would be outside all solids and no vertex of another body in its bounding box.
-bool World::Parts::is_clear(const BodyModel& model, const glm::dvec3& position) const {
-  glm::dvec3 lo = model.start.front(), hi = lo;
-  for (const glm::dvec3& v : model.start) {
+/// True if a new body would be outside all solids and no vertex of another body in its bounding box.
+bool World::Parts::is_clear(const BodyModel& model, const BodySource& source) const {
+  const std::vector<glm::dvec3> start = turned(model.start, source.axes);
+  const glm::dvec3 position = source.position;
+  glm::dvec3 lo = start.front(), hi = lo;
+  for (const glm::dvec3& v : start) {
     if (solid_depth(scene, position + v).depth > -model.material[Material::thickness]) return false;
     lo = glm::min(lo, v), hi = glm::max(hi, v);
   }
@@ -100,7 +103,7 @@ std::optional<BodyId> World::throw_body(const glm::dvec3& from, const glm::dvec3
     const double time = i * pace / glm::length(velocity);
     source.position = from + time * velocity + 0.5 * time * time * gravity;
     source.velocity = velocity + time * gravity;
-    if (s.is_clear(model, source.position)) return add(source);
+    if (s.is_clear(model, source)) return add(source);
   }
   return std::nullopt;
 }
@@ -191,6 +194,18 @@ void World::grab(const std::optional<Grab>& grab) {
 }
 
 const std::optional<Grab>& World::grabbed() const { return parts_->solver.hand().grab(); }
+
+void World::switch_hold(BodyId body, Index particle) {
+  Parts& s = *parts_;
+  assert(particle < s.particles.bodies.size(body));
+  std::vector<HeldVertices>& holds = s.solver.state().memory(body).holds;
+  std::size_t let_go = 0;
+  for (HeldVertices& h : holds) let_go += std::erase(h.vertices, particle);
+  if (let_go == 0) holds.push_back({.vertices = {particle}});
+  s.solver.state().set_asleep(body, false);
+  s.added_bodies.holds = true;
+  s.update_plan();
+}
 
 double World::Parts::energy() const {
   double sum = 0;

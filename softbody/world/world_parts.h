@@ -64,6 +64,7 @@ struct World::Parts : WorldValues {
   }
   double energy() const;  // J, of all bodies
   BodyId add(const BodySource& source, const glm::dvec3& position);
+  std::vector<HeldVertices> held_vertices(const BodySource& source) const;
   void arrive();
   void count_vertices();
   void update_positions();
@@ -87,7 +88,7 @@ struct World::Parts : WorldValues {
   Dropper dropper() const;                // the scene's, or one over its first body
   void drop(const Dropper& dropper);
   BodyId spawn(BodySource source);
-  bool is_clear(const BodyModel& model, const glm::dvec3& position) const;
+  bool is_clear(const BodyModel& model, const BodySource& source) const;
   double clear_height(const BodyModel& model, const glm::dvec3& position) const;
 
   decltype(Options::check_work) check_work;

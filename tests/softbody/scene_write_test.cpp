@@ -50,14 +50,28 @@ class Filler {
       set_all(subdivisions, radius);
   }
   void set_body(BodySource& v) {
-    auto& [mesh, material, position, velocity, appear, release] = v;
-    set_all(mesh, position, velocity);
+    auto& [mesh, material, position, axes, velocity, spin, appear, release, holds] = v;
+    set_all(mesh, position, axes, velocity, spin);
     material = static_cast<int>(random_() % materials);
   }
   void set(BodySource& v) {
     set_body(v);
-    set_all(v.appear, v.release);
+    set_all(v.appear, v.release, v.holds);
     v.release += v.appear;
+    for (Hold& hold : v.holds) hold.until += v.appear;
+  }
+  void set(Spin& v) {
+    auto& [axis, degrees_per_second] = v;
+    set_all(axis, degrees_per_second);
+    axis = glm::normalize(axis);
+  }
+  void set(Hold& v) {
+    auto& [where, until, velocity, turn, through] = v;
+    if (random_() % 2 == 0) where = SolidSphere();
+    Solid shape{where};
+    shape.values([this](const char*, auto value) { set_value(value); });
+    where = shape.shape;
+    set_all(until, velocity, turn, through);
   }
   void set(Dropper& v) {
     auto& [body, spread] = v;
@@ -69,10 +83,11 @@ class Filler {
     set(v.value);
     v.value = glm::normalize(v.value);
   }
-  void set_value(solid::Axes v) {
+  void set_value(solid::Axes v) { set(v.value); }
+  void set(glm::dmat3& v) {
     glm::dvec3 axis;
     set(axis);
-    v.value = glm::dmat3(glm::rotate(glm::dmat4(1.0), 100 * axis.x, glm::normalize(axis)));
+    v = glm::dmat3(glm::rotate(glm::dmat4(1.0), 100 * axis.x, glm::normalize(axis)));
   }
   void set(Solid& v) {
     auto& [shape, friction, restitution, enabled] = v;
@@ -104,9 +119,9 @@ class Filler {
   }
   void set(ContactSurface& v) { v = contact_surfaces[random_() % contact_surfaces.size()].value; }
   void set(Scene& v) {
-    auto& [key, name, look_at, gravity, method, surface, collision, list, bodies, solids, dropper, sleep, view,
+    auto& [key, name, look_at, gravity, wind, method, surface, collision, list, bodies, solids, dropper, sleep, view,
            captions] = v;
-    set_all(name, look_at, gravity, surface, collision, list, bodies, solids, dropper, sleep, view, captions);
+    set_all(name, look_at, gravity, wind, surface, collision, list, bodies, solids, dropper, sleep, view, captions);
     key = "saved";
     method = collide::method_table()[random_() % collide::method_table().size()].key;
   }

@@ -21,6 +21,7 @@ enum class WindowTask {
   reset_camera,
   show_selected_body,
   throw_body,          // to where the mouse points
+  switch_hold,         // of the selected body's vertex there
   show_highlight,      // of the tour
   show_as_before_tour  // while the world runs ahead
 };

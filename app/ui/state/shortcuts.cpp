@@ -55,6 +55,7 @@ constexpr std::array shortcut_table{
              true},
     Shortcut{GLFW_KEY_D, 0, "D", "Drop a body", [](Session& s, UiState&) { s.bodies.drop(); }, false, 0, true},
     Shortcut{GLFW_KEY_B, 0, "B", "Throw a body at the mouse", WindowTask::throw_body, false, 0, true},
+    Shortcut{GLFW_KEY_K, 0, "K", "Hold or let go its vertex at the mouse", WindowTask::switch_hold, false, 0, true},
     Shortcut{GLFW_KEY_DELETE, GLFW_KEY_BACKSPACE, "Del", "Delete the selected body",
              [](Session& s, UiState&) { s.bodies.remove_selected(); }, false, 0, true},
     Shortcut{GLFW_KEY_M, 0, "M", "Next shown method", [](Session& s, UiState&) { next_method(s); }},

@@ -65,6 +65,16 @@ void move_without_gain(const ImplicitStep& step, ImplicitBodies& bodies, std::si
   move_rigidly(step, bodies, lane, about, 0);
 }
 
+/// Stops the particles in a lane, all but those that are held.
+void stop(ImplicitBodies& bodies, std::size_t lane) {
+  for (std::size_t at = lane; at < bodies.x.size() / 3; at += implicit_lanes) {
+    write(bodies.end_x, at, read(bodies.x, at));
+    write(bodies.end_v, at, glm::dvec3(0.0));
+  }
+  for (const auto& [at, place] : bodies.held)
+    if (at % implicit_lanes == lane) write(bodies.end_x, at, place);
+}
+
 /// Returns the velocities that lead from the start of a solve to x in h.
 Lanes mean_velocities(const ImplicitStep& step, const Lanes& x, double h) {
   Lanes v(x.size());
@@ -115,7 +125,7 @@ LaneMask second_order_step(ImplicitStep& step, ImplicitBodies& bodies, LaneMask 
 
 LaneMask first_order_step(ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried) {
   const MovingAxes axes = step.axes.subset(tried);
-  axes.enter(bodies.x, bodies.v, step.start);
+  axes.enter(bodies.x, bodies.v, step.start, bodies.held);
   std::vector<PlaneContact> planes;
   std::vector<LinearPenaltyPair> pairs;
   for (const PlaneContact& c : bodies.planes)
@@ -124,7 +134,7 @@ LaneMask first_order_step(ImplicitStep& step, ImplicitBodies& bodies, LaneMask t
     if (tried[s.at % implicit_lanes]) pairs.push_back(axes.enter(s));
   const Lanes end = step.solver.solve({step.model, step.matrix, step.h, step.start, step.h, planes, pairs});
   finish(axes, end, mean_velocities(step, end, step.h), bodies);
-  LaneMask pushed;  // by solids
+  LaneMask pushed = bodies.holds;  // by solids or holds
   auto solved_plane = planes.begin();
   for (PlaneContact& c : bodies.planes) {
     const std::size_t lane = c.point.lane();
@@ -136,7 +146,12 @@ LaneMask first_order_step(ImplicitStep& step, ImplicitBodies& bodies, LaneMask t
   clear_planes(bodies, tried, step.h);
   LaneMask solved;
   for (std::size_t l = 0; l < implicit_lanes; ++l) {
-    if (!tried[l] || !satisfies_momentum_balance(step.model, bodies, l, step.h, step.gravity)) continue;
+    if (!tried[l]) continue;
+    if (!bodies.holds[l] && !satisfies_momentum_balance(step.model, bodies, l, step.h, step.gravity)) continue;
+    if (bodies.holds_move[l]) {  // they do work that is not known here
+      solved[l] = step.solver.converged()[l];
+      continue;
+    }
     const double gain = energy_gain(step.model, bodies, l, step.gravity, pushed[l]);
     solved[l] = dissipate(step.model, bodies, l, gain, pushed[l]);
   }
@@ -145,7 +160,7 @@ LaneMask first_order_step(ImplicitStep& step, ImplicitBodies& bodies, LaneMask t
 
 LaneMask rigid_fallback_step(ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried) {
   for (std::size_t l = 0; l < implicit_lanes; ++l)
-    if (tried[l]) move_without_gain(step, bodies, l);
+    if (tried[l]) bodies.holds[l] ? stop(bodies, l) : move_without_gain(step, bodies, l);
   for (PlaneContact& c : bodies.planes)
     if (tried[c.point.lane()]) c.force = glm::dvec3(0.0);
   for (LinearPenaltyPair& s : bodies.penalty_pairs)

@@ -40,7 +40,7 @@ LaneMask first_order_step(ImplicitStep& step, ImplicitBodies& bodies, LaneMask t
 
 /// Moves and rotates each body as a rigid body that stops at its planes. If that would give it energy, it rotates about
 /// its angular momentum instead; if that does, too, its spin is reduced. Its shape does not change, and its deformation
-/// velocities are lost. Refuses no lane.
+/// velocities are lost. A body that is held stops. Refuses no lane.
 LaneMask rigid_fallback_step(ImplicitStep& step, ImplicitBodies& bodies, LaneMask tried);
 
 /// Each is made in the lanes that those before it have left open. The last one solves all of them.

@@ -37,6 +37,19 @@ void write_end(const ImplicitBodies& bodies, LaneMask moving, double h, const Im
   }
 }
 
+/// Finds where the held particles of the lanes `moving` end a step of h.
+void find_held(const ImplicitBatch& b, LaneMask moving, double h, ImplicitBodies& bodies) {
+  bodies.held.clear();
+  bodies.holds.reset(), bodies.holds_move.reset();
+  for (const HeldParticle& p : b.held) {
+    const auto at = b.place(p.slot);
+    if (!at || !moving[*at % implicit_lanes]) continue;
+    bodies.held.push_back({*at, read(bodies.x, *at) + h * glm::dvec3(p.velocity)});
+    bodies.holds.set(*at % implicit_lanes);
+    if (p.velocity != glm::vec3(0.0f)) bodies.holds_move.set(*at % implicit_lanes);
+  }
+}
+
 /// Adds what solids have done to the bodies in the step.
 void add_solid_impulses(const ImplicitStep& step, const ImplicitBodies& bodies, const ImplicitBatch& b,
                         const ImplicitResult& result) {
@@ -121,7 +134,8 @@ void ImplicitSteps::advance_part(OfModel& own, int thread, const ImplicitBatch& 
                     MovingAxes(bodies.x, bodies.v, moving, h, b.gravity),
                     solver,
                     start};
-  step.in_contact = find_planes(b, step.axes, bodies) | find_penalty_pairs(b, moving, h, bodies);
+  find_held(b, moving, h, bodies);
+  step.in_contact = find_planes(b, step.axes, bodies) | find_penalty_pairs(b, moving, h, bodies) | bodies.holds;
   LaneMask open = moving;
   for (const auto attempt : implicit_attempts)
     if (open.any()) open &= ~attempt(step, bodies, open);

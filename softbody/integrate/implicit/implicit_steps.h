@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,12 +25,19 @@ struct ImplicitBatch {
   std::span<const ContactRow> features;   // of the bodies, which may meet these solids between vertices
   PenaltyContact& penalty;                // evaluated at x, v; is told what its pairs do
   std::span<const PenaltyEnd> ends;       // of its pairs, those that fall to this batch
+  std::span<const HeldParticle> held;     // of the batch
   std::function<bool(BodyId)> is_moving;  // false for bodies that are held or asleep
   std::size_t first_lane = 0;             // of the batch, of implicit_lanes that are solved side by side
 
   /// Returns where the value `at` = particle * implicit_lanes + lane stands in the fields of all batches.
   std::size_t slot(std::size_t at) const {
     return batch.base + at / implicit_lanes * std::size_t(batch.width) + first_lane + at % implicit_lanes;
+  }
+  /// Returns where the value of a slot stands in a field of the step; nothing if it is in none of its lanes.
+  std::optional<std::size_t> place(std::size_t slot) const {
+    const std::size_t in_batch = slot - batch.base, lane = in_batch % std::size_t(batch.width) - first_lane;
+    if (lane >= implicit_lanes) return std::nullopt;
+    return in_batch / std::size_t(batch.width) * implicit_lanes + lane;
   }
 };
 

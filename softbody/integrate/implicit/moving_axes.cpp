@@ -40,12 +40,18 @@ void MovingAxes::for_each(Lanes& x, Lanes& v, const Change& change) const {
   }
 }
 
-void MovingAxes::enter(const Lanes& x, const Lanes& v, ImplicitStart& start) const {
+void MovingAxes::enter(const Lanes& x, const Lanes& v, ImplicitStart& start, std::span<const HeldEnd> held) const {
   for (std::size_t l = 0; l < implicit_lanes; ++l) start.moves[l] = active_[l] ? 1.0f : 0.0f;
   start.x = x;
   start.v = v;
   start.a.resize(x.size());
   start.carried.assign(x.size(), 0.0);
+  start.held.clear();
+  for (const auto& [at, place] : held) {
+    const Axes& f = axes_[at % implicit_lanes];
+    if (active_[at % implicit_lanes])
+      start.held.push_back({at, glm::transpose(f.turned) * (place - f.body.centre - h_ * f.body.velocity - fall_)});
+  }
   for_each(start.x, start.v, [&](const Axes& f, glm::dvec3& place, glm::dvec3& velocity, std::size_t at) {
     place -= f.body.centre;
     velocity -= f.body.velocity + glm::cross(f.spin, place);

@@ -28,7 +28,7 @@ class MovingAxes {
   const RigidMotion& start(std::size_t lane) const { return axes_[lane].body; }
 
   /// Transforms positions and velocities of the start into the axes, for the lanes that have their own.
-  void enter(const Lanes& x, const Lanes& v, ImplicitStart& start) const;
+  void enter(const Lanes& x, const Lanes& v, ImplicitStart& start, std::span<const HeldEnd> held = {}) const;
   // Rotate directions and contacts from the world into the axes, and directions back.
   glm::dvec3 enter(std::size_t lane, const glm::dvec3& v) const { return glm::transpose(axes_[lane].turned) * v; }
   glm::dvec3 leave(std::size_t lane, const glm::dvec3& v) const { return axes_[lane].turned * v; }

@@ -78,6 +78,12 @@ struct LinearPenaltyPair {
   }
 };
 
+/// A particle that is held, and where it is at the end of a step.
+struct HeldEnd {
+  std::size_t at;    // particle * implicit_lanes + lane
+  glm::dvec3 place;  // m
+};
+
 /// The bodies in all lanes in the world, at the start and at the end of a step, and what touches them.
 struct ImplicitBodies {
   explicit ImplicitBodies(const BodyModel& model) {
@@ -87,6 +93,8 @@ struct ImplicitBodies {
   Lanes x, v, end_x, end_v;                      // m and m/s
   std::vector<PlaneContact> planes;              // ordered by lanes ...
   std::vector<LinearPenaltyPair> penalty_pairs;  // ... these in any order
+  std::vector<HeldEnd> held;                     // lane after lane
+  LaneMask holds, holds_move;                    // lanes with held particles, and with such as move
 };
 
 /// The start of a step in the axes of the lanes (implicit/moving_axes.h).
@@ -95,6 +103,7 @@ struct ImplicitStart {
   Lanes a;        // m/s^2, what acts beside the forces
   Lanes carried;  // m, how far the axes carry particles that keep their places in them
   std::array<float, implicit_lanes> moves{};
+  std::vector<HeldEnd> held{};
 };
 
 /// What is solved in one step, in the axes of the lanes.

@@ -34,6 +34,7 @@ void QuasiNewton::predict(const ImplicitProblem& p) {
   for (std::size_t i = 0; i < 3 * stride_; ++i) target_[i] = s.x[i] + p.h * s.v[i] + p.h * p.h * s.a[i];
   x_ = s.x;
   stop_at_planes(p);
+  for (const auto& [at, place] : s.held) write(x_, at, place);
   max_step_.fill(0);  // by a radius and the way to the target: the gradient is not usable farther out
   for (std::size_t i = 0; i < 3 * stride_; ++i)
     max_step_[i % implicit_lanes] += (target_[i] - x_[i]) * (target_[i] - x_[i]);
@@ -76,6 +77,7 @@ void QuasiNewton::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g) {
   for (std::size_t i = 0; i < 3 * stride_; i += implicit_lanes)
     for (std::size_t l = 0; l < implicit_lanes; ++l)
       g[i + l] = double(p.start.moves[l]) * (inertia * (x[i + l] - target_[i + l]) - g[i + l]);
+  for (const HeldEnd& held : p.start.held) write(g, held.at, glm::dvec3(0.0));
 }
 
 void QuasiNewton::add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f) {
@@ -87,8 +89,30 @@ void QuasiNewton::add_contact_forces(const ImplicitProblem& p, const Lanes& x, L
   for (const LinearPenaltyPair& s : p.penalty_pairs) add(f, s.at, s.force_after(p.displacement(x, s.at)));
 }
 
-/// Sets q to A^-1 q.
+/// Sets q to A^-1 q for the particles that are free, and to 0 for held ones: what holds these adds to q such forces
+/// that A^-1 moves them by nothing.
 void QuasiNewton::apply_matrix(const ImplicitProblem& p, Lanes& q) {
+  const std::vector<HeldEnd>& held = p.start.held;
+  if (held.empty()) return apply_free_matrix(p, q);
+  forces_on_free_ = q;
+  apply_free_matrix(p, q);
+  for (std::size_t first = 0, end = 0; first < held.size(); first = end) {
+    const std::size_t lane = held[first].at % implicit_lanes;
+    while (end < held.size() && held[end].at % implicit_lanes == lane) ++end;
+    const std::span<const HeldEnd> own = std::span(held).subspan(first, end - first);
+    std::vector<glm::dvec3> moved;
+    const glm::dmat3 r = rotation(p, lane);
+    for (const HeldEnd& one : own) moved.push_back(glm::transpose(r) * read(q, one.at));
+    of_lane_[lane].find_forces(p.matrix, own, moved);
+    for (std::size_t i = 0; i < own.size(); ++i) add(forces_on_free_, own[i].at, -(r * moved[i]));
+  }
+  q = forces_on_free_;
+  apply_free_matrix(p, q);
+  for (const HeldEnd& one : held) write(q, one.at, glm::dvec3(0.0));
+}
+
+/// Sets q to A^-1 q.
+void QuasiNewton::apply_free_matrix(const ImplicitProblem& p, Lanes& q) {
   if (!p.matrix.rotates()) {
     for (std::size_t k = 0; k < 3; ++k) kernels_.substitute(p.matrix.factor(), q.data() + k * stride_, scratch_.data());
     return;

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "softbody/integrate/implicit/contact_forces.h"
+#include "softbody/integrate/implicit/holding_forces.h"
 #include "softbody/integrate/implicit/kernels.h"
 #include "softbody/integrate/implicit/minimiser.h"
 #include "softbody/integrate/implicit/problem.h"
@@ -41,6 +42,7 @@ class QuasiNewton {
   void gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g);
   void add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f);
   void apply_matrix(const ImplicitProblem& p, Lanes& q);
+  void apply_free_matrix(const ImplicitProblem& p, Lanes& q);
   glm::dmat3 rotation(const ImplicitProblem& p, std::size_t lane) const;
   bool minimise(const ImplicitProblem& p, int iterations);
   LaneMask solve_contact(const ImplicitProblem& p);
@@ -54,7 +56,9 @@ class QuasiNewton {
   Minimiser minimiser_;
   ContactForces contact_;
   Lanes target_, x_, push_, scratch_;  // push: changes of contact forces, and what they move
-  PerLane max_step_{};                 // m, of one iteration, the root of the mean square
+  Lanes forces_on_free_;
+  std::array<HoldingForces, implicit_lanes> of_lane_;
+  PerLane max_step_{};  // m, of one iteration, the root of the mean square
   alignas(64) double rotation_[9][implicit_lanes];
   double work_ = 0;  // beside that of the minimiser and of the contact forces
 };

@@ -61,6 +61,7 @@ LaneMask find_planes(const ImplicitBatch& b, const MovingAxes& axes, ImplicitBod
     for (const SolidArguments& s : b.near_solids) {
       if (!(s.near >> own & 1u)) continue;
       for (std::size_t at = lane; at < bodies.x.size() / 3; at += implicit_lanes) {
+        if (bodies.holds[lane] && std::ranges::count(bodies.held, at, &HeldEnd::at) > 0) continue;
         const SurfaceAt<double> surface = surface_from(s, own, read(bodies.x, at));
         const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
         add_plane(
@@ -89,9 +90,9 @@ LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, I
     const std::uint32_t i = end.pair;
     const auto [slot, other_slot] =
         end.at_b ? std::pair(pairs.slot_b[i], pairs.slot_a[i]) : std::pair(pairs.slot_a[i], pairs.slot_b[i]);
-    const std::size_t in_batch = slot - b.batch.base, lane = in_batch % std::size_t(b.batch.width) - b.first_lane;
-    if (lane >= implicit_lanes || !moving[lane]) continue;
-    const std::size_t at = in_batch / std::size_t(b.batch.width) * implicit_lanes + lane;
+    const auto place = b.place(slot);
+    if (!place || !moving[*place % implicit_lanes]) continue;
+    const std::size_t at = *place;
     const PenaltyContact::Slopes slopes = b.penalty.slopes(i, b.x, b.v, float(h));
     if (slopes.spring <= 0) continue;
     LinearPenaltyPair s{.end = end,
@@ -107,7 +108,7 @@ LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, I
     s.start_separation = h * velocity(slot) - s.partner;
     s.max_work = b.penalty.max_work(i, b.x, glm::length(s.partner));
     bodies.penalty_pairs.push_back(s);
-    in_contact.set(lane);
+    in_contact.set(at % implicit_lanes);
   }
   return in_contact;
 }
