@@ -167,18 +167,22 @@ use_bundle() {
   in_root "$2" bash /bundle/bundle.sh "/bundle/$file" $row
 }
 
+# try_bundle MAKER SUITE [MIRROR [DEBOOTSTRAP OPTION...]]
+try_bundle() {
+  local user=$root/build/bundle-user
+  step "bundle: $2" make_root "$2" "$user" "${@:3}" && step "bundle: use" use_bundle "$1" "$user" || true
+}
+
 bundle() {
-  local maker=$root/build/bundle-root user=$root/build/bundle-user suite ubuntu=http://archive.ubuntu.com/ubuntu
+  local maker=$root/build/bundle-root ubuntu=http://archive.ubuntu.com/ubuntu
   step "bundle: root" make_root bookworm "$maker" && step "bundle: build" make_bundle "$maker" || return
-  for suite in bookworm trixie jammy; do
-    set --
-    [ "$suite" != jammy ] || set -- "$ubuntu" --components=main,universe
-    if [ $# -gt 0 ] && ! wget -q --spider "$ubuntu/dists/$suite/Release"; then
-      leave_out "bundle: $suite" "$ubuntu cannot be reached"
-      continue
-    fi
-    step "bundle: $suite" make_root "$suite" "$user" "$@" && step "bundle: use" use_bundle "$maker" "$user" || true
-  done
+  try_bundle "$maker" bookworm
+  try_bundle "$maker" trixie
+  if wget -q --spider "$ubuntu/dists/jammy/Release"; then
+    try_bundle "$maker" jammy "$ubuntu" --components=main,universe
+  else
+    leave_out "bundle: jammy" "$ubuntu cannot be reached"
+  fi
 }
 
 # pass_registers PRESET: no file that was compiled has a function that passes registers as if its target had none. What
