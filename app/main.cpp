@@ -1,10 +1,10 @@
 // The program: parses the command line and calls a command. All errors end here, as one line and exit status 2.
 
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
 
+#include "app/base/signals.h"
 #include "app/base/streams.h"
 #include "app/cli/commands.h"
 #include "app/files/inputs.h"
@@ -53,10 +53,7 @@ void run(const app::cli::Options& options) {
 
 int main(int argc, char** argv) {
   try {
-    app::files::remove_temporary_files_on_signals();
-    // A write beyond a size limit, or to a pipe that nobody reads, then fails like one on a full disk.
-    std::signal(SIGXFSZ, SIG_IGN);
-    std::signal(SIGPIPE, SIG_IGN);
+    app::handle_signals(&app::files::remove_temporary_files);
     const auto options = app::cli::parse_options(argc, argv);
     if (options) run(*options);
     app::flush_standard_output();

@@ -6,20 +6,23 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cfloat>
 #include <cmath>
 #include <fstream>
+#include <string>
 #include <utility>
 
 #include "engine/context.h"
+#include "engine/resources.h"
 #include "engine/window.h"
 
 namespace engine {
 namespace {
 
-// Font files on Debian, Ubuntu, Fedora and Arch, best font first.
+// Font files of Debian, Ubuntu, Fedora and Arch, best font first.
 constexpr std::array font_files{
     "/usr/share/fonts/opentype/inter/Inter-Regular.otf",
     "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf",
@@ -80,7 +83,7 @@ void set_colours(ImVec4* colours) {
   colours[ImGuiCol_ModalWindowDimBg] = rgba(ink, 0.25f);
 }
 
-bool is_readable(const char* file) { return std::ifstream(file).good(); }
+bool is_readable(const std::string& file) { return std::ifstream(file).good(); }
 
 /// Sets ImGui's colours and its sizes, multiplied by `scale` > 0.
 void apply_theme(float scale) {
@@ -106,7 +109,8 @@ void apply_theme(float scale) {
   style.ScaleAllSizes(scale);
 }
 
-/// Fills ImGui's font atlas with a system font, or with ImGui's own if none is found. `pixels` > 0 is the height.
+/// Fills ImGui's font atlas with the font among the assets, where the program brings one, or with a system font, or
+/// with ImGui's own if none is found. `pixels` > 0 is the height.
 void load_font(float pixels) {
   assert(pixels > 0.0f);
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
@@ -115,9 +119,11 @@ void load_font(float pixels) {
   config.OversampleH = 2;
   config.OversampleV = 1;
   config.PixelSnapH = false;
-  for (const char* file : font_files) {
-    if (is_readable(file) && atlas.AddFontFromFileTTF(file, pixels, &config, glyph_ranges.data()) != nullptr) return;
-  }
+  const auto load = [&](const std::string& file) {
+    return is_readable(file) && atlas.AddFontFromFileTTF(file.c_str(), pixels, &config, glyph_ranges.data()) != nullptr;
+  };
+  if (load((find_folder("assets") / "fonts/Inter-Regular.otf").string()) || std::ranges::any_of(font_files, load))
+    return;
   config.SizePixels = pixels;
   atlas.AddFontDefault(&config);
 }

@@ -18,9 +18,11 @@
 #              their use
 #   package-12 Debian packages, made in an empty system of that Debian; installed, used and removed in another; as root
 #   package-13 the same
+#   bundle     one tar.gz for any Linux, made in an empty system of Debian 12; used in empty ones of Debian 12 and 13 and of
+#              Ubuntu 22.04; as root
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
-all=(debug ci-clang headless asan tsan coverage soak fuzz debian-12 debian-13 install package-12 package-13)
+all=(debug ci-clang headless asan tsan coverage soak fuzz debian-12 debian-13 install package-12 package-13 bundle)
 
 usage() { fail "Usage: tests/checks.sh NAME...   with names of: ${all[*]}, or all"; }
 
@@ -77,17 +79,18 @@ fuzz() {
   done
 }
 
-# make_root SUITE FOLDER: a system of that Debian with nothing but these sources, from where apt gets this one's packages.
+# make_root SUITE FOLDER [MIRROR [DEBOOTSTRAP OPTION...]]: a system of that Debian with nothing but these sources, from
+# where apt gets this one's packages, or from that mirror.
 make_root() {
   [ "$(id -u)" -eq 0 ] || fail "Only root can make a root folder: run this as root"
   install_missing debootstrap
   command -v debootstrap >/dev/null || fail "debootstrap is missing: install it"
   rm -rf --one-file-system "$2"
   mkdir -p "$2/sbcollide"
-  local mirror
-  mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' 'Created-By: Packages' | head -n 1)
+  local mirror=${3:-}
+  [ -n "$mirror" ] || mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' 'Created-By: Packages' | head -n 1)
   # Apart, so that nothing that it mounts stays if it is stopped.
-  unshare --mount debootstrap --variant=minbase "$1" "$2" ${mirror:+"$mirror"} >"$2.log" ||
+  unshare --mount debootstrap --variant=minbase "${@:4}" "$1" "$2" ${mirror:+"$mirror"} >"$2.log" ||
     fail "debootstrap failed; the whole log is $2.log"
   apt-config dump | grep '^Acquire::' >"$2/etc/apt/apt.conf.d/90host"
   tar -C "$root" --exclude=./build --exclude=./out --exclude=./.git -c . | tar -C "$2/sbcollide" -x
@@ -150,6 +153,38 @@ package() {
     step "$1: root" make_root "$2" "$user" && step "$1: use" use_package "$maker" "$user"
 }
 
+make_bundle() { in_root "$1" bash -c '. /sbcollide/app/setup.sh && install_missing "${program_packages[@]}" &&
+  umask 077 && build bundle package'; }
+
+# use_bundle MAKER USER: in the other root.
+use_bundle() {
+  local file row
+  file=$(basename "$1"/sbcollide/build/bundle/sbcollide-*.tar.gz)
+  row=$(grep '^shapes vertex-vertex' "$root/tests/hashes/hashes.txt")
+  mkdir "$2/bundle"
+  cp "$1/sbcollide/build/bundle/$file" "$2/sbcollide/tests/bundle.sh" "$2/bundle"
+  rm -r "$2/sbcollide"
+  in_root "$2" bash /bundle/bundle.sh "/bundle/$file" $row
+}
+
+# try_bundle MAKER SUITE [MIRROR [DEBOOTSTRAP OPTION...]]
+try_bundle() {
+  local user=$root/build/bundle-user
+  step "bundle: $2" make_root "$2" "$user" "${@:3}" && step "bundle: use" use_bundle "$1" "$user" || true
+}
+
+bundle() {
+  local maker=$root/build/bundle-root ubuntu=http://archive.ubuntu.com/ubuntu
+  step "bundle: root" make_root bookworm "$maker" && step "bundle: build" make_bundle "$maker" || return
+  try_bundle "$maker" bookworm
+  try_bundle "$maker" trixie
+  if wget -q --spider "$ubuntu/dists/jammy/Release"; then
+    try_bundle "$maker" jammy "$ubuntu" --components=main,universe
+  else
+    leave_out "bundle: jammy" "$ubuntu cannot be reached"
+  fi
+}
+
 # pass_registers PRESET: no file that was compiled has a function that passes registers as if its target had none. What
 # is not forced inline shows it, with g++, which tells of the first function of a file only.
 pass_registers() { ! grep -B 2 'note: the ABI for passing parameters' "$root/build/$1/build.log"; }
@@ -183,6 +218,7 @@ check() {
     install) install_all ;;
     package-12) package "$1" bookworm ;;
     package-13) package "$1" trixie ;;
+    bundle) bundle ;;
     *) usage ;;
   esac
 }

@@ -30,7 +30,7 @@ softbody/api/sbcollide:
 softbody/api: collide/api softbody/api/sbcollide softbody/mesh softbody/model softbody/mechanics softbody/scene softbody/world
 engine:
 engine/render: engine
-app/base:
+app/base: softbody
 app/files: app/base collide softbody engine
 app/compare: app/base collide softbody
 app/reference: softbody
@@ -53,7 +53,7 @@ app: app/base app/files app/cli app/report app/window
 # They include only each other of softbody, so that no change of the solver reaches app.
 public="
 mesh/coarse_mesh mesh/embedding mesh/file_mesh mesh/mesh mesh/mesh_import
-mesh/points mesh/polygon mesh/shortest_text mesh/surface
+mesh/points mesh/polygon mesh/read_number mesh/shortest_text mesh/surface
 state/best_rotation state/body state/energy_ledger state/lanes
 model/key model/material model/body_model model/scene_error
 contact/contacts contact/keys contact/solid contact/solid_surface

@@ -1,9 +1,11 @@
 #include "app/base/parse_numbers.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string>
+#include <system_error>
+
+#include "softbody/mesh/read_number.h"
 
 namespace app {
 
@@ -22,7 +24,7 @@ namespace {
 template <class Number>
 std::optional<Number> read(std::string_view text) {
   Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const auto [end, error] = softbody::read_number(text, number);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return number;
 }

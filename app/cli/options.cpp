@@ -5,16 +5,17 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <thread>
 #include <utility>
 
 #include <fmt/core.h>
+#include <hwy/targets.h>
 #include <CLI/CLI.hpp>
 
 #include "app/base/parse_numbers.h"
 #include "app/base/text.h"
 #include "app/files/inputs.h"
 #include "app/files/playback.h"
+#include "collide/api/guarded.h"
 #include "softbody/scene/scene_keys.h"
 #include "softbody/world/world.h"
 
@@ -432,16 +433,28 @@ int frames_per_picture(double frame_time) {
   return std::max(1, int(std::ceil(frames - 0.01)));  // 0.0166667 is meant as 1/60
 }
 
+namespace {
+
+/// Returns the version in a line, and below it what a report of a fault needs.
+std::string version_text() {
+  const std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS;  // the best one has the least bit
+  return fmt::format("{}\ninstruction set: {}\ncompiler: {}\nlibraries: {}", SBCOLLIDE_VERSION,
+                     hwy::TargetName(targets & -targets), SBCOLLIDE_COMPILER, SBCOLLIDE_LIBRARIES);
+}
+
+}  // namespace
+
 std::optional<Options> parse_options(int argc, const char* const* argv) {
   Options options;
-  options.threads = std::max(1, int(std::thread::hardware_concurrency()));
+  options.threads = sbcollide::threads_of(0);  // all cores
   std::string size, captures, beside;
 
   CLI::App cli{
       "Soft spheres fall on a solid sphere while a detector finds their collisions and self-collisions.\n"
       "Without a command it opens the demo window.",
       "sbcollide"};
-  cli.set_version_flag("--version", SBCOLLIDE_VERSION);
+  cli.set_version_flag("--version", version_text)
+      ->description("print the version and what a report of a fault needs, and exit");
   cli.require_subcommand(0, 1);
   add_scene_options(cli, options, beside);
   add(cli, "--size", "WxH", size, "size of the window or the pictures in pixels");

@@ -1,20 +1,17 @@
 #include "app/files/output_file.h"
 
 #include <fcntl.h>
-#include <semaphore.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cassert>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <mutex>
 #include <set>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include <fmt/core.h>
@@ -26,29 +23,12 @@ namespace app::files {
 namespace fs = std::filesystem;
 namespace {
 
-std::mutex names_mutex;  // held while a name is added, removed or changed, and after a signal until the end
+std::mutex names_mutex;  // held while a name is added, removed or changed
 
 /// The names of the existing files. The set is never destroyed, because a signal may come at the very end.
 std::set<std::string>& temporary_names() {
   static auto& all = *new std::set<std::string>;
   return all;
-}
-
-sem_t arrived;
-volatile std::sig_atomic_t signal_number = 0;
-
-extern "C" void note_signal(int number) {
-  signal_number = number;
-  ::sem_post(&arrived);
-}
-
-/// Runs in a thread of its own, because a signal handler itself may call almost nothing.
-void await_signal() {
-  while (::sem_wait(&arrived) != 0) continue;
-  const std::scoped_lock lock(names_mutex);
-  for (const std::string& name : temporary_names()) std::remove(name.c_str());
-  std::signal(signal_number, SIG_DFL);
-  ::raise(signal_number);
 }
 
 /// Returns true if nothing is lost when a file with this heading replaces `file`.
@@ -82,17 +62,9 @@ fs::path next_free_path(const fs::path& folder, const std::string& prefix, const
   }
 }
 
-void remove_temporary_files_on_signals() {
-  ::sem_init(&arrived, 0, 0);
-  std::thread(await_signal).detach();
-  struct sigaction action {};
-  action.sa_handler = &note_signal;
-  action.sa_flags = SA_RESTART;
-  for (const int number : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU}) {
-    struct sigaction before {};
-    ::sigaction(number, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) ::sigaction(number, &action, nullptr);
-  }
+void remove_temporary_files() {
+  names_mutex.lock();  // until the end
+  for (const std::string& name : temporary_names()) std::remove(name.c_str());
 }
 
 OutputFile::OutputFile(fs::path path, std::string_view heading) : path_(std::move(path)) {

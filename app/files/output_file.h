@@ -20,9 +20,9 @@ void write_file(const std::filesystem::path& file, std::string_view bytes);
 std::filesystem::path next_free_path(const std::filesystem::path& folder, const std::string& prefix,
                                      const std::string& ending);
 
-/// Makes signals that end the program, such as SIGINT and SIGTERM, remove the temporary files of all OutputFiles first.
-/// Signals that are ignored stay ignored. Call it once.
-void remove_temporary_files_on_signals();
+/// Removes the temporary files of all OutputFiles. To be called where the program ends at once: threads that write
+/// files wait from then on.
+void remove_temporary_files();
 
 class OutputFile {
  public:

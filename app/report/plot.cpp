@@ -1,16 +1,18 @@
 #include "app/report/plot.h"
 
-#include <stdio.h>
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdio>
 #include <memory>
+#include <span>
 #include <stdexcept>
+#include <system_error>
 
 #include <fmt/core.h>
+
+#include "app/base/process.h"
 
 namespace app::report {
 namespace {
@@ -20,6 +22,16 @@ std::string literal(std::string_view text) {
   std::string result = "'";
   for (const char c : text) result.append(c == '\'' ? 2 : 1, c);
   return result + "'";
+}
+
+/// Makes gnuplot write to the file what the script draws. Returns false if gnuplot reports an error.
+bool run_gnuplot(const std::string& script, std::FILE* out) {
+  try {
+    Process gnuplot({"gnuplot", "-"}, ::fileno(out));
+    return gnuplot.send(std::as_bytes(std::span(script))) && gnuplot.finish();
+  } catch (const std::system_error&) {
+    throw std::runtime_error("gnuplot cannot be started; install gnuplot-nox");
+  }
 }
 
 }  // namespace
@@ -54,15 +66,11 @@ std::string draw(const Plot& plot, std::string_view terminal) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::tmpfile(), &std::fclose);
   if (!out) throw std::runtime_error("gnuplot: no temporary file can be made; is the disk full?");
   const std::string text = fmt::format("set terminal {} background 'white' noenhanced\n", terminal) + script(plot);
-  std::FILE* const in = ::popen(fmt::format("gnuplot - 2>/dev/null >/dev/fd/{}", ::fileno(out.get())).c_str(), "w");
-  if (in) std::fwrite(text.data(), 1, text.size(), in);
-  const int status = in ? ::pclose(in) : -1;
-  constexpr int not_found = 127;  // as the shell says it
-  if (!in || (WIFEXITED(status) && WEXITSTATUS(status) == not_found))
-    throw std::runtime_error("gnuplot cannot be started; install gnuplot-nox");
+  const bool drawn = run_gnuplot(text, out.get());
   std::string picture;
+  std::rewind(out.get());
   for (int c = std::fgetc(out.get()); c != EOF; c = std::fgetc(out.get())) picture.push_back(static_cast<char>(c));
-  if (status != 0 || picture.empty())
+  if (!drawn || picture.empty())
     throw std::runtime_error("gnuplot could not draw a plot; it needs version 5.2 or later");
   return picture;
 }

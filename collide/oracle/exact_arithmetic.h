@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include <gmpxx.h>
@@ -13,6 +14,12 @@ namespace collide::oracle {
 
 using Rational = mpq_class;
 using Integer = mpz_class;
+/// Returns the number as an Integer, for which GMP has no constructor where an unsigned long has 32 bits.
+inline Integer integer_of(std::uint64_t number) {
+  Integer result;
+  mpz_import(result.get_mpz_t(), 1, 1, sizeof number, 0, 0, &number);
+  return result;
+}
 
 /// A real number in the interval value - error .. value + error (midpoint-radius interval arithmetic). Products of up
 /// to seven differences of floats neither overflow nor underflow, so that rounding is the only error.

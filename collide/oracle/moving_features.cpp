@@ -42,7 +42,7 @@ FeatureMotion<Integer> integer_motion(const Points& points) {
   }
   return motion_of<Kind, Integer>(points, [&](double x) {
     const Scaled scaled(x);
-    Integer integer = static_cast<long>(scaled.digits);
+    Integer integer(static_cast<double>(scaled.digits));  // exact
     if (x != 0) integer <<= static_cast<unsigned>(scaled.exponent - exponent);
     return integer;
   });
@@ -139,7 +139,7 @@ Meeting meeting_at(const Filtered& passing, const Points& points) {
     const auto time = [](std::uint64_t step) { return std::ldexp(static_cast<double>(step), -int{most_halvings}); };
     return {time(passing.start), time(passing.start + 1)};
   }
-  const TimePiece piece{passing.start, passing.halvings};
+  const TimePiece piece{integer_of(passing.start), passing.halvings};
   return meeting_at(Root{piece, coefficients(Kind::side(restricted(integer_motion<Kind>(points), piece)))});
 }
 

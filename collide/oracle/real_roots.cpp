@@ -68,7 +68,7 @@ Coefficients remainder(Coefficients a, const Coefficients& divisor) {
 /// derivative.
 Coefficients square_free(Coefficients c) {
   Coefficients divisor = c, rest;
-  for (std::size_t k = 1; k < c.size(); ++k) rest.push_back(c[k] * k);
+  for (std::size_t k = 1; k < c.size(); ++k) rest.push_back(c[k] * static_cast<unsigned>(k));
   while (!rest.empty()) {
     divisor = remainder(std::move(divisor), rest);
     std::swap(divisor, rest);
@@ -112,12 +112,12 @@ double estimate(const Coefficients& polynomial) {
 
 /// Returns the sign of a polynomial at step / 2^halvings of its piece.
 int sign_at(const Coefficients& polynomial, std::uint64_t step, unsigned halvings) {
-  const std::uint64_t rest = (std::uint64_t{1} << halvings) - step;
+  const Integer at = integer_of(step), rest = integer_of((std::uint64_t{1} << halvings) - step);
   Integer value = 0, power = 1;
   for (const Integer& x : polynomial) {
     value *= rest;
     add_product(value, x, power);
-    power *= step;
+    power *= at;
   }
   return sgn(value);
 }
@@ -137,7 +137,7 @@ void refine(Root& root, unsigned halvings) {
   narrow(near);
   narrow(near + 1);
   while (high - low > 1) narrow(low + (high - low) / 2);
-  root.piece = {(root.piece.start << more) + low, halvings};
+  root.piece = {(root.piece.start << more) + integer_of(low), halvings};
   if (low == high) root.polynomial.clear();
 }
 

@@ -1,7 +1,6 @@
 #include "softbody/contact/solid_contact.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -247,7 +246,6 @@ void SolidContact::book(BodyId body, std::span<const ContactRow> rows) {
   for (const ContactRow& row : rows) {
     if (row.normal_impulse <= 0) continue;
     own.book(row, lane);
-    std::atomic_ref(own.pushed).fetch_or(1u << lane, std::memory_order_relaxed);
   }
 }
 

@@ -82,7 +82,12 @@ class SolidContact {
                                           : std::span<const SolidArguments>();
   }
   /// Returns the lanes of a batch that solids may have pushed in this frame, as bits.
-  unsigned pushed(const Batch& batch) const { return of_batch_[batch.index].pushed; }
+  unsigned pushed(const Batch& batch) const {
+    const OfBatch& own = of_batch_[batch.index];
+    unsigned pushed = own.pushed;
+    for (std::size_t l = 0; l < lanes; ++l) pushed |= unsigned{own.booked[l]} << l;
+    return pushed;
+  }
 
   /// Returns what solids did to a body in the last frame.
   SolidPush push(BodyId body) const { return body < pushes_.size() ? pushes_[body] : SolidPush{}; }
@@ -99,12 +104,14 @@ class SolidContact {
     LaneVector impulse{};                 // N s, along the normals
     std::array<float, lanes> returned{};  // J, that restitution gives back
     std::array<float, lanes> energy{};    // J, given by pushing out
+    std::array<bool, lanes> booked{};     // no bits: threads write to several at once
     unsigned pushed = 0, eased = 0;       // bits: lanes
 
     void book(const ContactRow& row, std::size_t lane) {
       softbody::add(field(impulse), lane, row.normal_impulse * row.normal);
       returned[lane] += row.returned;
       energy[lane] += row.energy;
+      booked[lane] = true;
     }
   };
 

@@ -146,10 +146,7 @@ void SolidContact::apply_to_features(const Batch& b, float h) {
     apply_to_particles(b, h, true);
   }
   for (const ContactRow& row : rows) {
-    if (!acted(row)) continue;
-    const int lane = own.features[row.feature].lane;
-    own.book(row, std::size_t(lane));
-    own.pushed |= 1u << lane;
+    if (acted(row)) own.book(row, std::size_t(own.features[row.feature].lane));
   }
 }
 

@@ -42,7 +42,7 @@ double MeshParser::number(std::string_view word) {
     const auto [stop, error] = parse(word, value);
     if (stop != word.data() + word.size() || error == std::errc::invalid_argument)
       fail_at_line(quoted(word) + " is no number; write e.g. -0.25");
-    // from_chars does not tell too large from too small, and leaves the value alone.
+    // read_number() does not tell too large from too small, and leaves the value alone.
     if (error == std::errc::result_out_of_range) value = from_text(std::string(word).c_str(), nullptr);
     if (!std::isfinite(value)) fail_at_line(quoted(word) + " is " + not_finite());
     return double{value};

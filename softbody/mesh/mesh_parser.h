@@ -1,13 +1,13 @@
 #pragma once
 // What the readers of OBJ and PLY files share: words, numbers, limits and messages.
 
-#include <charconv>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "softbody/mesh/file_mesh.h"
 #include "softbody/mesh/line_reader.h"
+#include "softbody/mesh/read_number.h"
 
 namespace softbody {
 
@@ -17,11 +17,11 @@ std::string_view next_word(std::string_view& line);
 /// Returns a word of the file for a message: short, and with printable characters only.
 std::string quoted(std::string_view word);
 
-/// Parses a number as from_chars() does, but allows a + before it.
+/// Parses a number as read_number() does, but allows a + before it.
 template <class Real>
 std::from_chars_result parse(std::string_view word, Real& value) {
   if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
-  return std::from_chars(word.data(), word.data() + word.size(), value);
+  return read_number(word, value);
 }
 
 /// Collects the mesh of a file. All members throw MeshFileError.

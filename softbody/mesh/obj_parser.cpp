@@ -10,7 +10,7 @@ namespace {
 
 /// Reads an integer at the start of `text` and removes it. Returns false if there is none or it is too large.
 bool take_integer(std::string_view& text, std::int64_t& number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const auto [end, error] = read_number(text, number);
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return error == std::errc();
 }

@@ -99,7 +99,7 @@ class PlyParser : public MeshParser {
   void begin_element(std::string_view words) {
     const std::string_view name = next_word(words), count = next_word(words);
     std::uint64_t rows = 0;
-    const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), rows);
+    const auto [end, error] = read_number(count, rows);
     if (count.empty() || end != count.data() + count.size() || error != std::errc())
       fail_at_line("an element without the number of its rows; write element NAME COUNT");
     using Kind = Element::Kind;
@@ -289,7 +289,7 @@ class PlyParser : public MeshParser {
     if (!text()) return binary<std::int64_t>(type);
     const std::string_view digits = word();
     std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const auto [end, error] = read_number(digits, value);
     if (end != digits.data() + digits.size() || error != std::errc())
       fail_at_line(quoted(digits) + " is no whole number; correct the file");
     return value;

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "collide/methods.h"
+#include "sbcollide/version.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/scene/scene.h"
 #include "tests/cli/process.h"
@@ -74,7 +76,15 @@ TEST(List, PrintsOnlyMethodsAndIntegratorsThatRun) {
 TEST(Help, GoesToStandardOutput) {
   for (const Words& arguments : {Words{"--help"}, {"simulate", "--help"}})
     EXPECT_NE(printed(arguments).find("--scene"), std::string::npos);
-  EXPECT_NE(printed({"--version"}).find('.'), std::string::npos);
+}
+
+TEST(Version, StandsAloneInItsLineAboveWhatAReportOfAFaultNeeds) {
+  const std::string text = printed({"--version"}), first = SBCOLLIDE_VERSION "\n";
+  ASSERT_TRUE(text.starts_with(first)) << text;
+  const std::regex below(
+      "instruction set: [A-Z0-9_]+\ncompiler: [A-Za-z]+ [0-9.]+.*\nlibraries: [A-Za-z0-9_]+ [0-9.]+(, [A-Za-z0-9_]+ "
+      "[0-9.]+)+\n");
+  EXPECT_TRUE(std::regex_match(text.substr(first.size()), below)) << text;
 }
 
 }  // namespace THIS_FILE

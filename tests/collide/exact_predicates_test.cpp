@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
+#include "collide/oracle/exact_arithmetic.h"
 #include "states.h"
 
 namespace collide::test {
@@ -150,6 +152,11 @@ TEST(ExactPredicates, RayCrossingsSumToTheWindingNumberOfATetrahedron) {
   });
   EXPECT_GT(inside, 30);
   EXPECT_GT(level, 100);
+}
+
+TEST(Integer, IsMadeOfAll64Bits) {
+  for (const char* digits : {"0", "1", "fedcba9876543210", "ffffffffffffffff"})
+    EXPECT_EQ(integer_of(std::strtoull(digits, nullptr, 16)).get_str(16), digits);
 }
 
 }  // namespace THIS_FILE
