@@ -5,6 +5,7 @@
    The detector runs in a process of its own, on one thread. If it crashes or takes too long, sbcollide says so and goes
    on. */
 
+#include <stddef.h>
 #include <stdint.h>
 
 #define SBCOLLIDE_METHOD_VERSION 1
