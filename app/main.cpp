@@ -21,6 +21,8 @@ void run(const app::cli::Options& options) {
   switch (options.command) {
     case Command::list:
       return app::cli::list(options.list_of);
+    case Command::new_method:
+      return app::cli::new_method(options.new_method);
     case Command::simulate:
       return app::cli::simulate(options);
     case Command::detect:

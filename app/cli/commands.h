@@ -9,6 +9,10 @@ namespace app::cli {
 /// line with its name. Throws SceneError if a scene file is invalid, after all others are printed.
 void list(const std::string& what);
 
+/// `new-method`: writes a detector to begin with, for `--guest`. Throws UsageError if there is a file of this name, or
+/// if it is not to be one of C or C++.
+void new_method(const std::filesystem::path& file);
+
 /// `simulate`: runs a scene without a window. Prints the figures as a table, as one JSON document or as lines of JSON,
 /// and writes pictures, an animation and OBJ files on request. Throws UsageError, SceneError, or what Capture throws.
 /// Calls OpenGL only if pictures are requested.

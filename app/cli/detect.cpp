@@ -57,22 +57,36 @@ SequenceTask read_sequence(const Options& options) {
   return task;
 }
 
+/// A pair as the CSV file and the JSON document name it.
+struct PairInFile {
+  std::size_t frame;
+  collide::Index vertex_a, vertex_b, body_a, body_b;
+  double distance;  // m
+};
+
+PairInFile in_file(const SequenceTask& task, std::size_t frame, collide::Contact contact) {
+  const std::vector<collide::Index>& file_vertex = task.of().meshes.file_vertex;
+  const collide::Bodies& bodies = task.of().bodies;
+  const double distance{compare::distance(contact, task.frames[frame].view())};
+  if (file_vertex[contact.a] > file_vertex[contact.b]) std::swap(contact.a, contact.b);
+  return {frame,   file_vertex[contact.a], file_vertex[contact.b], bodies.body_of(contact.a), bodies.body_of(contact.b),
+          distance};
+}
+
 /// Sorts the contacts of a frame by the numbers that vertices have in the file, and writes a line for each.
 void write_contacts(files::OutputFile& csv, const SequenceTask& task, std::size_t frame,
                     std::vector<collide::Contact>& contacts) {
   const std::vector<collide::Index>& file_vertex = task.of().meshes.file_vertex;
-  const auto [x, y, z, bodies] = task.frames[frame].view();
-  const auto in_file = [&](const collide::Contact& c) -> std::pair<collide::Index, collide::Index> {
+  const auto vertices = [&](const collide::Contact& c) -> std::pair<collide::Index, collide::Index> {
     return std::minmax(file_vertex[c.a], file_vertex[c.b]);
   };
-  if (!std::ranges::is_sorted(contacts, {}, in_file)) std::ranges::sort(contacts, {}, in_file);
+  if (!std::ranges::is_sorted(contacts, {}, vertices)) std::ranges::sort(contacts, {}, vertices);
   std::array<char, 160> line;  // five integers of at most 20 digits, and a real number
-  for (auto [a, b] : contacts) {
-    if (file_vertex[a] > file_vertex[b]) std::swap(a, b);
-    const double distance{std::sqrt(collide::squared_distance(x[a], y[a], z[a], x[b], y[b], z[b]))};
+  for (const collide::Contact& contact : contacts) {
+    const PairInFile p = in_file(task, frame, contact);
     // A compiled format, since a table may have millions of lines.
-    const char* const end = fmt::format_to(line.data(), FMT_COMPILE("{},{},{},{},{},{:.9g}\n"), frame, file_vertex[a],
-                                           file_vertex[b], bodies->body_of(a), bodies->body_of(b), distance);
+    const char* const end = fmt::format_to(line.data(), FMT_COMPILE("{},{},{},{},{},{:.9g}\n"), p.frame, p.vertex_a,
+                                           p.vertex_b, p.body_a, p.body_b, p.distance);
     csv.write({line.data(), end});
   }
 }
@@ -83,9 +97,11 @@ struct Totals {
   std::uint64_t pair_tests = 0, hashes = 0;
   double ms = 0;                            // of the frames' medians
   std::optional<double> recall, precision;  // over the frames whose true contacts are known
+  std::optional<PairInFile> first_missed, first_false;
 };
 
-Totals totals_of(std::span<const DetectRow> rows) {
+/// Returns the sums over `rows`, which begin with the frame `first`.
+Totals totals_of(const SequenceTask& task, std::span<const DetectRow> rows, std::size_t first = 0) {
   Totals sum;
   std::size_t judged = 0;  // contacts
   Found all;
@@ -100,20 +116,31 @@ Totals totals_of(std::span<const DetectRow> rows) {
     all.of_them += r.found->of_them;
     sum.recall = compare::share(all.of_them, all.true_contacts);
     sum.precision = compare::share(all.of_them, judged);
+    const std::size_t frame = first + std::size_t(&r - rows.data());
+    const Found& found = *r.found;
+    if (found.first_missed && !sum.first_missed) sum.first_missed = in_file(task, frame, *found.first_missed);
+    if (found.first_false && !sum.first_false) sum.first_false = in_file(task, frame, *found.first_false);
   }
   return sum;
 }
 
 // ---- JSON ----
 
-/// Adds recall and precision over these frames; null where the true contacts are not known.
-void add_score(Json& object, std::span<const DetectRow> rows) {
-  const Totals sum = totals_of(rows);
-  object["recall"] = sum.recall ? Json(*sum.recall) : Json(nullptr);
-  object["precision"] = sum.precision ? Json(*sum.precision) : Json(nullptr);
+Json to_json(const std::optional<PairInFile>& p) {
+  if (!p) return nullptr;
+  return {{"frame", p->frame},   {"vertex_a", p->vertex_a}, {"vertex_b", p->vertex_b},
+          {"body_a", p->body_a}, {"body_b", p->body_b},     {"distance", p->distance}};
 }
 
-Json frames_json(const MethodRun& run, bool scored) {
+/// Adds what is right and wrong in these frames; null where the true contacts are not known.
+void add_score(Json& object, const Totals& sum) {
+  object["recall"] = sum.recall ? Json(*sum.recall) : Json(nullptr);
+  object["precision"] = sum.precision ? Json(*sum.precision) : Json(nullptr);
+  object["first_missed"] = to_json(sum.first_missed);
+  object["first_false"] = to_json(sum.first_false);
+}
+
+Json frames_json(const SequenceTask& task, const MethodRun& run, bool scored) {
   Json frames = Json::array();
   for (const DetectRow& r : run.rows) {
     Json skipped = Json::object();
@@ -127,7 +154,7 @@ Json frames_json(const MethodRun& run, bool scored) {
                                            {"hashes", r.counters.hashes},
                                            {"boxes", r.counters.boxes},
                                            {"skipped", skipped}});
-    if (scored) add_score(frame, std::span(&r, 1));
+    if (scored) add_score(frame, totals_of(task, std::span(&r, 1), frames.size() - 1));
   }
   return frames;
 }
@@ -151,10 +178,10 @@ Json to_json(const SequenceTask& task, const MethodRun& run, const MethodRuns* c
   const bool scored = compared && compared->reference;
   if (compared) {
     document["reference"] = scored ? Json(compared->reference->key) : Json(nullptr);
-    if (scored) add_score(document, run.rows);
+    if (scored) add_score(document, totals_of(task, run.rows));
     if (!run.not_run.empty()) document["not_run"] = run.not_run;
   }
-  document["frames"] = frames_json(run, scored);
+  document["frames"] = frames_json(task, run, scored);
   return document;
 }
 
@@ -199,10 +226,14 @@ void print_table(const SequenceTask& task, const MethodRuns& all) {
       std::cout << fmt::format("{:28} not run {}\n", run.method->key, run.not_run);
       continue;
     }
-    const Totals sum = totals_of(run.rows);
+    const Totals sum = totals_of(task, run.rows);
     std::cout << fmt::format("{:28} {:10} {:>8} {:>9} {:12.3f} {:15} {:14}\n", run.method->key, sum.contacts,
                              share(sum.recall), share(sum.precision), sum.ms / double(run.rows.size()), sum.pair_tests,
                              sum.hashes);
+    for (const auto& [kind, pair] : {std::pair("missed", sum.first_missed), std::pair("false", sum.first_false)})
+      if (pair)
+        std::cout << fmt::format("  first {}: vertices {} and {} in frame {}, {:.6g} m apart\n", kind, pair->vertex_a,
+                                 pair->vertex_b, pair->frame, pair->distance);
   }
 }
 

@@ -79,8 +79,10 @@ class SideBySide {
     if (repetition_ > 0) return;
     if (m == reference_) truth_ = result_.contacts;
     if (!truth_) return;
-    runner.run.rows[f].found = {truth_->size(),
-                                truth_->size() - compare::score(result_.contacts, *truth_).missed.size()};
+    const compare::Score score = compare::score(result_.contacts, *truth_);
+    Found& found = runner.run.rows[f].found.emplace(Found{truth_->size(), truth_->size() - score.missed.size()});
+    if (!score.missed.empty()) found.first_missed = score.missed.front();
+    found.first_false = score.first_false;
   }
 
   /// Returns the work that the method will have done at the end if each frame from this one on takes as much as it.

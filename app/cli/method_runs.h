@@ -30,6 +30,7 @@ struct SequenceTask {
 /// What a method found of the true contacts of a frame.
 struct Found {
   std::size_t true_contacts = 0, of_them = 0;
+  std::optional<collide::Contact> first_missed{}, first_false{};
 };
 
 /// The figures of a method in one frame.

@@ -473,6 +473,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   CLI::App* list = cli.add_subcommand("list", "print keys and names, a line each");
   list->add_option("what", options.list_of, "scenes, methods, integrators or contact-surfaces (default: all)")
       ->check(CLI::IsMember({"scenes", "methods", "integrators", "contact-surfaces"}));
+  CLI::App* new_method = cli.add_subcommand("new-method", "write a detector of your own to begin with, for --guest");
+  add(*new_method, "FILE", "FILE", options.new_method, "the source to write: a new .c or .cpp file")->required();
   refuse_values_of_flags(cli);
 
   try {
@@ -489,11 +491,12 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   if (*report) check_report(options.report);
   if (*detect && !options.detect.continuous && !options.detection.tolerance)
     throw UsageError("--tolerance: is missing; contacts need one, in metres, unless --continuous is given");
-  options.command = *simulate ? Command::simulate
-                    : *detect ? Command::detect
-                    : *report ? Command::report
-                    : *list   ? Command::list
-                              : Command::demo;
+  options.command = *simulate     ? Command::simulate
+                    : *detect     ? Command::detect
+                    : *report     ? Command::report
+                    : *list       ? Command::list
+                    : *new_method ? Command::new_method
+                                  : Command::demo;
   if (!options.meshes.empty() && options.command != Command::demo)
     throw UsageError("--mesh: only the window takes it; a scene file names meshes for `simulate`");
   check_play(cli, options);

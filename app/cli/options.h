@@ -20,7 +20,7 @@
 
 namespace app::cli {
 
-enum class Command { demo, simulate, detect, report, list };
+enum class Command { demo, simulate, detect, report, list, new_method };
 
 /// The options of detection. For an option that is not given, the scene or the default decides.
 struct DetectionOptions {
@@ -69,9 +69,10 @@ struct Options {
   std::filesystem::path out = ".";
   bool out_given = false;  // the folder is to be there even if the run writes nothing
   bool json = false;
-  bool json_lines = false;  // `simulate`: a line of JSON for each frame, and one at the end
-  bool oracle = false;      // `simulate` with JSON: add the surface oracle's figures of each frame
-  std::string list_of;      // "scenes", "methods", "integrators", "contact-surfaces"; empty: all
+  bool json_lines = false;           // `simulate`: a line of JSON for each frame, and one at the end
+  bool oracle = false;               // `simulate` with JSON: add the surface oracle's figures of each frame
+  std::string list_of;               // "scenes", "methods", "integrators", "contact-surfaces"; empty: all
+  std::filesystem::path new_method;  // the source to write
 
   glm::ivec2 picture_size() const { return size.value_or(glm::ivec2(1280, 720)); }
 };

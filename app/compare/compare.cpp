@@ -10,12 +10,15 @@
 namespace app::compare {
 namespace {
 
-CompareRow scored(const collide::Result& found, const std::vector<collide::Contact>& truth, CompareRow row) {
+CompareRow scored(const collide::Result& found, const std::vector<collide::Contact>& truth, const collide::Frame& frame,
+                  CompareRow row) {
   row.scored = true;
   row.counters = found.counters;
   row.coverage = found.coverage;
   row.contacts = found.contacts.size();
   static_cast<Score&>(row) = score(found.contacts, truth);
+  if (!row.missed.empty()) row.missed_distance = distance(row.missed.front(), frame);
+  if (row.first_false) row.false_distance = distance(*row.first_false, frame);
   return row;
 }
 
@@ -124,10 +127,10 @@ void Comparison::score(const FrameSnapshot& snapshot) {
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     CompareRow& row = report_->rows[i];
     if (i == snapshot.driver) {
-      row = scored(snapshot.found, truth, std::move(row));
+      row = scored(snapshot.found, truth, snapshot.view(), std::move(row));
       if (entries_[i].ms) row.counters = entries_[i].result.counters;  // of the search from scratch that was timed
     } else if (entries_[i].ms) {
-      row = scored(entries_[i].result, truth, std::move(row));
+      row = scored(entries_[i].result, truth, snapshot.view(), std::move(row));
     }
   }
 }

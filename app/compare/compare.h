@@ -46,6 +46,7 @@ struct CompareRow : Score {
   collide::Counters counters;
   collide::Coverage coverage = collide::Coverage::exact;
   std::size_t contacts = 0;
+  float missed_distance = 0, false_distance = 0;  // m, between the vertices of the first missed and the first false one
 };
 
 struct CompareReport {

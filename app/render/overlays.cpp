@@ -173,6 +173,7 @@ void add_missed(const OverlayInput& from, engine::FrameData& frame) {
   LinesAndPoints marks(frame, 3.0f, 7.0f, seen_through);
   for (const collide::Contact& contact : *from.request.missed)
     add_contact(from.shown, contact, contact_missed_colour, marks);
+  if (from.request.false_found) add_contact(from.shown, *from.request.false_found, contact_false_colour, marks);
 }
 
 Legend missed_legend(const LegendFacts& facts) {
@@ -397,8 +398,8 @@ constexpr std::array rows{
                "All springs, coloured by their strain. From far away only the springs along edges are drawn.",
                &Overlays::springs, add_all_springs, springs_legend, 0, OverlayBasis::picture, true},
     OverlayRow{"missed", "Missed contacts", '6',
-               "True contacts that the paper's method misses, or the method that you choose in the comparison (V). A "
-               "ring shows where, and how many.",
+               "True contacts that the paper's method misses, or the method that you choose in the comparison (V), and "
+               "the first false one that it finds. A ring shows where, and how many.",
                &Overlays::missed, add_missed, missed_legend},
     OverlayRow{"areas", "Areas searched", '7',
                "Where the exact method searches for contacts between two bodies (§2.1, §5).", &Overlays::areas,

@@ -34,5 +34,6 @@ inline constexpr glm::vec3 area_colour{0.00f, 0.42f, 0.31f};   // areas of the e
 inline constexpr glm::vec3 hand_colour{0.55f, 0.10f, 0.45f};   // what the mouse holds or selects
 inline constexpr glm::vec3 ghost_colour{0.80f, 0.47f, 0.65f};  // reddish purple: the second world
 inline constexpr glm::vec3 contact_missed_colour{0.78f, 0.00f, 0.30f};  // crimson
+inline constexpr glm::vec3 contact_false_colour = aliased_colour;
 
 }  // namespace app::render

@@ -35,6 +35,7 @@ struct OverlayRequest : OverlayChoice {
   const compare::BucketContents* bucket = nullptr;  // its entries and cells are shown in any case
   std::vector<collide::DebugGeometry::Box> areas;
   const std::vector<collide::Contact>* missed = nullptr;            // vertices of the present world
+  std::optional<collide::Contact> false_found;                      // the same
   std::span<const softbody::SurfaceContactPoint> surface_contacts;  // of the present world
   std::vector<softbody::SolidContactPoint> solid_contacts;          // of the present world
   std::span<const compare::SurfaceMark> marks;                      // of the present world

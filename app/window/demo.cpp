@@ -350,6 +350,10 @@ class Demo {
     if (task == Task::show_highlight && highlight)
       camera_.glide_to(highlight->centre, tour_radius_factor * highlight->radius, size);
     if (task == Task::show_as_before_tour && orbit_before_tour_) camera_.glide_to(*orbit_before_tour_);
+    const compare::CompareRow* row = session_.comparison.scored_row(session_.comparison.choice.misses_of);
+    if (task == Task::show_first_missed && row && !row->missed.empty())
+      focus_on(row->missed.front(), session_, camera_, size);
+    if (task == Task::show_first_false && row && row->first_false) focus_on(*row->first_false, session_, camera_, size);
   }
 
   void throw_body(glm::ivec2 size) {

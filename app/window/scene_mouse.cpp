@@ -40,6 +40,15 @@ void focus_on(softbody::BodyId body, const Session& session, engine::Camera& cam
   camera.glide_to(sphere.centre, sphere.radius, size);
 }
 
+void focus_on(const collide::Contact& pair, const Session& session, engine::Camera& camera, glm::ivec2 size) {
+  constexpr float around = 4;  // mean edges
+  const render::DrawnPositions at = positions_under_mouse(session);
+  const softbody::BodyModel& model = session.world().model(session.world().bodies().body_of(pair.a));
+  const float radius = std::max({0.5f * glm::distance(at[pair.a], at[pair.b]), session.world().collision().tolerance,
+                                 around * static_cast<float>(model.shown().mean_edge)});
+  camera.glide_to(0.5f * (at[pair.a] + at[pair.b]), radius, size);
+}
+
 MouseInput read_mouse(glm::vec2 origin, bool over_scene) {
   const ImGuiIO& io = ImGui::GetIO();
   const glm::vec2 ratio(io.DisplayFramebufferScale.x, io.DisplayFramebufferScale.y);

@@ -25,8 +25,9 @@ struct MouseInput {
 /// Returns where bodies are for the mouse. It is valid until the next step.
 render::DrawnPositions positions_under_mouse(const Session& session, session::Half half = session::Half::first);
 
-/// Makes the camera glide to a body.
+/// Makes the camera glide to a body, or to two vertices.
 void focus_on(softbody::BodyId body, const Session& session, engine::Camera& camera, glm::ivec2 size);
+void focus_on(const collide::Contact& pair, const Session& session, engine::Camera& camera, glm::ivec2 size);
 
 /// Returns Dear ImGui's mouse. `origin`: the viewport's top left corner in the window, framebuffer pixels.
 MouseInput read_mouse(glm::vec2 origin, bool over_scene);

@@ -5,6 +5,7 @@
 
 #include "app/render/halves.h"
 #include "app/render/miss_marks.h"
+#include "app/render/palette.h"
 
 namespace app::window {
 namespace {
@@ -16,6 +17,13 @@ const std::vector<collide::Contact>* missed_in(const ScenePicture& picture, cons
   if (!picture.misses_of) return nullptr;
   if (const session::Beside* beside = session.simulation.beside()) return &beside->figures(half).missed();
   return session.comparison.missed_by(*picture.misses_of);
+}
+
+/// Returns the first false pair of the method whose missed contacts are shown.
+std::optional<collide::Contact> false_in(const ScenePicture& picture, const Session& session) {
+  if (!picture.misses_of || session.simulation.beside()) return std::nullopt;
+  const compare::CompareRow* row = session.comparison.scored_row(*picture.misses_of);
+  return row ? row->first_false : std::nullopt;
 }
 
 }  // namespace
@@ -69,6 +77,7 @@ render::OverlayRequest overlay_request(const Session& session, const ui::Tour& t
   static_cast<render::OverlayChoice&>(request) = picture;
   request.missed = missed_in(picture, session, half);
   request.shown.missed = request.missed != nullptr;
+  request.false_found = false_in(picture, session);
   if (picture.bucket) request.bucket = inspector.bucket();
   if (render::shows(request.shown, render::OverlayBasis::table) || request.bucket)
     request.debug = &inspector.shown_geometry();
@@ -93,10 +102,11 @@ std::vector<render::SceneLabel> scene_labels(const Session& session, const ui::T
                                              Half half) {
   std::vector<render::SceneLabel> labels;
   if (const render::Highlight* highlight = tour.highlight()) labels = highlight->labels;
+  const render::DrawnPositions at = drawn_meshes(session, picture.between, half).shown;
   if (const auto* missed = missed_in(picture, session, half))
-    std::ranges::copy(
-        render::miss_marks(session.simulation.world(half), *missed, drawn_meshes(session, picture.between, half).shown),
-        std::back_inserter(labels));
+    std::ranges::copy(render::miss_marks(session.simulation.world(half), *missed, at), std::back_inserter(labels));
+  if (const auto pair = false_in(picture, session))
+    labels.push_back({0.5f * (at[pair->a] + at[pair->b]), "a false pair", render::contact_false_colour});
   return labels;
 }
 

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "app/window/scene_mouse.h"
+#include "app/window/scene_picture.h"
 #include "tests/app/keys.h"
 #include "tests/app/panel_rig.h"
 #include "tests/own_process.h"
@@ -156,6 +158,35 @@ TEST(CompareView, ShowsWhatTheChosenMethodMisses) {
   EXPECT_TRUE(rig.session.comparison.missed()->empty()) << "it is exact";
 }
 
+TEST(CompareView, LetsTheWindowLookAtTheFirstMissedPair) {
+  PanelRig rig;
+  rig.change([](softbody::Scene& scene) {
+    scene.collision.cell_size = glm::vec3(0.13f);
+    scene.collision.buckets = 1'000'003;
+  });
+  rig.ui.lower = ui::LowerView::comparison;
+  const std::size_t literal = compare::method_index("multi-level-sb");
+  ASSERT_TRUE(wait_until(rig, [&](const auto& rows) { return rows[literal].scored && rows[literal].recall < 1; }));
+  rig.session.comparison.choice.misses_of = compare::method_index("octree");
+  rig.click("###Recall of Octree");
+  EXPECT_FALSE(rig.session.simulation.clock.paused) << "it misses nothing";
+  rig.click("###Recall of " + std::string(collide::method_table()[literal].name));
+  EXPECT_TRUE(rig.session.simulation.clock.paused);
+  EXPECT_TRUE(rig.ui.overlays.missed);
+  EXPECT_EQ(rig.session.comparison.choice.misses_of, literal);
+  ASSERT_TRUE(rig.frames_until([&] { return std::ranges::count(rig.tasks, ui::WindowTask::show_first_missed) > 0; }));
+  const compare::CompareReport& report = rig.session.comparison.report();
+  EXPECT_EQ(report.id, rig.session.simulation.revision()) << "the frame in which the world stopped";
+  const collide::Contact pair = report.rows[literal].missed.at(0);
+  engine::Camera camera;
+  window::focus_on(pair, rig.session, camera, {1280, 720});
+  camera.finish_glide();
+  const collide::Frame frame = rig.session.world().positions();
+  const glm::vec3 a = position(frame, pair.a), b = position(frame, pair.b);
+  EXPECT_LT(glm::distance(camera.orbit().target, 0.5f * (a + b)), 1e-5f);
+  EXPECT_FLOAT_EQ(report.rows[literal].missed_distance, glm::distance(a, b));
+}
+
 TEST(CompareView, ShowsThePrecisionOnlyIfSomeContactIsFalse) {
   const auto guest = [] {
     collide::Method row = *collide::find_method("sorted-grid");
@@ -182,6 +213,15 @@ TEST(CompareView, ShowsThePrecisionOnlyIfSomeContactIsFalse) {
     ASSERT_TRUE(wait_until(rig, [](const auto& rows) { return rows.back().scored && rows.back().precision < 1; }));
     rig.frames(2);
     EXPECT_TRUE(rig.shows("Column Precision"));
+    rig.click("###Precision of generous");
+    ASSERT_TRUE(rig.frames_until([&] { return std::ranges::count(rig.tasks, ui::WindowTask::show_first_false) > 0; }));
+    const compare::CompareRow& found = rig.session.comparison.report().rows.back();
+    EXPECT_GE(found.false_distance, rig.session.world().collision().tolerance);
+    const window::ScenePicture picture = window::scene_picture(rig.session, rig.ui, {}, 1);
+    const auto labels = window::scene_labels(rig.session, rig.ui.tour, picture, session::Half::first);
+    EXPECT_EQ(std::ranges::count(labels, "a false pair", &render::SceneLabel::text), 1);
+    EXPECT_EQ(window::overlay_request(rig.session, rig.ui.tour, picture, session::Half::first).false_found,
+              found.first_false);
   };
   tests::in_a_process_of_its_own(guest);
 }

@@ -104,33 +104,53 @@ TEST_F(DetectAll, GivesForEachMethodWhatItGivesAlone) {
       EXPECT_EQ(one["reference"], "brute-force");
       EXPECT_EQ(one["precision"], 1.0);
       EXPECT_TRUE(one["recall"] == 1.0 || !method.exact) << method.key;
-      for (const char* key : {"reference", "recall", "precision"}) one.erase(key);
+      EXPECT_TRUE(one["first_false"].is_null() && one["first_missed"].is_null() == (one["recall"] == 1.0)) << one;
+      for (const char* key : {"reference", "recall", "precision", "first_missed", "first_false"}) one.erase(key);
       for (json& frame : one["frames"])
-        for (const char* key : {"recall", "precision"}) frame.erase(key);
+        for (const char* key : {"recall", "precision", "first_missed", "first_false"}) frame.erase(key);
       EXPECT_EQ(one, alone) << method.key;
     }
   }
 }
 
-TEST_F(DetectAll, CountsWhatTheLiteralMethodMisses) {
-  std::size_t expected = 0, found = 0;
+/// Returns the first of the rows that are missing in another list; null if there is none.
+json first_missing(const std::vector<ContactRow>& rows, const std::vector<ContactRow>& in) {
+  for (const ContactRow& r : rows)
+    if (!std::ranges::binary_search(in, r))
+      return {{"frame", r.frame},   {"vertex_a", r.vertex_a}, {"vertex_b", r.vertex_b},
+              {"body_a", r.body_a}, {"body_b", r.body_b},     {"distance", double{r.distance}}};
+  return nullptr;
+}
+
+TEST_F(DetectAll, CountsWhatTheLiteralMethodMissesAndNamesTheFirst) {
+  const Words settings = with(frames, {"--cell-size", "0.02", "--buckets", "16000057", "--method"});
+  std::vector<std::vector<ContactRow>> truth;  // by frame
   for (const auto& [state, frame] : {std::pair(&first, 0u), std::pair(&second, 1u)})
-    expected += oracle(frame, *state, {.tolerance = 0.07f, .edges = &first}).size();
-  for (const json& document :
-       detect(with(frames, {"--cell-size", "0.02", "--buckets", "16000057", "--method", "all"}))) {
+    truth.push_back(oracle(frame, *state, {.tolerance = 0.07f, .edges = &first}));
+  const std::vector<ContactRow> found = contacts(with(settings, {std::string(collide::paper_method)}));
+  for (const json& document : detect(with(settings, {"all"}))) {
     if (document["method"] != collide::paper_method) continue;
-    for (const json& frame : document["frames"]) found += frame["contacts"].get<std::size_t>();
-    EXPECT_LT(found, expected);
-    EXPECT_DOUBLE_EQ(document["recall"], double(found) / double(expected));
+    const std::size_t expected = truth[0].size() + truth[1].size();
+    EXPECT_LT(found.size(), expected);
+    EXPECT_DOUBLE_EQ(document["recall"], double(found.size()) / double(expected));
+    EXPECT_FALSE(document["first_missed"].is_null());
+    EXPECT_EQ(document["first_missed"], document["frames"][0]["first_missed"]);
+    for (std::size_t frame = 0; frame < truth.size(); ++frame)
+      EXPECT_EQ(document["frames"][frame]["first_missed"], first_missing(truth[frame], found));
+    const json& pair = document["first_missed"];
+    const std::string line =
+        "  first missed: vertices " + pair["vertex_a"].dump() + " and " + pair["vertex_b"].dump() + " in frame 0, ";
+    EXPECT_NE(run(with({"detect"}, with(settings, {"all"}))).out.find(line), std::string::npos) << line;
   }
-  EXPECT_GT(found, 0u);
+  EXPECT_GT(found.size(), 0u);
 }
 
 TEST_F(DetectAll, PrintsALineForEachMethod) {
   const Outcome o = run(with({"detect", "--method", "all"}, frames));
   EXPECT_EQ(o.status, 0);
   EXPECT_EQ(o.err, "");
-  EXPECT_EQ(std::ranges::count(o.out, '\n'), 3 + std::ptrdiff_t(collide::method_table().size())) << o.out;
+  const bool misses = o.out.find("\n  first missed: ") != std::string::npos;
+  EXPECT_EQ(std::ranges::count(o.out, '\n'), 3 + std::ptrdiff_t(collide::method_table().size()) + misses) << o.out;
   for (const collide::Method& method : collide::method_table())
     EXPECT_NE(o.out.find("\n" + std::string(method.key) + " "), std::string::npos) << o.out;
 }

@@ -24,6 +24,11 @@ enum class WindowTask {
   switch_hold,         // of the selected body's vertex there
   show_highlight,      // of the tour
   show_as_before_tour  // while the world runs ahead
+  throw_body,           // to where the mouse points
+  show_highlight,       // of the tour
+  show_as_before_tour,  // while the world runs ahead
+  show_first_missed,    // of the pairs that CompareChoice::misses_of missed in the last report
+  show_first_false      // of those that it found there
 };
 
 /// A change of the session or of what the window shows, or a task for the window.

@@ -7,6 +7,7 @@
 
 #include "app/render/overlays.h"
 #include "app/session/session.h"
+#include "app/ui/state/requests.h"
 #include "app/ui/tour/tour.h"
 
 namespace app::ui {
@@ -41,6 +42,7 @@ struct UiState : Remembered {
   double picture_interval = 0;  // s from picture to picture, on purpose; infinity: drawn when something changes
   softbody::View view;          // the camera, as a scene file describes it
   Tour tour;
+  std::optional<WindowTask> once_compared;  // is left to the window when the present frame has been compared
 
   /// Returns the overlays that are drawn: all that are asked for, but without a solver none that needs one.
   render::Overlays drawn_overlays(const Session& session) const {

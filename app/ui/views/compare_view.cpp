@@ -29,14 +29,16 @@ constexpr std::array<Column, column_count> columns{{
      "Time to find all contacts from scratch on one core: median of the last 15 measurements (§3). While the frame "
      "stays the same, caches are warm. The panel's Detect is one search as the program runs."},
     {"Recall", 90, true,
-     "Share of the true contacts that the method found. 1: none missed. The dot is the method's status light."},
+     "Share of the true contacts that the method found. 1: none missed. Click a smaller one to see the first miss. The "
+     "dot is the method's status light."},
     {"Since start", 90, true,
      "Recall over all frames that were compared since the scene started or the settings changed: the sum of the "
      "contacts found over that of the true ones."},
     {"Contacts", 72, true, "Number of pairs of vertices found closer than the tolerance (§2.3, §2.4)."},
     {"Pair tests", 96, true, "Number of distances between vertices that were evaluated (§2.3)."},
     {"Hashes", 80, true, "Number of evaluations of the hash function (§2.2)."},
-    {"Precision", 78, true, "Share of the found contacts that are true. 1: no false contact (§2.3)."},
+    {"Precision", 78, true,
+     "Share of the found contacts that are true. 1: no false contact (§2.3). Click a smaller one to see the first."},
     {"Latest times", 0, false, "The last measurements of the time. All methods have the same axis."},
     {"Misses", 56, true, "Choose the method whose missed contacts the scene shows (key 6)."},
 }};
@@ -80,11 +82,11 @@ struct Grid {
     ImGui::GetWindowDrawList()->AddText({std::floor(end), text_top()},
                                         ImGui::GetColorU32(pale ? ImGuiCol_TextDisabled : ImGuiCol_Text), text.c_str());
   }
-  /// Adds an invisible item over the column's cell, for a tooltip.
-  void cell(Widgets& w, ColumnIndex i, std::string_view label, std::string_view tooltip) const {
+  /// Adds an invisible item over the column's cell, for a tooltip. Returns true if it was clicked.
+  bool cell(Widgets& w, ColumnIndex i, const std::string& label, std::string_view tooltip) const {
     ImGui::SetCursorScreenPos({left[i], top});
-    ImGui::Dummy({right[i] - left[i], height});
-    w.register_item(label, tooltip);
+    const bool clicked = ImGui::InvisibleButton(label.c_str(), {right[i] - left[i], height});
+    return w.register_item(clicked, label, tooltip);
   }
 };
 
@@ -167,6 +169,22 @@ void draw_share(const Grid& grid, ColumnIndex column, double share) {
   if (share < 1) ImGui::PopStyleColor();
 }
 
+/// Returns what a tooltip says about the first pair of those that are wrong, whose vertices are so far apart (m).
+std::string first_pair_text(const collide::Contact& pair, float distance) {
+  return fmt::format(" The first: vertices {} and {}, {:.4g} m apart. Click to see it in the scene.", grouped(pair.a),
+                     grouped(pair.b), distance);
+}
+
+/// Stops the world, shows what the method of the row misses, and lets the window look at a pair.
+void ask_for_pair(Widgets& w, const Row& row, WindowTask pair) {
+  w.ask([method = row.index, pair](Session& s, UiState& ui) {
+    s.simulation.clock.paused = true;
+    s.comparison.choice.misses_of = method;
+    ui.overlays.missed = true;
+    ui.once_compared = pair;
+  });
+}
+
 void draw_score(Widgets& w, const Session& session, const Grid& grid, const Row& row) {
   const compare::CompareRow& found = *row.measured;
   grid.text(tests, grouped(found.counters.pair_tests));
@@ -183,8 +201,13 @@ void draw_score(Widgets& w, const Session& session, const Grid& grid, const Row&
     draw_share(grid, so_far, sum.recall());
     if (is_shown(precision, session)) draw_share(grid, precision, found.precision);
   }
-  const std::string tip = std::string(light.sentence) + " Missed: " + grouped(found.missed.size()) + ".";
-  grid.cell(w, recall, row.label("Recall of"), tip);
+  std::string tip = std::string(light.sentence) + " Missed: " + grouped(found.missed.size()) + ".";
+  if (!found.missed.empty()) tip += first_pair_text(found.missed.front(), found.missed_distance);
+  if (grid.cell(w, recall, row.label("Recall of"), tip) && !found.missed.empty())
+    ask_for_pair(w, row, WindowTask::show_first_missed);
+  if (found.first_false && grid.cell(w, precision, row.label("Precision of"),
+                                     "Some are false." + first_pair_text(*found.first_false, found.false_distance)))
+    ask_for_pair(w, row, WindowTask::show_first_false);
   grid.cell(w, so_far, row.label("Recall since start of"),
             fmt::format("Missed: {} of {} true contacts in {} frames.", grouped(sum.missed), grouped(sum.true_contacts),
                         grouped(std::uint64_t(sum.frames))));

@@ -1,0 +1,41 @@
+// `new-method`: a detector to begin with.
+
+#include <gtest/gtest.h>
+
+#include "tests/cli/process.h"
+
+namespace cli::test {
+namespace THIS_FILE {
+
+TEST(NewMethod, WritesTheDoubleLoopOfTheExamples) {
+  const TemporaryFolder folder;
+  for (const char* name : {"mine.c", "mine.cpp"}) {
+    const Outcome o = run({"new-method", name}, folder.path());
+    EXPECT_EQ(o.status, 0) << o.err;
+    EXPECT_NE(o.out.find(std::string("sbcollide --guest ") + name), std::string::npos) << o.out;
+    EXPECT_EQ(read_file(folder.path() / name), read_file(SBCOLLIDE_GUESTS "/double_loop.c"));
+  }
+}
+
+TEST(NewMethod, NeverWritesOverAFile) {
+  const TemporaryFolder folder;
+  const std::string mine = folder.write("mine.c", ""), nowhere = folder.path() / "link.c";
+  std::filesystem::create_symlink("nowhere", nowhere);
+  std::filesystem::create_directory(folder.path() / "folder.c");
+  for (const std::string& taken : {mine, nowhere, (folder.path() / "folder.c").string()})
+    expect_refused({"new-method", taken}, {taken, "name a new file"});
+  EXPECT_EQ(read_file(mine), "");
+  EXPECT_TRUE(std::filesystem::is_symlink(nowhere));
+}
+
+TEST(NewMethod, RefusesOtherKindsOfFiles) {
+  const TemporaryFolder folder;
+  for (const char* name : {"mine", "mine.py", "mine.h", ".c", "no/folder/mine.py"})
+    expect_refused({"new-method", folder.path() / name}, {name, ".c or .cpp"});
+  expect_refused({"new-method", folder.path() / "no/folder/mine.c"}, {"no/folder/mine.c"});
+  expect_refused({"new-method"}, {"FILE"});
+  EXPECT_TRUE(file_names(folder.path()).empty());
+}
+
+}  // namespace THIS_FILE
+}  // namespace cli::test
