@@ -10,6 +10,7 @@
 
 #include "app/files/playback.h"
 #include "app/session/session.h"
+#include "softbody/forces/springs.h"
 #include "tests/app/recorded_bodies.h"
 #include "tests/app/scenes.h"
 #include "tests/full_disk.h"
@@ -221,6 +222,21 @@ TEST_F(ExporterTest, EndsWhenTheRecordingThatPlaysBeginsAgain) {
   EXPECT_FALSE(exporter.failed()) << exporter.message();
   EXPECT_EQ(names(folder.path()), std::set<std::string>{"motion_0001"});
   EXPECT_EQ(names(folder.path() / "motion_0001").size(), 5u) << "frames 1 to 3, the rest shape and the scene";
+}
+
+TEST_F(ExporterTest, GoesOnWithTheSecondHalfWhenTheFirstHasStopped) {
+  softbody::Scene stiff = touching_pair();
+  stiff.materials[0][softbody::StructuralSprings::stiffness] = 20'000;
+  session.scenes.enter(session::make_window_world(stiff, {"explicit-euler", 1}, 1), stiff, "stiff");
+  session.simulation.set_beside(compare::HowSimulated{stiff, {}});
+  start("pictures");
+  ASSERT_TRUE(wait_until([&] {
+    frame();
+    return session.simulation.world(session::Half::second).frame() >= 60;
+  }));
+  stop();
+  EXPECT_LT(session.world().frame(), 50);
+  EXPECT_EQ(names(folder.path() / "pictures_0001").size(), 60u);
 }
 
 TEST_F(ExporterTest, WritesMotionThatReadsBackAsTheSameBodies) {

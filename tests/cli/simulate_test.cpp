@@ -55,6 +55,9 @@ TEST(Simulate, RunsASecondWorldBesideTheFirst) {
   EXPECT_EQ(keys(both["beside"]), keys(second));
   for (const char* key : {"method", "integrator", "state_hash"}) EXPECT_EQ(both["beside"][key], second[key]) << key;
   EXPECT_EQ(both["beside"]["frames"].size(), 40u);
+  const std::string text =
+      run({"simulate", "--scene", "A", "--frames", "60", "--beside", "method=multi-level-sb,cell-size=0.1"}).out;
+  EXPECT_TRUE(std::regex_search(text, std::regex("\nmissed 0 of [1-9][^]*\nbeside it[^]*\nmissed [1-9]"))) << text;
   const Outcome lines =
       run({"simulate", "--scene", "drop", "--frames", "2", "--json-lines", "--oracle", "--beside", "method=grid-hash"});
   ASSERT_EQ(lines.status, 0) << lines.err;

@@ -1,5 +1,6 @@
 #include "app/session/export/exporter.h"
 
+#include <algorithm>
 #include <cassert>
 #include <map>
 #include <utility>
@@ -135,12 +136,13 @@ void Exporter::frame(const Picture& picture) {
 
 void Exporter::record(const Picture& picture) {
   const softbody::BodiesInMotion& world = simulation_.world();
-  if (world.frame() == recorded_frame_ || !may_step()) return;
+  const int now = std::max(world.frame(), simulation_.world(Half::second).frame());  // a half that has stopped lags
+  if (now == recorded_frame_ || !may_step()) return;
   // What is played begins again: all of its frames are written.
-  if (simulation_.player() && world.frame() < recorded_frame_) return stop();
-  recorded_frame_ = world.frame();
+  if (simulation_.player() && now < recorded_frame_) return stop();
+  recorded_frame_ = now;
   ExportedFrame frame;
-  frame.number = world.frame();
+  frame.number = now;
   if (recorded_->pictures) {
     try {
       frame.picture = picture(with_panel, picture_size());
