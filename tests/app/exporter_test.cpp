@@ -13,7 +13,6 @@
 #include "softbody/forces/springs.h"
 #include "tests/app/recorded_bodies.h"
 #include "tests/app/scenes.h"
-#include "tests/full_disk.h"
 #include "tests/load_png.h"
 #include "tests/read_bodies.h"
 #include "tests/temporary_folder.h"
@@ -196,20 +195,6 @@ TEST_F(ExporterTest, ReportsAFolderThatCannotBeMade) {
   exporter.toggle_recording();
   EXPECT_FALSE(exporter.recording());
   EXPECT_TRUE(exporter.failed());
-}
-
-TEST_F(ExporterTest, ReportsAFullDisk) {
-  folder.write("curves_0001.csv", "saved before");
-  {
-    const tests::FullDisk full(16);
-    exporter.write_curves();
-    expect_failure("curves_0002.csv: cannot be written");
-    exporter.picture_requested = true;
-    frame();
-    expect_failure("picture_0001.png: cannot be written");
-  }
-  EXPECT_EQ(names(folder.path()), std::set<std::string>{"curves_0001.csv"});
-  EXPECT_EQ(read_file(folder.path() / "curves_0001.csv"), "saved before");
 }
 
 TEST_F(ExporterTest, EndsWhenTheRecordingThatPlaysBeginsAgain) {

@@ -274,21 +274,6 @@ TEST(Tour, RunsAheadToAContact) {
   EXPECT_FALSE(rig.session.simulation.clock.paused) << "the world goes on from there";
 }
 
-TEST(Tour, StaysInAFrameWithAContact) {
-  const TourRig rig(touching_pair());
-  EXPECT_FALSE(rig.tour.running_to(rig.session));
-  EXPECT_TRUE(rig.session.simulation.clock.paused);
-  EXPECT_EQ(rig.session.world().frame(), 0);
-}
-
-TEST(Tour, RunsAheadInAnEmptyWorld) {
-  softbody::Scene scene = falling_pair();
-  for (softbody::BodySource& body : scene.bodies) body.appear = 20;
-  TourRig rig(scene);
-  rig.finish_run();
-  EXPECT_TRUE(rig.context().f.touching);
-}
-
 TEST(Tour, CanBeClosedWhileTheWorldRunsAhead) {
   for (const bool paused : {false, true}) {
     PanelRig rig(1, falling_pair());
