@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "tests/cli/process.h"
 #include "tests/full_disk.h"
 
