@@ -1,4 +1,4 @@
-// Full disks, folders that cannot be written to, and a sudden end: saved files stay complete.
+// Full disks and folders that cannot be written to: saved files stay complete.
 
 #include <gtest/gtest.h>
 
