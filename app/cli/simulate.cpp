@@ -15,6 +15,7 @@
 
 #include "app/base/streams.h"
 #include "app/compare/blow_up_monitor.h"
+#include "app/compare/run_figures.h"
 #include "app/compare/world_oracle.h"
 #include "app/files/inputs.h"
 #include "app/files/obj_writer.h"
@@ -249,12 +250,13 @@ class Run {
 
   void step() {
     world_.step();
+    if (!options_.beside.empty() && !prints_json()) figures_.add(world_);
     const std::vector<softbody::BodyMeasures> bodies = softbody::measure_bodies(world_);
     if (!blow_up_ && (blow_up_ = monitor_.check(world_, bodies)))
       warn(warnings_,
            fmt::format("{}frame {}: {}; see --integrator and --substeps", name_, blow_up_->frame, blow_up_->what));
     // A table has about twenty lines for any number of frames.
-    const int stride = options_.json || options_.json_lines ? 1 : std::max(1, options_.frames / 20);
+    const int stride = prints_json() ? 1 : std::max(1, options_.frames / 20);
     if (world_.frame() % stride != 0 && world_.frame() != options_.frames) return;
     const collide::Result& found = world_.detection();
     FrameRow& row = rows_.emplace_back(FrameRow{.frame = world_.frame(),
@@ -311,10 +313,13 @@ class Run {
     std::cout << "\nstages left out:" << (world_.plan().left_out.empty() ? " none" : "") << '\n';
     for (const softbody::LeftOut& l : world_.plan().left_out)
       std::cout << "  " << softbody::stage_key(l.stage) << ": " << l.why << '\n';
+    if (const compare::RunTotals& run = figures_.totals(); run.frames > 0)
+      std::cout << fmt::format("missed {} of {} contacts\n", run.missed, run.true_contacts);
     std::cout << "state hash " << hex(world_.state_hash()) << '\n';
   }
 
  private:
+  bool prints_json() const { return options_.json || options_.json_lines; }
   /// Returns what went wrong, and what is likely to be wrong with the detector's settings, or with the contact of
   /// vertices.
   std::vector<std::string> all_warnings() const {
@@ -335,6 +340,7 @@ class Run {
   compare::WorldOracle oracle_;
   compare::BlowUpMonitor monitor_;
   std::optional<compare::BlowUp> blow_up_;
+  compare::RunFigures figures_;  // of two worlds, for print()
   std::vector<std::string> warnings_;
   std::vector<FrameRow> rows_;
 };

@@ -174,7 +174,7 @@ Material imported_material(double extent) {
 }
 
 std::string Import::progress() const {
-  if (!reading_) return {};
+  if (!reader_.has_work()) return {};
   const auto seconds =
       std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - began_).count();
   std::string text = reader_.cancelled() ? "giving up " : "reading ";
@@ -186,7 +186,7 @@ std::string Import::progress() const {
 void Import::cancel() {
   dropped_.clear();
   together_.clear();
-  if (reading_) reader_.cancel();
+  reader_.cancel();
 }
 
 void Import::age(double elapsed) {
@@ -211,7 +211,7 @@ void Import::refuse(const std::string& why) {
 }
 
 void Import::load() {
-  if (path.empty() || reading_) return;
+  if (path.empty() || reader_.has_work()) return;
   report_.clear();
   problem_.clear();
   is_dropped_ = joins_ = false;
@@ -230,7 +230,6 @@ void Import::open() {
 
 void Import::read(decltype(FileReader::Question::file) file) {
   began_ = std::chrono::steady_clock::now();
-  reading_ = true;
   stage_.clear();
   const softbody::World* now = simulation_.simulated();
   reader_.offer({std::move(file), simulation_.threads, joins_ ? nullptr : lone_options,
@@ -281,16 +280,15 @@ void Import::update() {
   std::optional<FileReader::Answer> answer = reader_.take();
   if (auto* stage = answer ? std::get_if<FileReader::Stage>(&*answer) : nullptr) {
     stage_ = std::move(stage->name);
-  } else if (answer) {
-    reading_ = false;
-    if (!reader_.cancelled()) take(std::move(*answer));
+  } else if (answer && !reader_.cancelled()) {
+    take(std::move(*answer));
   }
   open_next();
 }
 
 /// Begins to read the first of the files that wait, if nothing else is read or asked.
 void Import::open_next() {
-  if (reading_ || frames_ || dropped_.empty()) return;
+  if (reader_.has_work() || frames_ || dropped_.empty()) return;
   path = dropped_.front();
   dropped_.erase(dropped_.begin());
   is_dropped_ = true;

@@ -113,7 +113,7 @@ class Import {
   void import_each();
 
   /// Returns true while something is read; not while question() waits for the user.
-  bool busy() const { return reading_ || (!frames_ && !dropped_.empty()); }
+  bool busy() const { return reader_.has_work() || (!frames_ && !dropped_.empty()); }
   /// Returns what is being read, what is done with it, and for how long; empty unless busy().
   std::string progress() const;
   /// Gives up what is being read, and all files that wait. busy() until the present stage is over.
@@ -165,7 +165,6 @@ class Import {
   std::optional<Frames> frames_;        // what question() is about
   std::optional<JoinedAt> joined_;
   std::chrono::steady_clock::time_point began_;
-  bool reading_ = false;
   std::string stage_;  // of what is read
   Background<FileReader> reader_;
 };

@@ -201,6 +201,11 @@ TEST_F(BesideTest, StopsTheHalfThatBlowsUpAlone) {
     EXPECT_EQ(two.simulation.before_last_step(unstable).simulated().x[0],
               two.simulation.world(unstable).simulated().positions.x[0])
         << "no picture shows it on its way";
+    if (unstable == Half::first) continue;
+    two.simulation.edits = Half::second;
+    two.settings.set_integrator({"rk4", {}});
+    run(two, 1);
+    EXPECT_EQ(frame(unstable), 121) << "another setting starts it anew beside the first";
   }
 }
 

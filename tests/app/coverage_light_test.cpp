@@ -64,17 +64,5 @@ TEST(SurfaceRemark, CountsTheVerticesInsideOtherBodies) {
   EXPECT_EQ(remark.text.substr(0, 4), "But ") << remark.text;
 }
 
-/// The literal method's coverage agrees with the explanation of the largest box.
-TEST(CoverageLight, AgreesWithTheLiteralMethod) {
-  PanelRig rig;
-  rig.session.settings.set_method("multi-level-sb");
-  for (const float cell : {0.2f, 2.0f}) {
-    rig.change([&](softbody::Scene& scene) { scene.collision.cell_size = glm::vec3(cell); });
-    const bool fits = rig.session.world().detection().coverage == collide::Coverage::covered;
-    const std::string text = ui::box_against_cell(rig.session.inspector.paper_geometry(), glm::vec3(cell));
-    EXPECT_EQ(text.find("Every box fits") != text.npos, fits) << text;
-  }
-}
-
 }  // namespace THIS_FILE
 }  // namespace app

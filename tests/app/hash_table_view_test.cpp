@@ -28,13 +28,6 @@ void click_square(PanelRig& rig, std::uint32_t square) {
                origin.y + (static_cast<float>(square / grid.columns) + 0.5f) * grid.side);
 }
 
-TEST(LongestBucket, HasTheLargestLoad) {
-  collide::DebugGeometry debug;
-  EXPECT_EQ(ui::longest_bucket(debug), 0u);
-  debug.loads = {{.bucket = 4, .load = 2}, {.bucket = 9, .load = 7}, {.bucket = 11, .load = 3}};
-  EXPECT_EQ(ui::longest_bucket(debug), 7u);
-}
-
 TEST(DrawHashTable, EndsItsScaleAtTheFullestBucket) {
   PanelRig rig;
   rig.session.simulation.clock.paused = true;
@@ -42,7 +35,7 @@ TEST(DrawHashTable, EndsItsScaleAtTheFullestBucket) {
     rig.change([&](softbody::Scene& scene) { scene.collision.buckets = buckets; });
     rig.frames(2);
     rig.hover("Load scale");
-    const std::string load = grouped(ui::longest_bucket(rig.session.inspector.shown_geometry()));
+    const std::string load = grouped(fullest_bucket(rig.session).load);
     EXPECT_NE(rig.recorder.tooltip.find(", " + load + " in the fullest"), std::string::npos) << rig.recorder.tooltip;
   }
 }
@@ -73,15 +66,6 @@ TEST(BucketView, SelectsABucketByItsNumber) {
   EXPECT_EQ(rig.session.inspector.selected_bucket(), rig.session.world().collision().buckets - 1) << "the last one";
   rig.click("Close Bucket");
   EXPECT_EQ(rig.session.inspector.bucket(), nullptr);
-}
-
-TEST(BucketView, ShowsVerticesIfTheMethodHashesThem) {
-  PanelRig rig;
-  rig.session.settings.set_method("grid-hash");
-  rig.session.inspector.select_bucket(fullest_bucket(rig.session).bucket);
-  rig.frames(2);
-  EXPECT_TRUE(rig.session.inspector.bucket()->vertices);
-  EXPECT_TRUE(rig.recorder.find("Pairs"));
 }
 
 TEST(BucketView, ShowsThePresentStateUntilTheBucketIsDeselected) {

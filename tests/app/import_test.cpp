@@ -197,13 +197,6 @@ TEST_F(ImportTest, AddsAMeshClearOfEverythingAndSaysWhere) {
   expect_finite_after(30);
 }
 
-TEST_F(ImportTest, ReportsAnOpenMesh) {
-  load(folder.write("bowl.obj", obj_of({.scale = 500, .open = true})));
-  EXPECT_FALSE(last().mesh.closed);
-  EXPECT_NE(report().find("open"), std::string::npos) << report();
-  expect_finite_after(30);
-}
-
 TEST_F(ImportTest, AppliesSizeAndUpAxis) {
   import.size = 0.25f;
   import.z_is_up = true;

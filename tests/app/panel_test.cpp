@@ -184,16 +184,6 @@ TEST(Panel, SaysWhichStagesActAsForcesInXpbd) {
   EXPECT_FALSE(rig.recorder.find("structural-springs"));
 }
 
-TEST(Panel, KeepsTheStatusWhenItIsHidden) {
-  PanelRig rig;
-  rig.ui.panel = false;
-  rig.frames(2);
-  EXPECT_FALSE(rig.recorder.find("Tolerance"));
-  EXPECT_TRUE(rig.recorder.find("Coverage"));
-  EXPECT_TRUE(rig.recorder.find("Live recall"));
-  EXPECT_LT(rig.widget("Coverage").min.x, 100);
-}
-
 TEST(Panel, IsTwiceAsLargeOnAHighDensityScreen) {
   const ImVec2 one = PanelRig().widget("Reset").max;
   const ImVec2 two = PanelRig(2).widget("Reset").max;

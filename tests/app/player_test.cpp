@@ -48,22 +48,6 @@ TEST_F(PlayerTest, ShowsFrameAfterFrameOrAnyFrame) {
   expect_frame(5);
 }
 
-TEST_F(PlayerTest, StaysAtItsFrameIfTheNextCannotBeRead) {
-  balls->broken = 3;
-  player.show(2);
-  EXPECT_THROW(player.step(), softbody::SceneError);
-  expect_frame(2);
-  player.step();
-  expect_frame(4);
-  player.show(2);
-  EXPECT_THROW(player.step(), softbody::SceneError);
-  player.show(1);
-  player.step();
-  expect_frame(2);
-  EXPECT_THROW(player.show(3), softbody::SceneError);
-  expect_frame(2);
-}
-
 TEST_F(PlayerTest, HasTheCellSizeOfItsFirstFrameWhateverItShows) {
   const glm::vec3 at_start = *player.collision().cell_size;
   collide::Settings settings = player.collision();
@@ -79,16 +63,6 @@ TEST_F(PlayerTest, IsAtRestIfThereIsNoOtherFrame) {
   EXPECT_FALSE(player.all_at_rest());
   const auto one = std::make_shared<RecordedBalls>(1);
   EXPECT_TRUE(session::Player(one, opened(one).scene, 1).all_at_rest());
-}
-
-TEST_F(PlayerTest, FindsTheContactsAgainThatItForgot) {
-  player.show(6);
-  const std::vector<collide::Contact> contacts = player.detection().contacts;
-  EXPECT_FALSE(contacts.empty());
-  player.forget_detection();
-  EXPECT_TRUE(player.detection().contacts.empty());
-  player.apply(player.scene());
-  EXPECT_EQ(player.detection().contacts, contacts);
 }
 
 }  // namespace THIS_FILE

@@ -56,19 +56,6 @@ TEST(Session, GoesOnAtRestUntilItsLastSentence) {
   EXPECT_TRUE(session.simulation.stands_still());
 }
 
-TEST(Session, StandsStillWhilePausedButForASingleStep) {
-  Session session(touching_pair(), {}, 1);
-  session.advance(tick);
-  EXPECT_FALSE(session.simulation.stands_still());
-  session.simulation.clock.paused = true;
-  EXPECT_TRUE(session.simulation.stands_still());
-  session.simulation.clock.single_step();
-  EXPECT_FALSE(session.simulation.stands_still());
-  session.advance(tick);
-  EXPECT_EQ(session.world().frame(), 2);
-  EXPECT_TRUE(session.simulation.stands_still());
-}
-
 TEST(Session, TakesNoWaitForASlowPicture) {
   Session session(touching_pair(), "", 1);
   run(session, 20);

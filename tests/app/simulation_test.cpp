@@ -137,10 +137,14 @@ TEST_F(SimulationTest, ShowsTheFiguresOfTheFrameItWentBackTo) {
   simulation.rewind_to(30);
   const softbody::Measures now = softbody::measure(*simulation.simulated());
   const session::StabilityHistory& shown = simulation.stability().history();
-  EXPECT_FLOAT_EQ(shown.kinetic.latest(), float(now.energies.kinetic));
-  EXPECT_FLOAT_EQ(shown.gravity.latest(), float(now.energies.gravity));
-  EXPECT_FLOAT_EQ(shown.speed.latest(), float(now.max_speed));
-  for (const TimeSeries* ring : {&shown.total, &std::as_const(simulation.history.contacts)}) {
+  const auto start = simulation.world().model(0).start_energy;
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    EXPECT_FLOAT_EQ(shown[i].latest(),
+                    float(session::stability_quantities[i].of(now, {2 * start.elastic, 2 * start.gas})))
+        << session::stability_quantities[i].name;
+  const TimeSeries &speed = shown.back(), &contacts = simulation.history.contacts;
+  EXPECT_FLOAT_EQ(speed.latest(), float(now.max_speed));
+  for (const TimeSeries* ring : {&speed, &contacts}) {
     ASSERT_GT(ring->size(), 0u);
     EXPECT_LE(ring->frame(ring->size() - 1), 30);
   }

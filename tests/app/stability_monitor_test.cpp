@@ -87,7 +87,7 @@ TEST(StabilityMonitor, KeepsALargeWorldInTheFramesInWhichItWasMeasured) {
   scene.bodies[0].mesh.subdivisions = 5;  // 10,242 vertices
   Monitored w(scene, {});
   w.step(11);
-  EXPECT_EQ(w.monitor.history().total.size(), 5u);
+  EXPECT_EQ(w.monitor.history().front().size(), 5u);
   EXPECT_EQ(w.monitor.last_good_frame(), 10);
   for (const softbody::Snapshot& kept : w.monitor.past().snapshots()) EXPECT_EQ(kept.frame % 2, 0);
 }
@@ -150,7 +150,7 @@ TEST(StepMargin, HasTheStepsTakenAndNeeded) {
     EXPECT_GE(w.margin().taken, substeps.value_or(needed));
     EXPECT_STREQ(w.light(), substeps ? "Red" : "Green");
     EXPECT_DOUBLE_EQ(w.margin().substep, w.world.frame_time() / w.margin().taken);
-    EXPECT_EQ(w.monitor.history().total.size(), 1u);
+    EXPECT_EQ(w.monitor.history().front().size(), 1u);
   }
 }
 

@@ -53,17 +53,6 @@ TEST(StoryCard, IsClosedByEscapeOnlyWhereItIsShown) {
   }
 }
 
-TEST(StoryCard, IsNotShownAtTheNextStartOnceItWasClosed) {
-  PanelRig rig;
-  for (const bool shown : {false, true}) {
-    rig.ui.story = shown;
-    handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
-    EXPECT_EQ(rig.ui.story_at_start, !shown);
-  }
-  handle_key('W', false, rig.session, rig.ui);
-  EXPECT_TRUE(rig.ui.story && rig.ui.story_at_start);
-}
-
 TEST(StoryCard, OpensTheTourByOneClick) {
   PanelRig rig;
   rig.ui.story = true;
@@ -101,34 +90,25 @@ TEST(StoryCard, SaysWhatMissesCostAndShowsItBesideFromTheStart) {
             second.scene.collision.cell_size);
 }
 
-TEST(PriceMonitor, AsksAnewWhenTheSettingsChange) {
-  Session session(touching_pair(), {}, 1);
-  session.price.on = true;
-  const auto known = [&] {
-    session.advance(tick);
-    return session.price.price() != nullptr;
-  };
-  ASSERT_TRUE(wait_until(known));
-  session.simulation.change_scene("Subdivision", [](softbody::Scene& s) { s.collision.levels = 0; });
-  session.advance(tick);
-  EXPECT_FALSE(session.price.price());
-  ASSERT_TRUE(wait_until(known));
-  EXPECT_EQ(session.price.price()->runs[compare::Price::automatic_cells].cell,
-            session.world().collision().cell_size->x);
-}
-
-TEST(PriceMonitor, DoesNotTakeTheFiguresOfATrialThatWasCancelled) {
+TEST(PriceMonitor, HasTheFiguresOfThePresentSettingsAndOfNoTrialThatWasCancelled) {
   Session session(touching_pair(), {}, 1);
   session.price.on = true;
   for (const int level : {3, 0, 3}) {
     session.simulation.change_scene("Subdivision", [level](softbody::Scene& s) { s.collision.levels = level; });
     session.advance(tick);
   }
-  ASSERT_TRUE(wait_until([&] {
+  const auto known = [&] {
     session.advance(tick);
     return session.price.price() != nullptr;
-  }));
+  };
+  ASSERT_TRUE(wait_until(known));
   for (const auto& run : session.price.price()->runs) EXPECT_EQ(run.totals.frames, compare::Price::frames);
+  EXPECT_EQ(session.price.price()->runs[compare::Price::automatic_cells].cell,
+            session.world().collision().cell_size->x);
+  session.simulation.change_scene("Subdivision", [](softbody::Scene& s) { s.collision.levels = 0; });
+  session.advance(tick);
+  EXPECT_FALSE(session.price.price()) << "of other settings";
+  ASSERT_TRUE(wait_until(known));
   const files::Opened played = opened(std::make_shared<RecordedBalls>(2));
   session.simulation.enter(session::show_in_window(played, 1), {played.scene, {}}, "choice of scene");
   session.advance(tick);

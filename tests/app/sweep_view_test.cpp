@@ -94,19 +94,6 @@ TEST(SweepView, CancelsTheSweepByTheButtonThatBeganIt) {
   EXPECT_LT(rig.session.sweep().progress, 1);
 }
 
-TEST(SweepView, SweepsItsFrameWhileItIsClosedAndTheWorldChanges) {
-  PanelRig rig;
-  rig.frames(5);
-  sweep(rig);
-  const int frame = rig.session.world().frame();
-  ASSERT_GT(frame, 0);
-  rig.ui.lower = ui::LowerView::none;
-  rig.session.simulation.reset();
-  ASSERT_TRUE(wait_until(rig, has_ended));
-  EXPECT_EQ(rig.session.sweep().frame, frame);
-  EXPECT_EQ(rig.session.sweep().progress, 1.0);
-}
-
 TEST(SweepView, SweepsTheFrameInWhichItIsOpenedUnlessItKnowsIt) {
   PanelRig rig;
   sweep(rig);

@@ -56,17 +56,10 @@ struct TourRig {
   render::Overlays shown;
 };
 
-std::vector<collide::Contact> contacts_by(std::string_view method, const softbody::BodiesInMotion& world) {
-  collide::Result result;
-  collide::Workers workers(1);
-  collide::find_method(method)->make()->detect(world.positions(), world.collision(), workers, result);
-  return result.contacts;
-}
-
 /// Returns what the paper's method misses in the world, by the detectors themselves.
 std::vector<collide::Contact> misses_of(const softbody::BodiesInMotion& world) {
-  return compare::score(contacts_by(collide::paper_method, world), contacts_by(collide::reference_method, world))
-      .missed;
+  const collide::Method& paper = *collide::find_method(collide::paper_method);
+  return compare::score(detected(paper, world.positions(), world.collision()).contacts, true_contacts(world)).missed;
 }
 
 std::optional<ui::TourExample> example_of(const softbody::Scene& scene,
@@ -272,21 +265,6 @@ TEST(Tour, RunsAheadToAContact) {
   EXPECT_LE(rig.session.world().frame(), before + session::SimulationClock::max_steps);
   rig.tour.close(rig.session, rig.shown);
   EXPECT_FALSE(rig.session.simulation.clock.paused) << "the world goes on from there";
-}
-
-TEST(Tour, StaysInAFrameWithAContact) {
-  const TourRig rig(touching_pair());
-  EXPECT_FALSE(rig.tour.running_to(rig.session));
-  EXPECT_TRUE(rig.session.simulation.clock.paused);
-  EXPECT_EQ(rig.session.world().frame(), 0);
-}
-
-TEST(Tour, RunsAheadInAnEmptyWorld) {
-  softbody::Scene scene = falling_pair();
-  for (softbody::BodySource& body : scene.bodies) body.appear = 20;
-  TourRig rig(scene);
-  rig.finish_run();
-  EXPECT_TRUE(rig.context().f.touching);
 }
 
 TEST(Tour, CanBeClosedWhileTheWorldRunsAhead) {
@@ -514,8 +492,8 @@ TEST(MissedContacts, AreThoseThatTheDetectorMisses) {
         for (int i = 0; i < frames; ++i) session.advance(tick);
         const std::vector<collide::Contact> expected = misses_of(session.world());
         const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
-        const auto contacts = contacts_by(collide::reference_method, session.world());
-        EXPECT_EQ(ui::missed_contacts(found->structure, session.world().positions(), contacts), expected)
+        EXPECT_EQ(ui::missed_contacts(found->structure, session.world().positions(), true_contacts(session.world())),
+                  expected)
             << levels << ' ' << cell;
         EXPECT_EQ(found->all_missed, expected.size());
         EXPECT_EQ(ui::ExampleFinder().has_miss(session.world()), !expected.empty());

@@ -41,17 +41,6 @@ TEST(Capture, ShowsTwoWorldsSideBySide) {
       for (int c = 0; c < 3; ++c) ASSERT_NEAR(both.at(101 + x, y)[c], alone.at(x, y)[c], 2) << x << ' ' << y;
 }
 
-TEST(Capture, WritesToTheWorkingDirectoryAndReplacesOldPictures) {
-  const TemporaryFolder folder;
-  folder.write("frame_0002.png", "an old one");
-  const Outcome o =
-      run({"simulate", "--scene", "drop", "--frames", "2", "--capture", "2", "--size", "33x44"}, folder.path());
-  EXPECT_EQ(o.status, 0) << o.err;
-  EXPECT_EQ(o.err, "");
-  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"frame_0002.png"});
-  expect_picture(folder.path() / "frame_0002.png", 33, 44);
-}
-
 }  // namespace THIS_FILE
 }  // namespace cli::test
 #endif

@@ -112,14 +112,6 @@ TEST(Errors, SayInOneLineWhatIsWrongWithTheCommandLine) {
     expect_refused(arguments, says);
 }
 
-TEST(Errors, NameABrokenSceneFileWithItsLine) {
-  const TemporaryFolder folder;
-  const auto key = folder.write("key.toml", "[[body]]\n\ncolour = 3\n");
-  expect_refused({"simulate", "--scene", key, "--frames", "2"}, {key.string() + ":3: ", "colour"});
-  const auto syntax = folder.write("syntax.toml", "[[body]\n");
-  expect_refused({"simulate", "--scene", syntax, "--frames", "2"}, {syntax.string() + ":1: "});
-}
-
 #if SBCOLLIDE_GRAPHICS
 TEST(Errors, RefusePicturesWithoutOpenGLBeforeAnythingIsWritten) {
   const TemporaryFolder folder;

@@ -65,14 +65,6 @@ TEST(List, PrintsAllTablesWithTheirNamesWithoutAWord) {
   EXPECT_EQ(printed({"list"}), expected + "scenes\n" + printed({"list", "scenes"}));
 }
 
-TEST(List, PrintsOnlyMethodsAndIntegratorsThatRun) {
-  for (const collide::Method& method : collide::method_table())
-    EXPECT_EQ(simulate({"--scene", "drop", "--frames", "3", "--method", std::string(method.key)})["method"],
-              method.key);
-  for (const softbody::Integrator& i : softbody::integrators())
-    EXPECT_EQ(simulate({"--scene", "drop", "--frames", "3", "--integrator", std::string(i.key)})["frames"].size(), 3u);
-}
-
 TEST(Help, GoesToStandardOutput) {
   for (const Words& arguments : {Words{"--help"}, {"simulate", "--help"}})
     EXPECT_NE(printed(arguments).find("--scene"), std::string::npos);

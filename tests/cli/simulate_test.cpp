@@ -55,6 +55,9 @@ TEST(Simulate, RunsASecondWorldBesideTheFirst) {
   EXPECT_EQ(keys(both["beside"]), keys(second));
   for (const char* key : {"method", "integrator", "state_hash"}) EXPECT_EQ(both["beside"][key], second[key]) << key;
   EXPECT_EQ(both["beside"]["frames"].size(), 40u);
+  const std::string text =
+      run({"simulate", "--scene", "A", "--frames", "60", "--beside", "method=multi-level-sb,cell-size=0.1"}).out;
+  EXPECT_TRUE(std::regex_search(text, std::regex("\nmissed 0 of [1-9][^]*\nbeside it[^]*\nmissed [1-9]"))) << text;
   const Outcome lines =
       run({"simulate", "--scene", "drop", "--frames", "2", "--json-lines", "--oracle", "--beside", "method=grid-hash"});
   ASSERT_EQ(lines.status, 0) << lines.err;
@@ -218,41 +221,7 @@ TEST(Simulate, PrintsTheSameStateHashForAllThreadsAndExactMethods) {
   EXPECT_NE(hash({"--dt", "0.02"}), once);
 }
 
-TEST(Simulate, AppliesToleranceAndFrameTime) {
-  const TemporaryFolder folder;
-  const auto scene = folder.write("small.toml", small_scene);
-  const auto last = [&](const Words& more) {
-    return simulate(with({"--scene", scene, "--frames", "8"}, more))["frames"][7];
-  };
-  const json plain = last({});
-  EXPECT_NEAR(plain["max_speed"], 9.81 * 8 / 60, 0.15);
-  EXPECT_GT(last({"--tolerance", "0.3"})["contacts"]["bodies"], plain["contacts"]["bodies"]);
-  EXPECT_EQ(last({"--tolerance", "0.001"})["contacts"]["bodies"], 0);
-  EXPECT_LT(last({"--dt", "0.001"})["max_speed"], 0.1) << "a shorter frame, a shorter fall";
-}
-
 const std::string two_overlap = "warning: these bodies start in a solid or in another body, and are eased out: 0 1\n";
-
-TEST(Simulate, AppliesLevelsBucketsAndCellSize) {
-  const TemporaryFolder folder;  // two balls that overlap, held, so that only detection differs
-  const auto scene = folder.write("held.toml",
-                                  "gravity = [0, 0, 0]\n[collision]\ntolerance = 0.1\nself_collision = false\n"
-                                  "[[body]]\nrelease = 99\n[[body]]\nposition = [0.913, 3.057, 0.021]\nrelease = 99\n");
-  const auto contacts = [&](const Words& more) {
-    const json frames = simulate(with({"--scene", scene, "--frames", "1"}, more), two_overlap)["frames"];
-    return frames[0]["contacts"]["bodies"].get<int>();
-  };
-  const auto literal = [&](const Words& more) { return contacts(with({"--method", "multi-level-sb"}, more)); };
-  const int all = contacts({"--method", "brute-force"});
-  ASSERT_GT(all, 5);
-  EXPECT_EQ(literal({"--buckets", "1"}), all) << "one bucket holds all boxes";
-  EXPECT_LT(literal({"--cell-size", "0.05", "--buckets", "16000057"}), all / 2)
-      << "corners skip the cells between them";
-  EXPECT_EQ(literal({"--cell-size", "50", "--buckets", "16000057"}), all);
-  EXPECT_LT(literal({"--cell-size", "0.21", "--levels", "0", "--buckets", "16000057"}),
-            literal({"--cell-size", "0.21", "--levels", "9", "--buckets", "16000057"}))
-      << "finer boxes fit the cells";
-}
 
 TEST(Simulate, WarnsOfPoorPrimesAndOfAToleranceThatLetsVerticesThroughFaces) {
   const Words low{"--scene", "drop", "--frames", "1", "--tolerance", "0.09"},
@@ -271,17 +240,6 @@ TEST(Simulate, SaysWhichStagesActAsForcesInXpbd) {
   EXPECT_NE(run(with({"simulate"}, xpbd)).out.find("XPBD\n  contact-response acts as a force\nstages left out"),
             std::string::npos);
   EXPECT_EQ(simulate(xpbd)["plan"]["as_forces"], json({"contact-response"}));
-}
-
-TEST(Simulate, AppliesTheContactSurface) {
-  const auto stages = [](const Words& more) {
-    const json d = simulate(with({"--scene", "drop", "--frames", "1"}, more));
-    return std::pair(d["plan"]["stages"].dump(), d["state_hash"]);
-  };
-  const auto surface = stages({"--contact-surface", "surface"}), paper = stages({"--contact-surface", "vertex-vertex"});
-  EXPECT_NE(surface.first.find("surface-contact"), std::string::npos);
-  EXPECT_EQ(paper.first.find("surface-contact"), std::string::npos);
-  EXPECT_EQ(stages({}), paper) << "the scene's own";
 }
 
 TEST(Simulate, CountsOverlapsAndCrossingsByTheOracle) {

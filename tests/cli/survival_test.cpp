@@ -1,8 +1,6 @@
-// Full disks, folders that cannot be written to, and a sudden end: saved files stay complete.
+// Full disks and folders that cannot be written to: saved files stay complete.
 
 #include <gtest/gtest.h>
-
-#include <cstdlib>
 
 #include "tests/cli/process.h"
 #include "tests/full_disk.h"
@@ -66,32 +64,6 @@ TEST_P(Survival, ReportsAFolderThatTakesNoFiles) {
 
 INSTANTIATE_TEST_SUITE_P(Writers, Survival, testing::ValuesIn(writers()),
                          [](const auto& writer) { return writer.param.name; });
-
-/// The program is killed after it has replaced half of the saved files. Each file is the old or the new one, and each
-/// new file is complete.
-TEST(SuddenEnd, LeavesOnlyCompleteFiles) {
-  const TemporaryFolder folder;
-  std::set<std::string> saved;
-  for (const int first : {10, 30})
-    for (int frame = first; frame < first + 10; ++frame) saved.insert("frame_00" + std::to_string(frame) + ".obj");
-  for (const std::string& name : saved) folder.write(name, "saved before");
-  const std::string out = folder.path().string(),
-                    script = "'" SBCOLLIDE_PROGRAM "' simulate --scene D --frames 100000 --obj-every 1 --out '" + out +
-                             "' & child=$!; until [ -e '" + out +
-                             "/frame_0025.obj' ]; do kill -0 $child || exit 1; done; kill -9 $child";
-  ASSERT_EQ(std::system(("{ " + script + "; } 2>/dev/null").c_str()), 0);
-  int fresh = 0;
-  for (const std::string& name : file_names(folder.path())) {
-    if (!name.starts_with("frame_") || !name.ends_with(".obj")) continue;
-    const std::string text = read_file(folder.path() / name);
-    if (saved.erase(name) > 0 && text == "saved before") continue;
-    const std::string last = text.substr(text.rfind("\nf ") + 1);
-    EXPECT_TRUE(last.starts_with("f ") && last.ends_with('\n')) << name << " ends with: " << last;
-    ++fresh;
-  }
-  EXPECT_TRUE(saved.empty()) << *saved.begin() << " is gone";
-  EXPECT_GE(fresh, 25);
-}
 
 }  // namespace THIS_FILE
 }  // namespace cli::test

@@ -1,5 +1,6 @@
 #include "app/session/export/exporter.h"
 
+#include <algorithm>
 #include <cassert>
 #include <map>
 #include <utility>
@@ -20,21 +21,13 @@ struct Curve {
 
 std::vector<Curve> curves_of(const Simulation& simulation, const LiveComparison& comparison) {
   const StepHistory& history = simulation.history;
-  const StabilityHistory& motion = simulation.stability().history();
   std::vector<Curve> curves{{"frame_ms", history.frame_ms},
                             {"detect_ms", history.detect_ms},
                             {"solve_ms", history.solve_ms},
                             {"contacts", history.contacts},
-                            {"recall", comparison.recall()},
-                            {"kinetic_J", motion.kinetic},
-                            {"elastic_J", motion.elastic},
-                            {"gas_J", motion.gas},
-                            {"gravity_J", motion.gravity},
-                            {"total_J", motion.total},
-                            {"smallest_volume", motion.min_volume},
-                            {"largest_volume", motion.max_volume},
-                            {"strain", motion.strain},
-                            {"speed_m_s", motion.speed}};
+                            {"recall", comparison.recall()}};
+  for (std::size_t i = 0; i < stability_quantities.size(); ++i)
+    curves.push_back({stability_quantities[i].column, simulation.stability().history()[i]});
   for (std::size_t i = 0; i < comparison.method_ms().size(); ++i)
     curves.push_back({collide::method_table()[i].key + "_ms", comparison.method_ms()[i]});
   return curves;
@@ -135,12 +128,13 @@ void Exporter::frame(const Picture& picture) {
 
 void Exporter::record(const Picture& picture) {
   const softbody::BodiesInMotion& world = simulation_.world();
-  if (world.frame() == recorded_frame_ || !may_step()) return;
+  const int now = std::max(world.frame(), simulation_.world(Half::second).frame());  // a half that has stopped lags
+  if (now == recorded_frame_ || !may_step()) return;
   // What is played begins again: all of its frames are written.
-  if (simulation_.player() && world.frame() < recorded_frame_) return stop();
-  recorded_frame_ = world.frame();
+  if (simulation_.player() && now < recorded_frame_) return stop();
+  recorded_frame_ = now;
   ExportedFrame frame;
-  frame.number = world.frame();
+  frame.number = now;
   if (recorded_->pictures) {
     try {
       frame.picture = picture(with_panel, picture_size());

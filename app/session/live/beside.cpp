@@ -51,6 +51,7 @@ void Beside::restart(const World& first) {
 void Beside::differ(const World& first, const compare::Difference& difference) {
   apply(first, difference);
   difference_ = difference;
+  if (!stopped_.empty()) restart(first);
 }
 
 void Beside::follow(const World& first) {
@@ -107,9 +108,9 @@ void Beside::keep(const std::vector<softbody::Snapshot>& past) {
 void Beside::rewind(const World& first) {
   const auto kept = past_.find(first.frame());
   if (kept == past_.end()) return restart(first);
-  const compare::Difference difference = difference_;
+  std::swap(kept->second.difference, difference_);  // settings stay
   go_to(kept->second, first);
-  differ(first, difference);
+  apply(first, difference_);
 }
 
 }  // namespace app::session

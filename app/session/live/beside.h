@@ -39,7 +39,8 @@ class Beside {
 
   /// Goes on from the state of the first world. All figures begin anew.
   void restart(const softbody::World& first);
-  /// Sets how the second world differs from now on. Changes nothing if it throws.
+  /// Sets how the second world differs from now on. One that has stopped then goes on from the state of the first.
+  /// Changes nothing if these settings are refused.
   void differ(const softbody::World& first, const compare::Difference& difference);
   /// Does what the user has just done to bodies, solids and settings of the first world.
   void follow(const softbody::World& first);

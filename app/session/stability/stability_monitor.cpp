@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody/model/body_model.h"
-
 namespace app::session {
 namespace {
 
@@ -60,21 +58,11 @@ void StabilityMonitor::after_step(const softbody::World& world, bool monitored) 
 
 void StabilityMonitor::record(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
   constexpr double max_shown = 1e30;  // a world that has blown up is no longer drawn
-  const int frame = world.frame();
   const softbody::Measures all = softbody::total(bodies);
   const softbody::StoredEnergy start = energy_at_start(world);
-  const auto push = [frame](TimeSeries& series, double value) {
-    if (std::abs(value) < max_shown) series.push(frame, static_cast<float>(value));
-  };
-  push(history_.kinetic, all.energies.kinetic);
-  push(history_.elastic, all.energies.elastic - start.elastic);
-  push(history_.gas, all.energies.gas - start.gas);
-  push(history_.gravity, all.energies.gravity);
-  push(history_.total, all.energy - start.total());
-  push(history_.min_volume, all.volume_ratio_min);
-  push(history_.max_volume, all.volume_ratio_max);
-  push(history_.strain, all.largest_strain);
-  push(history_.speed, all.max_speed);
+  for (std::size_t i = 0; i < history_.size(); ++i)
+    if (const double value = stability_quantities[i].of(all, start); std::abs(value) < max_shown)
+      history_[i].push(world.frame(), static_cast<float>(value));
 }
 
 void StabilityMonitor::restart(const softbody::World& world) {
@@ -88,10 +76,7 @@ void StabilityMonitor::went_back(const softbody::World& world) {
   blow_up_.reset();
   recovery_checks_ = 0;
   margin_ = {};
-  StabilityHistory& h = history_;
-  for (TimeSeries* series :
-       {&h.kinetic, &h.elastic, &h.gas, &h.gravity, &h.total, &h.min_volume, &h.max_volume, &h.strain, &h.speed})
-    series->forget_from(world.frame());
+  for (TimeSeries& series : history_) series.forget_from(world.frame());
   record(world, softbody::measure_bodies(world));
 }
 

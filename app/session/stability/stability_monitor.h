@@ -3,18 +3,47 @@
 // bound, and records its energies.
 
 #include <algorithm>
+#include <array>
+
+#include <fmt/core.h>
 
 #include "app/base/time_series.h"
 #include "app/compare/blow_up_monitor.h"
 #include "app/session/stability/rewind.h"
+#include "softbody/model/body_model.h"
+#include "softbody/world/measures.h"
 
 namespace app::session {
 
-struct StabilityHistory {
-  TimeSeries kinetic, elastic, gas, gravity, total;  // J; elastic, gas and total relative to the starting shapes
-  TimeSeries min_volume, max_volume;                 // volume / volume at the start
-  TimeSeries strain, speed;                          // largest strain; largest speed, m/s
+/// A quantity that is recorded of a world, and how it is shown.
+struct StabilityQuantity {
+  const char *name, *column;  // on the panel; in the file of curves
+  double (*of)(const softbody::Measures& now, const softbody::StoredEnergy& start);  // start: of the starting shapes
+  fmt::format_string<float> format;
+  float least;  // its axis is at least so long
+  const char *meaning, *unit;
 };
+inline constexpr std::array<StabilityQuantity, 9> stability_quantities{{
+    {"Kinetic", "kinetic_J", [](const auto& now, const auto&) { return now.energies.kinetic; }, "{:.3g} J", 1,
+     "Energy of motion.", "J"},
+    {"Elastic", "elastic_J", [](const auto& now, const auto& start) { return now.energies.elastic - start.elastic; },
+     "{:.3g} J", 1, "Energy in springs and kept shapes, compared with the start.", "J"},
+    {"Gas", "gas_J", [](const auto& now, const auto& start) { return now.energies.gas - start.gas; }, "{:.3g} J", 1,
+     "Energy in the gas and the air outside, compared with the start.", "J"},
+    {"Gravity", "gravity_J", [](const auto& now, const auto&) { return now.energies.gravity; }, "{:.4g} J", 1,
+     "Potential energy, compared with the origin of the world.", "J"},
+    {"Total", "total_J", [](const auto& now, const auto& start) { return now.energy - start.total(); }, "{:.4g} J", 1,
+     "Sum of these energies, without that of contacts.", "J"},
+    {"Smallest volume", "smallest_volume", [](const auto& now, const auto&) { return now.volume_ratio_min; }, "{:.3f}",
+     0.1f, "Smallest volume of a body over its volume at the start.", ""},
+    {"Largest volume", "largest_volume", [](const auto& now, const auto&) { return now.volume_ratio_max; }, "{:.3f}",
+     0.1f, "Largest volume of a body over its volume at the start.", ""},
+    {"Strain", "strain", [](const auto& now, const auto&) { return now.largest_strain; }, "{:.3f}", 0.1f,
+     "Largest strain of a spring.", ""},
+    {"Speed", "speed_m_s", [](const auto& now, const auto&) { return now.max_speed; }, "{:.2f} m/s", 1,
+     "Speed of the fastest particle.", "m/s"},
+}};
+using StabilityHistory = std::array<TimeSeries, stability_quantities.size()>;  // by quantity
 
 /// The substeps of the last frame beside those that the step controller's bound required. All are 0 if nothing moves,
 /// or if no step was taken since the world went back.

@@ -2,7 +2,7 @@
 // The status light of the step is here, too.
 
 #include <algorithm>
-#include <array>
+#include <string_view>
 
 #include <fmt/core.h>
 
@@ -62,32 +62,7 @@ void draw_integrator(Widgets& w, const Session& session) {
   w.figure("Substep", step_text(margin, world), status_light(margin).sentence);
 }
 
-struct StabilityCurve {
-  const char* label;
-  TimeSeries session::StabilityHistory::*series;
-  fmt::format_string<float> format;
-  float least;  // the axis is at least so long
-  const char *meaning, *unit;
-  glm::vec3 colour;
-};
 constexpr glm::vec3 energy_colour{0.000f, 0.447f, 0.698f}, shape_colour{0.000f, 0.620f, 0.451f}, plain{0.45f};
-constexpr std::array<StabilityCurve, 9> curves{{
-    {"Kinetic", &session::StabilityHistory::kinetic, "{:.3g} J", 1, "Energy of motion.", "J", energy_colour},
-    {"Elastic", &session::StabilityHistory::elastic, "{:.3g} J", 1,
-     "Energy in springs and kept shapes, compared with the start.", "J", energy_colour},
-    {"Gas", &session::StabilityHistory::gas, "{:.3g} J", 1,
-     "Energy in the gas and the air outside, compared with the start.", "J", energy_colour},
-    {"Gravity", &session::StabilityHistory::gravity, "{:.4g} J", 1,
-     "Potential energy, compared with the origin of the world.", "J", energy_colour},
-    {"Total", &session::StabilityHistory::total, "{:.4g} J", 1, "Sum of these energies, without that of contacts.", "J",
-     energy_colour},
-    {"Smallest volume", &session::StabilityHistory::min_volume, "{:.3f}", 0.1f,
-     "Smallest volume of a body over its volume at the start.", "", shape_colour},
-    {"Largest volume", &session::StabilityHistory::max_volume, "{:.3f}", 0.1f,
-     "Largest volume of a body over its volume at the start.", "", shape_colour},
-    {"Strain", &session::StabilityHistory::strain, "{:.3f}", 0.1f, "Largest strain of a spring.", "", shape_colour},
-    {"Speed", &session::StabilityHistory::speed, "{:.2f} m/s", 1, "Speed of the fastest particle.", "m/s", plain},
-}};
 
 }  // namespace
 
@@ -135,10 +110,14 @@ void draw_stability(Widgets& w, const Session& session, const UiState&) {
                  "Pauses in the first frame in which a body has more energy or speed than possible, and names it."))
     w.ask([](Session& s) { s.simulation.pause_on_blow_up = !s.simulation.pause_on_blow_up; });
   const session::StabilityHistory& history = session.simulation.stability().history();
-  for (const StabilityCurve& c : curves) {
-    const TimeSeries& series = history.*c.series;
-    w.curve(c.label, fmt::format(c.format, series.latest()), series, axis_around(series, c.least), c.colour,
-            {c.meaning, c.unit});
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    const session::StabilityQuantity& q = session::stability_quantities[i];
+    const bool energy = std::string_view(q.unit) == "J";
+    w.curve(q.name, fmt::format(q.format, history[i].latest()), history[i], axis_around(history[i], q.least),
+            energy    ? energy_colour
+            : *q.unit ? plain
+                      : shape_colour,
+            {q.meaning, q.unit});
   }
 }
 

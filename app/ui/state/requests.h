@@ -20,11 +20,8 @@ enum class WindowTask {
   quit,
   reset_camera,
   show_selected_body,
-  throw_body,          // to where the mouse points
-  switch_hold,         // of the selected body's vertex there
-  show_highlight,      // of the tour
-  show_as_before_tour  // while the world runs ahead
   throw_body,           // to where the mouse points
+  switch_hold,          // of the selected body's vertex there
   show_highlight,       // of the tour
   show_as_before_tour,  // while the world runs ahead
   show_first_missed,    // of the pairs that CompareChoice::misses_of missed in the last report

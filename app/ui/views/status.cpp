@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -21,44 +23,32 @@ std::string missed_text(const Session& session) {
 }
 
 /// Draws the lines of a legend one below another, or one behind another where they fit.
-class LegendLines {
- public:
-  LegendLines(Widgets& widgets, bool flows) : w_(widgets), flows_(flows) {}
-
-  void draw(const render::LegendLine& line) {
-    const float gap = w_.px(18), text = ImGui::CalcTextSize(line.text.c_str()).x;
-    const float width = text + (line.colour ? 0.7f * ImGui::GetFontSize() + ImGui::GetStyle().ItemSpacing.x : 0) +
-                        (line.scale ? w_.px(scale_width) + ImGui::CalcTextSize(line.end.c_str()).x + 2 * gap : 0);
-    if (flows_ && !first_) {
+void draw_lines(Widgets& w, const std::vector<render::LegendLine>& lines, bool flow) {
+  const float gap = w.px(18), scale_width = w.px(120);
+  for (const render::LegendLine& line : lines) {
+    const float width = ImGui::CalcTextSize(line.text.c_str()).x +
+                        (line.colour ? 0.7f * ImGui::GetFontSize() + ImGui::GetStyle().ItemSpacing.x : 0) +
+                        (line.scale ? scale_width + ImGui::CalcTextSize(line.end.c_str()).x + 2 * gap : 0);
+    if (flow && &line != &lines.front()) {
       ImGui::SameLine(0, gap);
       if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
     }
-    first_ = false;
     ImGui::BeginGroup();
-    if (line.colour) w_.swatch(*line.colour);
-    const std::string lines = wrapped(line.text, ImGui::GetContentRegionAvail().x);
-    line.pale ? ImGui::TextDisabled("%s", lines.c_str()) : ImGui::TextUnformatted(lines.c_str());
-    if (line.scale) draw_scale(line);
+    if (line.colour) w.swatch(*line.colour);
+    const std::string text = wrapped(line.text, ImGui::GetContentRegionAvail().x);
+    line.pale ? ImGui::TextDisabled("%s", text.c_str()) : ImGui::TextUnformatted(text.c_str());
+    if (line.scale) {
+      ImGui::SameLine();
+      const ImVec2 at = ImGui::GetCursorScreenPos();
+      draw_colour_scale({at.x, at.y + w.px(4)}, scale_width, at.y + w.px(12), 30, line.scale);
+      ImGui::Dummy({scale_width, w.px(8)});
+      ImGui::SameLine();
+      ImGui::TextDisabled("%s", line.end.c_str());
+    }
     ImGui::EndGroup();
-    w_.register_item("Legend");
+    w.register_item("Legend");
   }
-
- private:
-  static constexpr float scale_width = 120;  // design pixels
-
-  void draw_scale(const render::LegendLine& line) {
-    ImGui::SameLine();
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float width = w_.px(scale_width), top = at.y + w_.px(4), height = w_.px(8);
-    draw_colour_scale({at.x, top}, width, top + height, 30, line.scale);
-    ImGui::Dummy({width, height});
-    ImGui::SameLine();
-    ImGui::TextDisabled("%s", line.end.c_str());
-  }
-
-  Widgets& w_;
-  bool flows_, first_ = true;
-};
+}
 
 }  // namespace
 
@@ -123,25 +113,26 @@ bool has_legend(const Session& session, const render::Overlays& shown) {
 }
 
 void draw_legend(Widgets& w, const Session& session, const render::Overlays& shown, bool names_method, bool flows) {
-  LegendLines lines(w, flows);
+  std::vector<render::LegendLine> lines;
   const bool table = render::shows(shown, render::OverlayBasis::table);
   const render::LegendFacts facts{session.world(), table ? &session.inspector.shown_geometry() : nullptr,
                                   session.comparison.missed(),
                                   collide::method_table()[session.comparison.choice.misses_of].name};
-  const auto draw_rows = [&](bool of_table) {
+  const auto add_rows = [&](bool of_table) {
     for (const render::OverlayRow& row : render::overlay_table)
       if (row.legend && shown.*row.shown && (row.basis == render::OverlayBasis::table) == of_table)
-        for (const render::LegendLine& line : row.legend(facts)) lines.draw(line);
+        std::ranges::move(row.legend(facts), std::back_inserter(lines));
   };
-  draw_rows(true);
+  add_rows(true);
   if (names_method && (table || session.inspector.bucket()))
-    lines.draw({.text = shown_method_text(session), .pale = true});
+    lines.push_back({.text = shown_method_text(session), .pale = true});
   if (session.inspector.bucket()) {
-    lines.draw({"Bucket " + grouped(*session.inspector.selected_bucket())});
-    lines.draw({"entry of the chosen cell", render::same_cell_colour});
-    lines.draw({"entry of another cell (aliasing)", render::aliased_colour});
+    lines.push_back({"Bucket " + grouped(*session.inspector.selected_bucket())});
+    lines.push_back({"entry of the chosen cell", render::same_cell_colour});
+    lines.push_back({"entry of another cell (aliasing)", render::aliased_colour});
   }
-  draw_rows(false);
+  add_rows(false);
+  draw_lines(w, lines, flows);
 }
 
 }  // namespace app::ui
