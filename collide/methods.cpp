@@ -90,12 +90,13 @@ std::vector<Method> built_in() {
        .name = "Multi-Level SB, exact",
        .summary = "Searches only where bodies face each other, without a hash (§2.1, §5). It misses nothing.",
        .description =
-           "Keeps the paper's idea (boxes of bodies, boxes of their parts, vertices tested only where boxes meet) and "
-           "drops the hash. Of two small near bodies it looks only at the vertices that face the other body, and it "
-           "proves of most bodies that they cannot touch themselves. All others it cuts into patches, once. Choose it "
-           "wherever contacts are what you need: it is the fastest here and misses nothing. Cost: linear in n and in "
-           "the pairs of near bodies. It searches from scratch in every frame, but bodies at rest keep their contacts, "
-           "and shapes the patches that they are cut into. Source: the paper's §2.1 and §5; the rest is ours.",
+           "Keeps the paper's idea (boxes of bodies, boxes of their parts, tests where boxes meet) and drops the hash. "
+           "Of two near bodies it looks only at the vertices that face the other body or, if these are many, at the "
+           "patches of 16 vertices that come near it; it proves of most bodies that they cannot touch themselves. "
+           "Choose it wherever contacts are what you need: it is the fastest here and misses nothing. Cost: linear in "
+           "n and in the pairs of near bodies. It searches from scratch in every frame, but bodies at rest keep their "
+           "contacts, and shapes the patches that they are cut into. Source: the paper's §2.1 and §5; the rest is "
+           "ours.",
        .group = MethodGroup::paper,
        .make = exact::make_multi_level_sb_exact},
       {.key = "sorted-grid",

@@ -44,9 +44,10 @@ std::optional<std::size_t> choose_reference(const collide::Method& beside,
   if (can_run(brute_force)) return brute_force;
   for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
     const collide::Method& method = collide::method_table()[i];
-    const bool shares_levels = method.uses_levels == beside.uses_levels;
+    const bool shares_idea =
+        (method.group == collide::MethodGroup::paper) == (beside.group == collide::MethodGroup::paper);
     const bool shares_hash = method.uses_hash && (method.uses_levels || beside.uses_hash);
-    if (method.exact && !shares_levels && !shares_hash && i != brute_force && can_run(i)) return i;
+    if (method.exact && !shares_idea && !shares_hash && i != brute_force && can_run(i)) return i;
   }
   return std::nullopt;
 }

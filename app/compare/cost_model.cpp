@@ -61,8 +61,8 @@ void CostModel::begin(const collide::Frame& frame, const collide::Settings& sett
   in_overlapping_boxes_ = exact_tests_ = 0;
   const auto add = [&](std::uint64_t tests, std::uint64_t vertices) {
     in_overlapping_boxes_ += tests;
-    // At least those that its cuts leave of all, which are no more than large leaves have.
-    exact_tests_ += std::max(16 * vertices, std::min(tests >> settings.levels, 512 * vertices));
+    // Of the vertices that face another body, or of patches that are near each other.
+    exact_tests_ += std::max(16 * vertices, std::min(tests / 8, 512 * vertices));
   };
   for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_cutoff(settings.tolerance)))
     add(std::uint64_t{bodies.size(a)} * bodies.size(b), bodies.size(a) + bodies.size(b));
@@ -107,7 +107,7 @@ WorkEstimate CostModel::estimate(const collide::Method& method) const {
   if (method.tests == collide::PairTests::all) return {all_, 0};
   if (method.uses_hash) return estimate_hashed(method);
   if (is_certain(method)) return {in_overlapping_boxes_, 0};
-  if (method.uses_levels) return {std::min(exact_tests_, in_overlapping_boxes_), 0};
+  if (method.group == collide::MethodGroup::paper) return {std::min(exact_tests_, in_overlapping_boxes_), 0};
   const glm::dvec3 tolerance(static_cast<double>(settings_.tolerance));
   return {std::min(all_, whole(64 * vertices_ + pairs_near(tolerance, tolerance))), 0};
 }

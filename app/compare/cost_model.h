@@ -60,7 +60,7 @@ class CostModel {
   double vertices_ = 0, bodies_ = 0;
   glm::dvec3 extent_{0};  // m, of all bodies
   glm::dvec3 side_{0};    // m, of a body's box, on average
-  // Pair tests: all; of bodies whose boxes overlap; of these, those that the exact method's cuts leave.
+  // Pair tests: all; of bodies whose boxes overlap; of these, those that the exact method tests.
   std::uint64_t all_ = 0, in_overlapping_boxes_ = 0, exact_tests_ = 0;
   PairSample sample_;
   collide::BodyBoxes boxes_;

@@ -118,12 +118,6 @@ void BodyPairSearch::begin(Thread& own) const {
   own.self_contacts = own.pair_tests = own.separated = own.unfolded = own.kept = 0;
 }
 
-/// Inside a body, all threads share the search if it is so large that nothing can prove that it does not touch itself.
-bool BodyPairSearch::is_shared(Index a, Index b) const {
-  const Index size = std::max(frame_->bodies->size(a), frame_->bodies->size(b));
-  return size > (a == b ? CullingReference::max_vertices : FacingScratch::max_vertices);
-}
-
 /// Decides in how many parts the search is cut, and deals what threads share.
 void BodyPairSearch::deal(const RestingContacts& resting, Workers& workers) {
   shared_.clear();
@@ -215,7 +209,17 @@ void BodyPairSearch::find_between(Thread& own, Index a, Index b) {
   const Slab slab = slab_between(bounds_[a], bounds_[b], cutoff_);
   const Index facing = find_facing_contacts(run_a, first_a, run_b, first_b, slab, tolerance2_, own.facing, own.group);
   own.separated += facing == 0;
-  own.pair_tests += facing;
+  if (facing <= FacingScratch::max_tests) {
+    own.pair_tests += facing;
+  } else {
+    find_by_patches(own, a, b);
+  }
+}
+
+void BodyPairSearch::find_by_patches(Thread& own, Index a, Index b) {
+  const auto before = static_cast<std::ptrdiff_t>(own.group.size());
+  own.pair_tests += patches_.find(*frame_, a, b, contact_limit, own.patches, own.group).pair_tests;
+  std::sort(own.group.begin() + before, own.group.end());
 }
 
 void BodyPairSearch::find_self(Thread& own, Index body) {
@@ -225,8 +229,7 @@ void BodyPairSearch::find_self(Thread& own, Index body) {
   const SelfCollisionCandidates risk =
       reference ? reference->candidates_of(vertices, bounds_[body], own.self) : SelfCollisionCandidates{};
   if (!risk.culled) {
-    own.pair_tests += patches_.find_within(*frame_, body, contact_limit, own.patches, own.group).pair_tests;
-    std::sort(own.group.begin(), own.group.end());
+    find_by_patches(own, body, body);
     return;
   }
   for (const auto& [i, j] : risk.pairs) {

@@ -62,8 +62,10 @@ class BodyPairSearch {
 
   void begin(const Frame& frame, const Settings& settings);
   void begin(Thread& own) const;
-  /// Returns whether all threads share the search inside a body, or between two.
-  bool is_shared(Index a, Index b) const;
+  /// Returns whether all threads share the search inside a body, or between two: one is large.
+  bool is_shared(Index a, Index b) const {
+    return std::max(frame_->bodies->size(a), frame_->bodies->size(b)) > FacingScratch::max_vertices;
+  }
   void deal(const RestingContacts& resting, Workers& workers);
   /// Finds one thread's share of these contacts.
   void find_patch_contacts(int thread, int threads);
@@ -73,6 +75,7 @@ class BodyPairSearch {
   void find_group(Thread& own, Index a);
   void keep_group(Thread& own, Index a, std::span<const Contact> group);
   void find_between(Thread& own, Index a, Index b);
+  void find_by_patches(Thread& own, Index a, Index b);
   void find_self(Thread& own, Index body);
   void sort_self_contacts(Thread& own, Index body);
   void sort_group(Thread& own, Index a);

@@ -1,8 +1,8 @@
 // Multi-Level SB Collide made exact, and kept to where bodies can touch. Of every two bodies whose boxes (§2.1) and
-// spheres come near each other, only the vertices that face the other body along the line of centres are looked at; the
-// area that they fill is subdivided level by level (§5) as long as that pays. Inside a body its patches are looked at,
-// unless it is proven that it cannot touch itself; so are those of two large bodies. No hash: what is near a body is
-// found by strips. Bodies that have not moved since the last frame keep the contacts among them.
+// spheres come near each other, only the vertices that face the other body along the line of centres are looked at or,
+// if these are many, patches that come near it. Inside a body its patches are looked at, unless it is proven that it
+// cannot touch itself. No hash: what is near a body is found by strips. Bodies that have not moved since the last frame
+// keep the contacts among them.
 
 #include "collide/exact/multi_level_sb_exact.h"
 #include "collide/exact/body_pair_search.h"

@@ -122,8 +122,10 @@ Index FindFacingContacts(const VertexRun& a, Index first_a, const VertexRun& b, 
   ListWriter list_a(list);
   for_blocks(a.size,
              [&](std::ptrdiff_t i, Index skip) HWY_ATTR { list_a.add(hn::Ge(load(along_a + i), limit_a), i, skip); });
-  find_contacts(a, first_a, list_a.size(), facing_b, tolerance2, scratch, contacts);
-  return list_a.size() * facing_b;
+  const Index tests = list_a.size() * facing_b;
+  if (tests <= FacingScratch::max_tests)
+    find_contacts(a, first_a, list_a.size(), facing_b, tolerance2, scratch, contacts);
+  return tests;
 }
 
 void ContactsOf(const VertexRun& run, Index first, Index i, float tolerance2, std::vector<Index>& scratch,

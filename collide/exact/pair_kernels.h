@@ -18,19 +18,19 @@ struct Slab {
   float cutoff;      // m
 };
 
-/// Scratch memory of the functions below, for bodies of up to max_vertices vertices.
+/// Scratch memory of the function below, for bodies of up to max_vertices vertices.
 struct FacingScratch {
-  static constexpr Index max_vertices = 256;
+  static constexpr Index max_vertices = 2048, max_tests = 1 << 15;
   template <class T>
   using Values = std::array<T, max_vertices + 2 * max_lanes>;
   Values<float> along_a, x, y, z;  // of a; of the facing vertices of b
   Values<Index> list, vertex;
-  std::array<std::uint64_t, std::size_t{max_vertices} * max_vertices / 64 + 2> words;  // a bit for each pair, if close
+  std::array<std::uint64_t, 2 * max_tests / 64 + 2> words;  // a bit for each pair, if close
 };
 
 /// Selects the vertices of two bodies that the slab does not separate from all vertices of the other body, and appends
 /// the contacts among them; ascending. Returns how many pairs of vertices face each other; 0: a plane separates the
-/// bodies.
+/// bodies; more than max_tests: they are not tested.
 Index find_facing_contacts(const VertexRun& a, Index first_a, const VertexRun& b, Index first_b, const Slab& slab,
                            float tolerance2, FacingScratch& scratch, std::vector<Contact>& contacts);
 

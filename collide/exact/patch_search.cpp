@@ -101,13 +101,16 @@ PatchSearch::Found PatchSearch::find(std::size_t task, std::size_t max_contacts,
   return find(tasks_[task], patches_, max_contacts, scratch.hits, contacts);
 }
 
-PatchSearch::Found PatchSearch::find_within(const Frame& frame, Index number, std::size_t max_contacts,
-                                            Scratch& scratch, std::vector<Contact>& contacts) {
-  const Body body = lay_out(frame, number, 0, true);
-  if (scratch.patches.count.size() < body.cut->groups()) scratch.patches.resize(body.cut->groups());
-  fill(frame, body, body.groups(), scratch.patches);
-  add_boxes(body, scratch.patches, scratch.boxes);
-  return find({&body, &body, body.groups()}, scratch.patches, max_contacts, scratch.hits, contacts);
+PatchSearch::Found PatchSearch::find(const Frame& frame, Index a, Index b, std::size_t max_contacts, Scratch& scratch,
+                                     std::vector<Contact>& contacts) {
+  const Body one = lay_out(frame, a, 0, a == b), two = a == b ? one : lay_out(frame, b, one.groups().end, false);
+  if (scratch.patches.count.size() < two.groups().end) scratch.patches.resize(two.groups().end);
+  fill(frame, one, {0, one.cut->groups()}, scratch.patches);
+  add_boxes(one, scratch.patches, scratch.boxes);
+  if (a == b) return find({&one, &one, one.groups()}, scratch.patches, max_contacts, scratch.hits, contacts);
+  fill(frame, two, {0, two.cut->groups()}, scratch.patches);
+  add_boxes(two, scratch.patches, scratch.boxes);
+  return find({&one, &two, one.groups()}, scratch.patches, max_contacts, scratch.hits, contacts);
 }
 
 PatchSearch::Found PatchSearch::find(const Task& task, const Patches& patches, std::size_t max_contacts,

@@ -26,7 +26,7 @@ class PatchSearch {
   struct Scratch {
     Patches patches;
     GroupHits hits;
-    std::vector<DebugGeometry::Box> boxes;  // of the patches of find_within(): it appends them
+    std::vector<DebugGeometry::Box> boxes;  // of the patches of any two bodies: find() appends them
   };
   struct Found {
     std::uint64_t pair_tests = 0, self_contacts = 0;
@@ -34,9 +34,9 @@ class PatchSearch {
   /// Appends the contacts of a task; in no order. Throws std::length_error if `contacts` grows beyond max_contacts.
   Found find(std::size_t task, std::size_t max_contacts, Scratch& scratch, std::vector<Contact>& contacts) const;
 
-  /// Does the same for the contacts inside any body. Several threads may call it at once.
-  Found find_within(const Frame& frame, Index body, std::size_t max_contacts, Scratch& scratch,
-                    std::vector<Contact>& contacts);
+  /// Does the same for the contacts of any two bodies, or inside a body. Several threads may call it at once.
+  Found find(const Frame& frame, Index a, Index b, std::size_t max_contacts, Scratch& scratch,
+             std::vector<Contact>& contacts);
 
   std::size_t patches() const;
   /// Appends the boxes of the patches, for drawing.

@@ -190,6 +190,23 @@ TEST(PatchSearch, FindsWhatTheOracleFindsOnASurface) {
   }
 }
 
+/// Of two sheets that lie on each other, all vertices face the other one.
+TEST(PatchSearch, CostsNoSquareOfTheVerticesOfTwoBodies) {
+  std::uint64_t before = 0;
+  for (const int side : {32, 64, 128}) {
+    const Sheet sheet(side);
+    State state;
+    for (const float height : {0.0f, 0.3f * Sheet::edge})
+      state.add(sheet.shape(true), moved(sheet.rest, glm::vec3(0, 0, height)));
+    const Result result =
+        detect("multi-level-sb-exact", state, {.tolerance = 0.5f * Sheet::edge, .self_collision = false});
+    EXPECT_EQ(result.contacts.size(), sheet.rest.size());
+    const std::uint64_t tests = result.counters.pair_tests;
+    EXPECT_TRUE(before == 0 || tests < 6 * before) << side << ": " << tests;
+    before = tests;
+  }
+}
+
 TEST(PatchSearch, FindsWhatTheOracleFindsOnSurfacesAmongSpheres) {
   const Sheet large(48), small(20);
   const Ball ball = icosphere(2, 0.5f);
