@@ -19,12 +19,14 @@ void body_vertex(out vec3 position, out vec3 normal) {
   vec3 p0 = fetch(positions, corners.x), n0 = fetch(normals, corners.x);
   position = p0;
   normal = n0;
-  if (corners.x == corners.y) return;  // a vertex of the mesh
-  vec3 p1 = fetch(positions, corners.y), n1 = fetch(normals, corners.y);
-  vec3 p2 = fetch(positions, corners.z), n2 = fetch(normals, corners.z);
-  vec3 w = vec3(weights, 1.0 - weights.x - weights.y);
-  vec3 flat_point = w.x * p0 + w.y * p1 + w.z * p2;
-  position = flat_point - 0.5 * (w.x * dot(flat_point - p0, n0) * n0 + w.y * dot(flat_point - p1, n1) * n1 +
-                                 w.z * dot(flat_point - p2, n2) * n2);
-  normal = normalize(w.x * n0 + w.y * n1 + w.z * n2);
+  // No turn for a vertex of the mesh. A loop, because some drivers run both sides of a branch.
+  for (int turns = corners.x == corners.y ? 0 : 1; turns > 0; --turns) {
+    vec3 p1 = fetch(positions, corners.y), n1 = fetch(normals, corners.y);
+    vec3 p2 = fetch(positions, corners.z), n2 = fetch(normals, corners.z);
+    vec3 w = vec3(weights, 1.0 - weights.x - weights.y);
+    vec3 flat_point = w.x * p0 + w.y * p1 + w.z * p2;
+    position = flat_point - 0.5 * (w.x * dot(flat_point - p0, n0) * n0 + w.y * dot(flat_point - p1, n1) * n1 +
+                                   w.z * dot(flat_point - p2, n2) * n2);
+    normal = normalize(w.x * n0 + w.y * n1 + w.z * n2);
+  }
 }

@@ -11,11 +11,21 @@ namespace {
 
 constexpr float occluder_range = 1.2f;  // radii: a sphere farther from a surface hides nothing (ambient.glsl)
 
-/// True if `occluder` can hide part of the sky from `receiver`. The receiver counts as 1.5 times as large, because a
-/// body may extend beyond its mean radius.
-bool occludes(const glm::vec4& occluder, const glm::vec4& receiver) {
+/// True if `occluder` can hide part of the sky from `receiver`, a body with vertices up to `reach` from its centre. It
+/// counts as somewhat larger, because it bulges between them. Few vertices are farther than 1.5 mean radii.
+bool occludes(const glm::vec4& occluder, const glm::vec4& receiver, float reach) {
   return glm::distance(glm::vec3(occluder), glm::vec3(receiver)) <
-         1.5f * receiver.w + (1.0f + occluder_range) * occluder.w;
+         std::min(1.1f * reach, 1.5f * receiver.w) + (1.0f + occluder_range) * occluder.w;
+}
+
+/// Returns the distance (m) of the farthest position from `centre`.
+float max_distance(const glm::vec3& centre, std::span<const glm::vec3> positions) {
+  float squared = 0.0f;
+  for (const glm::vec3& position : positions) {
+    const glm::vec3 offset = position - centre;
+    squared = std::max(squared, glm::dot(offset, offset));
+  }
+  return std::sqrt(squared);
 }
 
 bool finite(const glm::vec4& sphere) {
@@ -34,21 +44,18 @@ glm::vec4 mean_sphere(std::span<const glm::vec3> positions) {
   return finite(sphere) ? sphere : glm::vec4(0.0f);
 }
 
-float max_distance(const glm::vec3& centre, std::span<const glm::vec3> positions) {
-  float squared = 0.0f;
-  for (const glm::vec3& position : positions) {
-    const glm::vec3 offset = position - centre;
-    squared = std::max(squared, glm::dot(offset, offset));
-  }
-  return std::sqrt(squared);
-}
-
 void AmbientOcclusion::update(const FrameData& frame) {
   spheres_.clear();
+  reaches_.clear();
   for (const MeshDraw& draw : frame.meshes) {
-    spheres_.push_back(mean_sphere(frame.positions.subspan(draw.first_vertex, draw.vertex_count)));
+    const auto positions = frame.positions.subspan(draw.first_vertex, draw.vertex_count);
+    const glm::vec4& sphere = spheres_.emplace_back(mean_sphere(positions));
+    reaches_.push_back(max_distance(glm::vec3(sphere), positions));
   }
-  for (const Sphere& sphere : frame.spheres) spheres_.emplace_back(sphere.centre, sphere.radius);
+  for (const Sphere& sphere : frame.spheres) {
+    spheres_.emplace_back(sphere.centre, sphere.radius);
+    reaches_.push_back(sphere.radius);
+  }
   find_pairs();
   occluders_.clear();
   ranges_.assign(spheres_.size(), {});
@@ -102,8 +109,8 @@ void AmbientOcclusion::compare(const Place& place, Places::const_iterator other,
   const std::uint32_t a = place.sphere;
   for (; other != end && other->x <= place.x + range; ++other) {
     const std::uint32_t b = other->sphere;
-    if (occludes(spheres_[a], spheres_[b])) pairs_.push_back({b, a});
-    if (occludes(spheres_[b], spheres_[a])) pairs_.push_back({a, b});
+    if (occludes(spheres_[a], spheres_[b], reaches_[b])) pairs_.push_back({b, a});
+    if (occludes(spheres_[b], spheres_[a], reaches_[a])) pairs_.push_back({a, b});
   }
 }
 

@@ -23,15 +23,13 @@ struct OccluderRange {
 /// positions or if one is not finite.
 glm::vec4 mean_sphere(std::span<const glm::vec3> positions);
 
-/// Returns the distance (m) of the farthest position from `centre`.
-float max_distance(const glm::vec3& centre, std::span<const glm::vec3> positions);
-
 class AmbientOcclusion {
  public:
   /// Takes the spheres of a frame: first those of its meshes, then its solid spheres, each in the order of the frame.
   void update(const FrameData& frame);
 
   std::span<const glm::vec4> spheres() const { return spheres_; }
+  std::span<const float> reaches() const { return reaches_; }        // one per sphere: m to the farthest vertex
   std::span<const OccluderRange> ranges() const { return ranges_; }  // one per sphere, into occluders()
   std::span<const glm::vec4> occluders() const { return occluders_; }
 
@@ -51,6 +49,7 @@ class AmbientOcclusion {
   void compare(const Place& place, Places::const_iterator other, Places::const_iterator end, float range);
 
   std::vector<glm::vec4> spheres_, occluders_;
+  std::vector<float> reaches_;
   std::vector<OccluderRange> ranges_;
   Places places_;  // of all spheres, by column, then by x
   std::vector<Pair> pairs_;

@@ -39,12 +39,9 @@ struct Renderer::Passes {
   void find_casters(const FrameData& frame) {
     casters.clear();
     for (std::size_t i = 0; i < frame.meshes.size(); ++i) {
-      const glm::vec3 centre(occlusion.spheres()[i]);
-      const MeshDraw& draw = frame.meshes[i];
-      const bool finite = occlusion.spheres()[i].w > 0;
-      if (finite)
-        casters.emplace_back(centre,
-                             max_distance(centre, frame.positions.subspan(draw.first_vertex, draw.vertex_count)));
+      const glm::vec4& sphere = occlusion.spheres()[i];
+      const bool finite = sphere.w > 0;
+      if (finite) casters.emplace_back(glm::vec3(sphere), occlusion.reaches()[i]);
     }
     for (const Sphere& s : frame.spheres) casters.emplace_back(s.centre, s.radius);
     for (const Capsule& c : frame.capsules)

@@ -20,14 +20,14 @@ TEST(MeanSphere, HoldsTheVerticesAndIsZeroWithoutThemOrIfOneIsNotFinite) {
 
 TEST(AmbientOcclusion, TouchingSpheresOccludeEachOtherAndDistantOnesDoNot) {
   FrameData frame;
-  frame.spheres = {{{0, 0, 0}, 1.0f}, {{2, 0, 0}, 1.0f}, {{50, 0, 0}, 1.0f}};
+  frame.spheres = {{{0, 0, 0}, 1.0f}, {{2, 0, 0}, 1.0f}, {{0, 3.4f, 0}, 1.0f}, {{50, 0, 0}, 1.0f}};
   AmbientOcclusion occlusion;
   occlusion.update(frame);
-  ASSERT_EQ(occlusion.ranges().size(), 3u);
+  ASSERT_EQ(occlusion.ranges().size(), 4u);
   EXPECT_EQ(occlusion.ranges()[0].count, 1u);
   EXPECT_EQ(occlusion.occluders()[occlusion.ranges()[0].first], glm::vec4(2, 0, 0, 1));
   EXPECT_EQ(occlusion.occluders()[occlusion.ranges()[1].first], glm::vec4(0, 0, 0, 1));
-  EXPECT_EQ(occlusion.ranges()[2].count, 0u);
+  for (const std::size_t distant : {2, 3}) EXPECT_EQ(occlusion.ranges()[distant].count, 0u);
 }
 
 TEST(AmbientOcclusion, SweepMissesNoOccluderOfAnySize) {
