@@ -168,7 +168,6 @@ TEST(Layout, CutsNoTextAndLaysNoPartOverAnother) {
        }},
       {"the tour", [](PanelRig& rig) { rig.ui.tour.toggle(rig.session, rig.ui.overlays); }},
       {"the sweep", [](PanelRig& rig) { rig.ui.lower = ui::LowerView::sweep; }},
-      {"the comparison", [](PanelRig& rig) { rig.ui.lower = ui::LowerView::comparison; }},
       {"two worlds, contact of surfaces",
        [](PanelRig& rig) {
          rig.ui.overlays.surface_contacts = rig.ui.overlays.contacts = true;
