@@ -9,6 +9,7 @@
 #include "app/cli/commands.h"
 #include "app/files/inputs.h"
 #include "app/files/output_file.h"
+#include "app/guest/guest.h"
 #include "app/report/report.h"
 #if SBCOLLIDE_GRAPHICS
 #include "app/window/demo.h"
@@ -18,6 +19,11 @@ namespace {
 
 void run(const app::cli::Options& options) {
   using app::cli::Command;
+  std::vector<std::shared_ptr<app::guest::Guest>> guests;
+  for (const std::string& file : options.guests) {
+    app::files::protect_input(file);
+    guests.push_back(app::guest::open(file));
+  }
   switch (options.command) {
     case Command::list:
       return app::cli::list(options.list_of);
@@ -40,6 +46,7 @@ void run(const app::cli::Options& options) {
                          .scene_given = options.scene_given || !options.play.empty(),
                          .scene_folder = app::files::scene_folder(),
                          .meshes = options.meshes,
+                         .guests = guests,
                          .apply = [&](softbody::Scene& scene) { app::cli::apply(options, scene); },
                          .integrator = options.integrator,
                          .beside = beside,
@@ -54,6 +61,7 @@ void run(const app::cli::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  app::guest::run_if_guest(argc, argv);
   try {
     app::handle_signals(&app::files::remove_temporary_files);
     const auto options = app::cli::parse_options(argc, argv);

@@ -194,9 +194,15 @@ const Method* find_method(std::string_view key) {
   return found == rows.end() ? nullptr : &*found;
 }
 
+const Method* find_driver(std::string_view key) {
+  const Method* method = find_method(key);
+  return method && method->can_drive() ? method : nullptr;
+}
+
 std::string method_keys() {
   std::string keys;
-  for (const Method& method : method_table()) keys.append(keys.empty() ? "" : ", ").append(method.key);
+  for (const Method& method : method_table())
+    if (method.can_drive()) keys.append(keys.empty() ? "" : ", ").append(method.key);
   return keys;
 }
 

@@ -14,15 +14,17 @@
 namespace collide {
 
 /// Methods that are shown together. They stand together in the table, too.
-enum class MethodGroup { rivals, paper, sorted, trees };
+enum class MethodGroup { rivals, paper, sorted, trees, guests };
 struct MethodGroupName {
   MethodGroup group;
   std::string_view name;
 };
-inline constexpr std::array<MethodGroupName, 4> method_groups{{{MethodGroup::rivals, "The paper's rivals"},
+/// A group may be empty.
+inline constexpr std::array<MethodGroupName, 5> method_groups{{{MethodGroup::rivals, "The paper's rivals"},
                                                                {MethodGroup::paper, "The paper's method"},
                                                                {MethodGroup::sorted, "Sorted grids and sweeps"},
-                                                               {MethodGroup::trees, "Trees"}}};
+                                                               {MethodGroup::trees, "Trees"},
+                                                               {MethodGroup::guests, "Your own methods"}}};
 
 /// Which pairs of vertices a method without a hash tests.
 enum class PairTests { all, of_near_bodies, of_near_vertices };
@@ -41,6 +43,9 @@ struct Method {
   bool uses_hash = false;    // has use for buckets, cell_size, primes
   PairTests tests = PairTests::of_near_vertices;
   std::function<std::unique_ptr<Detector>()> make;
+
+  /// Returns false for a method that is only compared with others: it may fail at any time.
+  bool can_drive() const { return group != MethodGroup::guests; }
 };
 
 inline constexpr std::size_t max_methods = 64;
@@ -52,7 +57,9 @@ std::span<const Method> method_table();
 void add_method(Method row);
 /// nullptr if there is no such method.
 const Method* find_method(std::string_view key);
-/// "brute-force, grid-hash, ...": for messages.
+/// nullptr if there is no such method that can drive bodies.
+const Method* find_driver(std::string_view key);
+/// "brute-force, grid-hash, ...", all that can drive bodies: for messages.
 std::string method_keys();
 
 inline constexpr std::string_view default_method = "multi-level-sb-exact";

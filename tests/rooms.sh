@@ -31,12 +31,13 @@ softbody/api: collide/api softbody/api/sbcollide softbody/mesh softbody/model so
 engine:
 engine/render: engine
 app/base: softbody
+app/guest: app/base collide
 app/files: app/base collide softbody engine
 app/compare: app/base collide softbody
 app/reference: softbody
 app/session/stability: app/base app/compare softbody
 app/session/live: app/base app/compare app/session/stability collide softbody
-app/session: app/base app/files app/compare app/session/stability app/session/live collide softbody engine
+app/session: app/base app/files app/compare app/guest app/session/stability app/session/live collide softbody engine
 app/render: app/base app/files app/compare collide softbody engine
 app/report: app/base app/files app/compare app/reference collide softbody engine
 app/cli: app/base app/files app/compare app/report app/render collide softbody
@@ -46,8 +47,8 @@ app/ui/widgets: app/base app/compare app/render app/ui/state
 app/ui/views: app/base app/compare app/session app/render app/ui/state app/ui/widgets softbody engine
 app/ui/panel: app/base app/session app/render app/ui/state app/ui/widgets app/ui/views collide softbody
 app/ui: app/session app/ui/state app/ui/widgets app/ui/views app/ui/panel
-app/window: app/base app/files app/compare app/session app/render app/ui softbody engine
-app: app/base app/files app/cli app/report app/window
+app/window: app/base app/files app/compare app/guest app/session app/render app/ui softbody engine
+app: app/base app/files app/guest app/cli app/report app/window
 "
 
 # They include only each other of softbody, so that no change of the solver reaches app.

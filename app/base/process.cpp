@@ -1,107 +1,171 @@
 #include "app/base/process.h"
 
+#include <stdexcept>
+
+#include "app/base/usage_error.h"
+
+#ifdef __linux__
+
+#include <dlfcn.h>
 #include <fcntl.h>
-#include <spawn.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
-#include <chrono>
 #include <csignal>
-#include <system_error>
-#include <thread>
-#include <utility>
-
-extern char** environ;
+#include <cstring>
+#include <fstream>
+#include <new>
 
 namespace app {
-namespace {
 
-constexpr int timeout_seconds = 30;  // until the program has read what is sent, and for its end
-
-[[noreturn]] void refuse(int error) { throw std::system_error(error, std::generic_category()); }
-
-void close(int& descriptor) {
-  if (descriptor >= 0) ::close(std::exchange(descriptor, -1));
+SharedMemory::SharedMemory(std::size_t size) : handle_(::memfd_create("sbcollide", MFD_CLOEXEC | MFD_ALLOW_SEALING)) {
+  // Sealed: who reads beyond the end of a file that has become smaller is ended.
+  if (::ftruncate(handle_, static_cast<off_t>(size)) == 0 &&
+      ::fcntl(handle_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) == 0)
+    bytes_ = take_memory(handle_, size);
+  if (bytes_.size() == size) return;
+  ::close(handle_);
+  throw std::bad_alloc();
 }
 
-/// Returns an error number, or 0.
-int spawn(pid_t& child, std::vector<std::string> words, int input, int output, int errors) {
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-  ::posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
-  ::posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  const int error = ::posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
-  ::posix_spawn_file_actions_destroy(&actions);
-  return error;
+SharedMemory::~SharedMemory() {
+  ::munmap(bytes_.data(), bytes_.size());
+  ::close(handle_);
 }
 
-}  // namespace
+std::span<std::byte> take_memory(int handle, std::size_t writable) {
+  struct stat file {};
+  ::fstat(handle, &file);
+  const auto size = static_cast<std::size_t>(file.st_size);
+  void* at = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, handle, 0);
+  if (at == MAP_FAILED) return {};
+  auto* begin = static_cast<std::byte*>(at);
+  if (writable < size) ::mprotect(begin + writable, size - writable, PROT_READ);
+  return {begin, size};
+}
 
-struct Process::System {
-  // Descriptors, the first of each for reading. The input is a socket, not a pipe: when the program dies, sending
-  // fails, and no signal ends this one.
-  std::array<int, 2> input{-1, -1}, errors{-1, -1};
-  pid_t child = 0;
-
-  ~System() {
-    for (int* descriptor : {&input[0], &input[1], &errors[0], &errors[1]}) close(*descriptor);
+Process::Process(std::vector<std::string> words, const std::vector<int>& handles, const std::filesystem::path& output) {
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  std::array<int, 2> channel{-1, -1};
+  ::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, channel.data());
+  channel_ = channel[0];
+  std::vector<int> passed{channel[1]};
+  passed.insert(passed.end(), handles.begin(), handles.end());
+  const int end = channel_inside + static_cast<int>(passed.size());
+  for (int& handle : passed) handle = ::fcntl(handle, F_DUPFD_CLOEXEC, end);  // none is overwritten before it is copied
+  ::close(channel[1]);
+  id_ = ::fork();
+  if (id_ == 0) {  // from here on only system calls, since other threads may have held any lock
+    ::setpgid(0, 0);
+    ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
+    ::dup2(::open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+    ::dup2(STDOUT_FILENO, STDERR_FILENO);
+    for (int number = channel_inside; const int handle : passed) ::dup2(handle, number++);
+    ::close_range(static_cast<unsigned>(end), ~0u, 0);
+    ::execvp(arguments[0], arguments.data());
+    ::_exit(127);
   }
-};
-
-Process::Process(std::vector<std::string> words, int output) : system_(std::make_unique<System>()) {
-  auto& [input, errors, child] = *system_;
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input.data()) != 0) refuse(errno);
-  if (::pipe2(errors.data(), O_CLOEXEC) != 0) refuse(errno);
-  const timeval limit{timeout_seconds, 0};
-  ::setsockopt(input[1], SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
-  if (const int error = spawn(child, std::move(words), input[0], output, errors[1])) refuse(error);
-  close(input[0]);
-  close(errors[1]);
+  for (const int handle : passed) ::close(handle);
+  if (id_ > 0) return;
+  ::close(channel_);
+  throw UsageError("no further process can be started: end others");
 }
 
 Process::~Process() {
-  if (system_->child <= 0) return;
-  ::kill(system_->child, SIGKILL);
-  ::waitpid(system_->child, nullptr, 0);
+  for (const int all : {id_, -id_}) ::kill(all, SIGKILL);  // it, and its group
+  if (!end_) ::waitpid(id_, nullptr, 0);
+  ::close(channel_);
 }
 
-bool Process::send(std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const auto sent = ::send(system_->input[1], bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(sent));
-  }
-  return true;
-}
-
-bool Process::finish() {
-  close(system_->input[1]);
-  if (system_->child <= 0) return false;
+std::optional<std::string> Process::end() {
   int status = 0;
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(timeout_seconds);
-  while (::waitpid(system_->child, &status, WNOHANG) != system_->child) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  system_->child = 0;
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  if (end_ || ::waitpid(id_, &status, WNOHANG) == 0) return end_;
+  const int signal = WTERMSIG(status);
+  const char* name = ::sigabbrev_np(signal);
+  end_ = WIFSIGNALED(status)
+             ? std::string("ended by signal SIG") + (name ? name : "") + " (" + ::strsignal(signal) + ")"
+             : "ended itself with status " + std::to_string(WEXITSTATUS(status));
+  return end_;
 }
 
-std::string Process::last_error_line() const {
-  std::string text(4096, '\0');
-  ::fcntl(system_->errors[0], F_SETFL, O_NONBLOCK);
-  const auto length = ::read(system_->errors[0], text.data(), text.size());
-  text.resize(length > 0 ? static_cast<std::size_t>(length) : 0);
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text.erase(0, text.rfind('\n') + 1);
+void send(int channel, std::span<const std::byte> message) {
+  ::send(channel, message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+}
+
+bool receive(int channel, std::span<std::byte> message, int milliseconds) {
+  pollfd source{channel, POLLIN, 0};
+  if (::poll(&source, 1, milliseconds) <= 0) return false;
+  const ssize_t read = ::recv(channel, message.data(), message.size(), MSG_DONTWAIT | MSG_TRUNC);
+  if (read <= 0) ::usleep(1000);  // closed: whoever asks again does not spin
+  return read == static_cast<ssize_t>(message.size());
+}
+
+void confine(std::size_t memory) {
+  // The sanitizers take address space for themselves.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const rlim_t most = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + memory;
+  const rlimit space{most, most};
+  ::setrlimit(RLIMIT_AS, &space);
+#endif
+  const rlimit none{0, 0};
+  ::setrlimit(RLIMIT_CORE, &none);
+  // RLIMIT_NPROC counts all processes of the user, and does not hold for root.
+  std::vector<sock_filter> filter{BPF_STMT(BPF_LD | BPF_W | BPF_ABS, 0)};  // the number of the system call
+  for (const unsigned call : {SYS_clone, SYS_clone3,
+#ifdef SYS_fork
+                              SYS_fork, SYS_vfork
+#endif
+       }) {
+    filter.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, call, 0, 1));
+    filter.push_back(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EAGAIN));
+  }
+  filter.push_back(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW));
+  const sock_fprog program{static_cast<unsigned short>(filter.size()), filter.data()};
+  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
+}
+
+void end_after(unsigned seconds) { ::alarm(seconds); }
+
+void* load_function(int library, const char* name) {
+  void* opened = ::dlopen(("/proc/self/fd/" + std::to_string(library)).c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* function = opened ? ::dlsym(opened, name) : nullptr;
+  if (!function) throw std::runtime_error(::dlerror());
+  return function;
 }
 
 }  // namespace app
+
+#else
+
+namespace app {
+
+SharedMemory::SharedMemory(std::size_t) { throw UsageError("methods of your own need Linux"); }
+SharedMemory::~SharedMemory() = default;
+Process::Process(std::vector<std::string>, const std::vector<int>&, const std::filesystem::path&) {}
+Process::~Process() = default;
+std::optional<std::string> Process::end() { return "not started"; }
+void send(int, std::span<const std::byte>) {}
+bool receive(int, std::span<std::byte>, int) { return false; }
+std::span<std::byte> take_memory(int, std::size_t) { return {}; }
+void confine(std::size_t) {}
+void end_after(unsigned) {}
+void* load_function(int, const char*) { return nullptr; }
+
+}  // namespace app
+
+#endif

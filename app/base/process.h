@@ -1,35 +1,71 @@
 #pragma once
-// Another program that this one starts, such as ffmpeg.
+// Other processes. All that differs from system to system is in process.cpp, which knows Linux; elsewhere no process
+// can be started.
 
 #include <cstddef>
-#include <memory>
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace app {
 
-/// A running program. It reads from standard input what it is sent.
-class Process {
+/// A file in memory, for this process and others: 0 at first, and nobody can change its size. It takes memory where it
+/// has been written to.
+class SharedMemory {
  public:
-  /// Starts a program that is found in $PATH. output: an open file, by its descriptor, which becomes the standard
-  /// output. Throws std::system_error, with std::errc::no_such_file_or_directory if there is no such program.
-  Process(std::vector<std::string> words, int output);
-  /// Ends the program if it still runs.
-  ~Process();
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
+  /// Throws std::bad_alloc.
+  explicit SharedMemory(std::size_t size);
+  ~SharedMemory();
+  SharedMemory(const SharedMemory&) = delete;
 
-  /// Returns false if the program reads no more. No signal tells of it.
-  bool send(std::span<const std::byte> bytes);
-  /// Ends the input and waits for the program. Returns true if it reports success, once.
-  bool finish();
-  /// Returns the last line on its standard error; empty if there is none. Call it after finish().
-  std::string last_error_line() const;
+  std::span<std::byte> bytes() const { return bytes_; }
+  int handle() const { return handle_; }
 
  private:
-  struct System;
-  std::unique_ptr<System> system_;
+  int handle_ = -1;
+  std::span<std::byte> bytes_;
 };
+
+/// Another process, which reads no input and has no other handles than it is given.
+class Process {
+ public:
+  static constexpr int channel_inside = 3, first_handle = 4;
+  static constexpr const char* this_program = "/proc/self/exe";
+
+  /// words: the program and its arguments. handles: have the numbers from first_handle on inside. output: the file for
+  /// what it prints. Throws UsageError.
+  Process(std::vector<std::string> words, const std::vector<int>& handles,
+          const std::filesystem::path& output = "/dev/null");
+  /// Ends it, and what it has started.
+  ~Process();
+  Process(const Process&) = delete;
+
+  /// The end of the channel whose other end is channel_inside.
+  int channel() const { return channel_; }
+  /// Returns how it ended: "ended by signal SIGSEGV (Segmentation fault)", "ended itself with status 0"; nothing while
+  /// it runs.
+  std::optional<std::string> end();
+
+ private:
+  int id_ = 0, channel_ = -1;
+  std::optional<std::string> end_;
+};
+
+/// Sends a message, which is lost if nobody has the other end. Messages arrive whole and in order.
+void send(int channel, std::span<const std::byte> message);
+/// Waits for a message of this length, so many milliseconds at most if that is not -1. Returns true if one has come.
+bool receive(int channel, std::span<std::byte> message, int milliseconds = -1);
+
+// In a process that is to harm nothing.
+/// Takes the memory of another process. Only the first `writable` bytes, whole pages, can be written to.
+std::span<std::byte> take_memory(int handle, std::size_t writable);
+/// Lets this process take at most so many more bytes of memory, and start neither processes nor threads.
+void confine(std::size_t memory);
+/// Ends this process after so many seconds, unless it is called again; 0: never.
+void end_after(unsigned seconds);
+/// Loads a library and returns its function. Throws std::runtime_error with why there is none.
+void* load_function(int library, const char* name);
 
 }  // namespace app

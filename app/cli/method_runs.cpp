@@ -27,7 +27,7 @@ struct Runner {
   void search(std::size_t frame, const SequenceTask& task, collide::Workers& workers, collide::Result& result) {
     if (!task.reuse) detector->forget();
     const collide::Frame view = task.frames[frame].view();
-    const double ms = time_ms([&] { detector->detect(view, task.settings, workers, result); });
+    const double ms = compare::timed_search(*detector, view, task.settings, workers, result);
     if (frame == run.rows.size())
       run.rows.push_back({result.contacts.size(), result.self_contacts, result.counters, result.skipped, {}, {}});
     run.rows[frame].times.ms.push_back(ms);

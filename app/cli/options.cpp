@@ -231,6 +231,12 @@ CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& beside, std
   return simulate;
 }
 
+void add_guest_option(CLI::App& command, Options& options) {
+  add(command, "--guest", "FILE", options.guests,
+      "a method of your own to compare: a source .c or .cpp, or a library .so; may be repeated")
+      ->allow_extra_args(false);
+}
+
 void add_bodies_option(CLI::App& command, std::optional<files::BodiesBy>& by) {
   command
       .add_option_function<std::string>(
@@ -252,6 +258,7 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
   detect->add_option("FILE", d.files, "OBJ or PLY files: consecutive frames of the same bodies")->required();
   add_bodies_option(*detect, d.by);
   add_common_options(*detect, options);
+  add_guest_option(*detect, options);
   detect->get_option("--method")->description("detector: a key of `list methods`, or all of them: compares them");
   detect->add_flag("--self,!--no-self", d.self_collision,
                    "whether pairs of one body count (default: yes; of both, the last one holds)");
@@ -263,7 +270,8 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
   CLI::Option* continuous = detect->add_flag(
       "--continuous", d.continuous,
       "of two files FROM and TO: all vertices and faces, edges and edges that meet on the straight way between them");
-  for (const char* other : {"--tolerance", "--method", "--bodies", "--self", "--rest", "--repeat", "--no-reuse"})
+  for (const char* other :
+       {"--tolerance", "--method", "--guest", "--bodies", "--self", "--rest", "--repeat", "--no-reuse"})
     continuous->excludes(detect->get_option(other));
   return detect;
 }
@@ -276,6 +284,7 @@ CLI::App* add_report(CLI::App& cli, Options& options) {
   add(*report, "--tolerance", "H", r.tolerance, "of FILE: collision tolerance in metres");
   add_bodies_option(*report, r.by);
   add(*report, "--rest", "FILE", r.rest, "of FILE: bodies at rest, as for `detect`");
+  add_guest_option(*report, options);
   add(*report, "--scene", "S", r.scene, "only this scene: a key of `list scenes` or a .toml file");
   report->add_flag("--quick", r.quick, "within a minute: fewer scenes, states and repetitions");
   add(*report, "--threads", "N", 1, 256, r.threads,
@@ -466,6 +475,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   add(cli, "--play", "FILE", options.play,
       "OBJ or PLY files: recorded frames that the window plays; nothing is simulated");
   add_bodies_option(cli, options.bodies_by);
+  add_guest_option(cli, options);
 
   const CLI::App* simulate = add_simulate(cli, options, beside, size, captures);
   const CLI::App* detect = add_detect(cli, options);
@@ -499,6 +509,10 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
                                   : Command::demo;
   if (!options.meshes.empty() && options.command != Command::demo)
     throw UsageError("--mesh: only the window takes it; a scene file names meshes for `simulate`");
+  const bool compares = options.command == Command::demo || options.command == Command::detect ||
+                        (options.command == Command::report && options.report.name == "detection");
+  if (!options.guests.empty() && !compares)
+    throw UsageError("--guest: goes with the window, `detect` and `report detection`, which compare methods");
   check_play(cli, options);
   if (!size.empty()) options.size = parse_size(size);
   options.scene_given = cli.count("--scene") > 0;
@@ -522,7 +536,10 @@ files::Opened open(const Options& options) {
 
 void apply(const Options& options, softbody::Scene& scene) {
   const bool may_be_saved = options.play.empty();
-  scene.method = chosen_method(options.detection, scene.method).key;
+  const collide::Method& method = chosen_method(options.detection, scene.method);
+  if (!method.can_drive())
+    throw UsageError("--method " + method.key + ": a method of your own is only compared, it drives no bodies");
+  scene.method = method.key;
   if (const auto tolerance = options.detection.tolerance; tolerance && may_be_saved)
     require_length(fmt::format("--tolerance {:.9g}", *tolerance), *tolerance, softbody::scene_key::tolerance);
   apply(options.detection, scene.collision);

@@ -59,6 +59,7 @@ struct Options {
   int threads = 1;
   double frame_time = 1.0 / 60.0;   // s
   std::optional<glm::ivec2> size;   // pixels, of pictures and the window; otherwise the window has its last one
+  std::vector<std::string> guests;  // files with methods of the user's own
   std::vector<std::string> meshes;  // mesh files to open in the window
   std::vector<std::string> play;    // mesh files that the window plays as frames, in place of a scene
   std::optional<files::BodiesBy> bodies_by;  // what a body of them is; otherwise the format's default

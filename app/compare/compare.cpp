@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "app/base/text.h"
-#include "app/base/timings.h"
 
 namespace app::compare {
 namespace {
@@ -94,7 +93,7 @@ void Comparison::detect(std::size_t method, const FrameSnapshot& snapshot) {
   entry.error.clear();
   try {
     entry.detector->forget();  // all methods search from scratch
-    entry.ms = time_ms([&] { entry.detector->detect(snapshot.view(), snapshot.settings, alone_, entry.result); });
+    entry.ms = timed_search(*entry.detector, snapshot.view(), snapshot.settings, alone_, entry.result);
     cost_model_.learn(method, entry.result.counters);
   } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report
     entry.error = "not run: " + failure_text(error);

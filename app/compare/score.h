@@ -1,5 +1,5 @@
 #pragma once
-// Compares the contacts that a method found with the true ones.
+// What a method takes and finds on a frame: its time, and its contacts beside the true ones.
 
 #include <algorithm>
 #include <cassert>
@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "app/base/timings.h"
 #include "collide/core/detector.h"
 
 namespace app::compare {
@@ -19,6 +20,13 @@ struct Score {
   double recall = 1;                            // found true contacts / all true contacts; 1 if there are none
   double precision = 1;                         // found true contacts / all found contacts; 1 if none is found
 };
+
+/// Searches a frame. Returns how long that took (ms): as long as the method says if it measures that itself.
+inline double timed_search(collide::Detector& detector, const collide::Frame& frame, const collide::Settings& settings,
+                           collide::Workers& workers, collide::Result& result) {
+  const double ms = time_ms([&] { detector.detect(frame, settings, workers, result); });
+  return result.own_ms.value_or(ms);
+}
 
 /// Returns part / whole; 1 if there is nothing.
 inline double share(std::size_t part, std::size_t whole) {

@@ -183,6 +183,15 @@ std::vector<BodyMeshes::Edge> BodyMeshes::edges(std::size_t body) const {
   return list;
 }
 
+std::vector<softbody::Triangle> BodyMeshes::fans(std::size_t body) const {
+  std::vector<softbody::Triangle> list;
+  for (std::size_t p = first_polygon[body]; p < first_polygon[body + 1]; ++p) {
+    const std::span<const Index> corners = polygons[p];
+    for (std::size_t i = 2; i < corners.size(); ++i) list.push_back({corners[0], corners[i - 1], corners[i]});
+  }
+  return list;
+}
+
 std::vector<softbody::Triangle> triangles_of(const BodyMeshes& meshes, std::size_t body, const softbody::Points& at) {
   std::vector<softbody::Triangle> list;
   const auto position = [&](Index corner) {

@@ -49,6 +49,8 @@ struct BodyMeshes {
   collide::Index size(std::size_t body) const { return first[body + 1] - first[body]; }
   /// Returns the sides of a body's polygons, no diagonals; local indices, with duplicates.
   std::vector<Edge> edges(std::size_t body) const;
+  /// Returns a body's polygons, each cut from its first corner; local indices.
+  std::vector<softbody::Triangle> fans(std::size_t body) const;
 };
 
 /// Cuts a polygon into triangles. corners: numbers of vertices; position(corner): m. Calls take(triangle) for each.

@@ -30,8 +30,9 @@ void add_bodies(collide::Bodies& bodies, const BodyMeshes& meshes, const softbod
     for (Index v = meshes.first[b]; rest && v < meshes.first[b + 1]; ++v)
       positions.emplace_back(rest->x[v], rest->y[v], rest->z[v]);
     bodies.add(std::make_shared<collide::Shape>(
-        b > 0 && same_mesh(meshes, b, b - 1) ? bodies.shape.back()->shared_topology()
-                                             : std::make_shared<collide::Topology>(meshes.size(b), meshes.edges(b)),
+        b > 0 && same_mesh(meshes, b, b - 1)
+            ? bodies.shape.back()->shared_topology()
+            : std::make_shared<collide::Topology>(meshes.size(b), meshes.edges(b), meshes.fans(b)),
         std::move(positions)));
   }
 }

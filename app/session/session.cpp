@@ -38,7 +38,7 @@ void Session::let_pass(double elapsed) {
 
 bool Session::awaits_answer() const {
   return comparison.awaits_report(simulation.revision()) || surfaces.awaits_report(simulation.revision()) ||
-         surfaces_beside.awaits_report(simulation.revision()) || price.awaits_price();
+         surfaces_beside.awaits_report(simulation.revision()) || price.awaits_price() || guests.loading();
 }
 
 News Session::news() const {
@@ -48,6 +48,7 @@ News Session::news() const {
           .price = price.price(),
           .imported = import.report().size(),
           .notice = simulation.notice.text(),
+          .guests = guests.message(),
           .exported = exporter.message(),
           .finishing = exporter.finishing(),
           .sweeping = sweep().running};
@@ -86,6 +87,7 @@ void Session::exchange() {
   // The workers rest longer while pictures come late, and where steps need the cores that they would take.
   const bool late = simulation.history.frame_ms.median(15) > late_ms;
   const int rests = late || simulation.step_ms() > 500 * world().frame_time() ? 10 : 2;
+  if (const auto method = guests.update()) comparison.method_changed(*method);
   comparison.exchange(world(), simulation.revision(), simulation.world_number(), rests);
   look_at_surfaces(surfaces, Half::first, rests);
   look_at_surfaces(surfaces_beside, Half::second, rests);

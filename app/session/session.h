@@ -4,6 +4,7 @@
 #include "app/session/body_controls.h"
 #include "app/session/detection_inspector.h"
 #include "app/session/export/exporter.h"
+#include "app/session/guests.h"
 #include "app/session/import.h"
 #include "app/session/live/live_comparison.h"
 #include "app/session/live/price_monitor.h"
@@ -22,7 +23,7 @@ struct News {
   std::uint64_t world = 0, comparison = 0, surfaces = 0;
   const compare::Price* price = nullptr;
   std::size_t imported = 0;  // messages
-  std::string notice, exported;
+  std::string notice, guests, exported;
   bool finishing = false, sweeping = false;  // a recording; a sweep
 
   bool operator==(const News&) const = default;
@@ -47,6 +48,7 @@ class Session : private SimulationObserver {
   SurfaceMonitor surfaces, surfaces_beside;
   PriceMonitor price;
   SweepWorker sweep_worker;
+  Guests guests;  // go first, so that those above need not wait for what they run
   Import import;
   Exporter exporter;
 

@@ -31,7 +31,7 @@ void SettingControls::next_method(const compare::MethodSet& methods) {
   const auto first = static_cast<std::size_t>(here - all.begin());
   for (std::size_t i = 1; i < all.size(); ++i) {
     const std::size_t next = (first + i) % all.size();
-    if (methods[next] && set_method(all[next].key)) return;
+    if (methods[next] && all[next].can_drive() && set_method(all[next].key)) return;
   }
 }
 

@@ -11,6 +11,7 @@ constexpr float strip_edge = 6, line_gap = 2, min_card_width = 310;  // design p
 
 void draw_messages(Widgets& w, const Session& session, const std::string& no_room_message) {
   draw_import_report(w, session.import);
+  draw_guest_report(w, session.guests);
   if (!no_room_message.empty()) w.wrapped_text("No room", no_room_message);
   const session::Notice& notice = session.simulation.notice;
   if (!notice.text().empty()) w.wrapped_text("Notice", notice.text(), notice.is_error());
@@ -33,7 +34,7 @@ void draw_sentences(Widgets& w, const Session& session, bool panel) {
 bool has_messages(const Session& session) {
   const session::Import& import = session.import;
   return !session.simulation.notice.text().empty() || !import.report().empty() || import.busy() ||
-         !import.question().empty();
+         !import.question().empty() || !session.guests.message().empty();
 }
 
 void Strip::draw_cards(Widgets& w, const Session& session, const UiState& ui, const Parts& parts) {

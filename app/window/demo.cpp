@@ -64,9 +64,11 @@ class Demo {
         graphics_(std::make_unique<Graphics>(options.size.value_or(preferences_.stored().size), options.threads)),
         session_owner_(open_session(options, *graphics_)),
         session_(*session_owner_) {
+    for (const std::shared_ptr<guest::Guest>& guest : options.guests) session_.guests.add(guest);
     session_.settings.set_integrator(options.integrator);
     if (options.beside) session_.simulation.set_beside(*options.beside);
     apply(preferences_.is_new() ? first_preferences(window_size()) : preferences_.stored(), session_, ui_);
+    if (!options.guests.empty()) ui_.lower = ui::LowerView::comparison;
     ui_.story = ui_.story_at_start && !options.scene_given && options.meshes.empty();
     store_preferences();
     if (!options.meshes.empty() && !options.scene_given) session_.import.lone_options = options.apply;
@@ -160,7 +162,7 @@ class Demo {
 
   void draw_picture(double elapsed) {
     seconds_ += elapsed;
-    session_.import.drop(graphics_->window.take_dropped_files());
+    session_.import.drop(session_.guests.take_from(graphics_->window.take_dropped_files()));
     session_.import.update();
     // Handles all waiting input before this picture, a click at a time, so that a slow world does not delay typing and
     // clicks.

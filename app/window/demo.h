@@ -9,6 +9,7 @@
 
 #include "app/compare/difference.h"
 #include "app/files/recording.h"
+#include "app/guest/guest.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/scene/scene.h"
 
@@ -20,6 +21,7 @@ struct DemoOptions {
   bool scene_given = false;                     // else it is the default scene, which opens with the story
   std::filesystem::path scene_folder;           // of the other scenes that the panel offers
   std::vector<std::string> meshes;              // mesh files that are imported; they join a scene that is given
+  std::vector<std::shared_ptr<guest::Guest>> guests;  // in the table of methods
   std::function<void(softbody::Scene&)> apply;  // the options of scenes, for the one in which meshes open
   softbody::IntegratorChoice integrator;
   std::optional<compare::HowSimulated> beside;  // the second world

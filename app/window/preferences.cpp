@@ -55,7 +55,9 @@ std::string text_of(const Preferences& p) {
   out.heading("[show]");
   for (const render::OverlayRow& row : render::overlay_table) out.add(row.key, p.shown.overlays.*row.shown);
   out.heading("[methods]");
-  for (std::size_t m = 0; m < p.methods.size(); ++m) out.add(collide::method_table()[m].key, bool{p.methods[m]});
+  for (std::size_t m = 0; m < p.methods.size(); ++m)
+    if (const collide::Method& method = collide::method_table()[m]; method.can_drive())  // else it comes and goes
+      out.add(method.key, bool{p.methods[m]});
   for (const auto& [name, open] : p.shown.sections) out.heading("[[section]]").add("name", name).add("open", open);
   return out.text();
 }

@@ -5,8 +5,9 @@
 
 namespace collide {
 
-Topology::Topology(Index vertex_count, std::span<const std::array<Index, 2>> edges)
-    : first_(vertex_count + std::size_t{1}, 0) {
+Topology::Topology(Index vertex_count, std::span<const std::array<Index, 2>> edges,
+                   std::vector<std::array<Index, 3>> triangles)
+    : first_(vertex_count + std::size_t{1}, 0), triangles_(std::move(triangles)) {
   std::vector<std::array<Index, 2>> directed;
   directed.reserve(2 * edges.size());
   for (const auto& [i, j] : edges) {

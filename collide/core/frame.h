@@ -15,12 +15,15 @@ namespace collide {
 
 using Index = std::uint32_t;
 
-/// The edges of a mesh. All bodies that are copies of one mesh share it. Immutable.
+/// The edges of a mesh, and its triangles where they are known. All bodies that are copies of one mesh share it.
+/// Immutable.
 class Topology {
  public:
   /// edges: pairs of local vertex indices, in any order; duplicates are allowed, self loops are ignored.
-  /// Throws std::invalid_argument if an edge names a vertex that does not exist.
-  Topology(Index vertex_count, std::span<const std::array<Index, 2>> edges);
+  /// triangles: of local vertex indices; only kept. Throws std::invalid_argument if an edge names a vertex that does
+  /// not exist.
+  Topology(Index vertex_count, std::span<const std::array<Index, 2>> edges,
+           std::vector<std::array<Index, 3>> triangles = {});
 
   Index vertex_count() const { return static_cast<Index>(first_.size() - 1); }
   bool joined(Index i, Index j) const;
@@ -28,11 +31,13 @@ class Topology {
   std::span<const Index> neighbours(Index i) const {
     return std::span(neighbour_).subspan(first_[i], first_[i + std::size_t{1}] - first_[i]);
   }
+  const std::vector<std::array<Index, 3>>& triangles() const { return triangles_; }
   bool operator==(const Topology&) const = default;
 
  private:
   std::vector<Index> first_;      // vertex_count + 1 offsets into neighbour_
   std::vector<Index> neighbour_;  // the mesh neighbours of each vertex, ascending
+  std::vector<std::array<Index, 3>> triangles_;
 };
 
 /// A mesh and, where it is known, its rest shape. It decides which vertex pairs of one body can never be contacts:

@@ -1,6 +1,7 @@
 #pragma once
 // What a detection returns: contacts, counters, and the work that it left out.
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -52,6 +53,7 @@ enum class Coverage {
   exact,     // the method cannot miss a contact (green)
   covered,   // literal, no box exceeds a cell: only contacts across a cell face can be lost (amber)
   exceeded,  // literal, a box exceeds a cell: its corners skip cells (red)
+  unknown,   // a method of the user's own
 };
 
 struct Result {
@@ -62,6 +64,7 @@ struct Result {
   std::uint64_t& skip(Skip kind) { return skipped[static_cast<std::size_t>(kind)]; }
   Coverage coverage = Coverage::exact;
   std::vector<Index> non_finite_bodies{};  // bodies with a NaN or infinite coordinate: left out; ascending
+  std::optional<double> own_ms{};          // how long the search took, of a method that measures that itself
 
   /// Clears everything except the contacts, which a method overwrites.
   void start() { *this = {.contacts = std::move(contacts)}; }

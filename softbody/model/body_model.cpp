@@ -31,7 +31,8 @@ BodyMesh body_mesh(Mesh mesh) {
   made.surface = std::make_shared<collide::surface::Surface>(count, mesh.triangles);
   for (const auto& [i, j] : made.surface->edges()) made.mean_edge += glm::distance(rest[i], rest[j]);
   made.mean_edge /= double(std::max<std::size_t>(1, made.surface->edges().size()));
-  made.shape = std::make_shared<collide::Shape>(count, mesh.edges, rest);
+  made.shape =
+      std::make_shared<collide::Shape>(std::make_shared<collide::Topology>(count, mesh.edges, mesh.triangles), rest);
   made.mesh = std::move(mesh);
   return made;
 }

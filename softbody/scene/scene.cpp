@@ -10,7 +10,7 @@ namespace softbody {
 
 std::string problem(const Scene& scene) {
   std::string found = problem(scene.collision);
-  if (!collide::find_method(scene.method)) found = "method must be one of: " + collide::method_keys();
+  if (!collide::find_driver(scene.method)) found = "method must be one of: " + collide::method_keys();
   const auto check = [&](const std::string& name, Key::Limits limits, double value) {
     const auto [least, most] = limits;  // as floats, of which some of the values are
     if (float(value) >= float(least) && float(value) <= float(most)) return;

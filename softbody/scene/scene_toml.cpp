@@ -43,7 +43,7 @@ void read(Table& t, const std::string& name, const Key& key, Value& value) {
     value = found->value;
   } else {
     value = t.text(name, value);
-    if (!collide::find_method(value)) t.fail(name, "must be one of: " + collide::method_keys());
+    if (!collide::find_driver(value)) t.fail(name, "must be one of: " + collide::method_keys());
   }
 }
 

@@ -101,7 +101,7 @@ TEST(CompareView, ShowsAndMeasuresTheMethodsAndGroupsThatAreChosen) {
   rig.click("Shown methods");
   click("Show Grid Hash",
         [](const collide::Method& method) { return method.key == "grid-hash" ? std::optional(false) : std::nullopt; });
-  for (const collide::MethodGroupName& group : collide::method_groups)
+  for (const collide::MethodGroupName& group : std::span(collide::method_groups).first(4))  // no guest is there
     click(group.name, [&](const collide::Method& method) {
       return method.group == group.group ? std::optional(true) : std::nullopt;
     });

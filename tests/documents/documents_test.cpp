@@ -98,6 +98,7 @@ std::string wrapped(const std::string& text) {
 std::string descriptions_of_methods() {
   std::string text;
   for (const collide::MethodGroupName& group : collide::method_groups) {
+    if (group.group == collide::MethodGroup::guests) continue;
     text += fmt::format("### {}\n", group.name);
     for (const collide::Method& method : collide::method_table())
       if (method.group == group.group)

@@ -12,7 +12,7 @@ namespace app::report {
 // ---- the table of figures ----
 
 Table detection_table(const DetectionResults& results) {
-  constexpr std::array coverage_names{"exact", "covered", "exceeded"};  // by value
+  constexpr std::array coverage_names{"exact", "covered", "exceeded", "unknown"};  // by value
   Table table;
   const auto add = [&](std::string_view part, const SceneResult& scene) {
     for (const MeasuredState& state : scene.states)

@@ -10,7 +10,7 @@ void LiveComparison::exchange(const softbody::BodiesInMotion& world, std::uint64
   compare::add_new_methods(choice.methods);
   method_ms_.resize(choice.methods.size());
   sums_.resize(choice.methods.size());
-  if (report && report->id >= first_wanted_) keep(std::move(*report));
+  if (report && !std::exchange(outdated_, false) && report->id >= first_wanted_) keep(std::move(*report));
   if (!wants_report(revision) || !comparison_.ready(rests)) return;
   compare::FrameSnapshot snapshot;
   snapshot.id = revision;
@@ -89,6 +89,14 @@ void LiveComparison::detection_changed(const softbody::BodiesInMotion& world, st
   settings_ = world.collision();
   first_wanted_ = revision;
   forget_times();
+}
+
+void LiveComparison::method_changed(std::size_t method) {
+  outdated_ = comparison_.has_work();
+  offered_ = 0;
+  if (method >= sums_.size()) return;  // it was not compared yet
+  sums_[method] = {};
+  method_ms_[method].clear();
 }
 
 void LiveComparison::forget_times() {

@@ -39,6 +39,9 @@ class LiveComparison {
   /// Drops the curves of other settings; their report stays until a new one arrives.
   void detection_changed(const softbody::BodiesInMotion& world, std::uint64_t revision);
 
+  /// The method is another one from now on, under the same row: drops what is known of the one before.
+  void method_changed(std::size_t method);
+
   /// Returns the report of a state that is a few frames old. Its vertices still exist.
   const compare::CompareReport& report() const { return report_; }
   /// Counts the reports, so that a new one is noticed.
@@ -77,6 +80,7 @@ class LiveComparison {
   compare::CompareReport report_;
   std::uint64_t reports_ = 0, offered_ = 0, first_wanted_ = 0;
   int offers_ = 0;                      // of the state offered_, with the same methods
+  bool outdated_ = false;               // the next report: a method has changed since it was asked for
   compare::MethodSet offered_methods_;  // empty: none but the driver
   TimeSeries recall_;
   std::vector<TimeSeries> method_ms_ = std::vector<TimeSeries>(choice.methods.size());

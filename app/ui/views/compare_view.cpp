@@ -136,11 +136,11 @@ void draw_name(Widgets& w, const Grid& grid, const Row& row) {
   const float left = ImGui::GetItemRectMax().x + w.px(6);
   ImGui::SetCursorScreenPos({left, grid.text_top()});
   const std::string text = row.method.name + row.label("Drive"),
-                    tooltip = row.method.summary + " Click to let it drive the bodies.";
+                    tooltip = row.method.summary + (row.method.can_drive() ? " Click to let it drive the bodies." : "");
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(row.scored() ? ImGuiCol_Text : ImGuiCol_TextDisabled));
   const bool clicked = ImGui::Selectable(text.c_str(), false, 0, {grid.right[name] - left, 0});
   ImGui::PopStyleColor();
-  if (w.register_item(clicked, text, tooltip))
+  if (w.register_item(clicked, text, tooltip) && row.method.can_drive())
     w.ask([&key = row.method.key](Session& s) { s.settings.set_method(key); });
 }
 

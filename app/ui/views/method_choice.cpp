@@ -39,7 +39,8 @@ void draw_method_line(Widgets& w, const Session& session, const collide::Method&
   draw_method_mark(w, method, ImGui::GetFrameHeight());
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  if (w.combo_item(method.name, method.key == edited(session.simulation).method().key, method.description))
+  if (w.combo_item(method.name, method.key == edited(session.simulation).method().key, method.description) &&
+      method.can_drive())
     w.ask([&key = method.key](Session& s) { s.settings.set_method(key); });
   const StatusLight light = status_light(method);
   ImGui::SameLine(w.px(promise_column));
@@ -57,6 +58,7 @@ void draw_method_choice(Widgets& w, const Session& session, std::string_view lab
   draw_check_box(w, session, "All methods", [](const collide::Method&) { return true; });
   for (const collide::MethodGroupName& group : collide::method_groups) {
     const auto belongs = [&](const collide::Method& method) { return method.group == group.group; };
+    if (std::ranges::none_of(collide::method_table(), belongs)) continue;
     draw_check_box(w, session, std::string(group.name), belongs);
     ImGui::Indent(w.px(list_indent));
     for (const collide::Method& method : collide::method_table())

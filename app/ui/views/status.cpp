@@ -53,11 +53,13 @@ void draw_lines(Widgets& w, const std::vector<render::LegendLine>& lines, bool f
 }  // namespace
 
 StatusLight status_light(const collide::Method& method) {
-  return status_light(method.exact ? collide::Coverage::exact : collide::Coverage::covered);
+  return status_light(method.exact         ? collide::Coverage::exact
+                      : method.can_drive() ? collide::Coverage::covered
+                                           : collide::Coverage::unknown);
 }
 
 StatusLight status_light(collide::Coverage coverage) {
-  static constexpr std::array<StatusLight, 3> lights{
+  static constexpr std::array<StatusLight, 4> lights{
       // by collide::Coverage
       {{render::status_green, "Green", "exact",
         "The method is exact: it finds every pair of vertices closer than the tolerance."},
@@ -66,7 +68,8 @@ StatusLight status_light(collide::Coverage coverage) {
         "method, but True surfaces found vertices inside other bodies."},
        {render::status_red, "Red", "can miss",
         "The paper's method, and a box is larger than a cell. It can miss contacts in the cells between its "
-        "corners."}}};
+        "corners."},
+       {render::status_amber, "Amber", "can miss", "A method of your own: it can miss any contact."}}};
   return lights.at(static_cast<std::size_t>(coverage));
 }
 

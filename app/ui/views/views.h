@@ -23,6 +23,8 @@ void draw_compare(Widgets& widgets, const Session& session, const UiState& ui, c
 /// Draws the progress of a file that is being read, and the report on the last files until the user closes it: what was
 /// found in each and what was done to it. Draws nothing if there is neither.
 void draw_import_report(Widgets& widgets, const session::Import& import);
+/// Draws what methods of the user's own ask or say, if anything.
+void draw_guest_report(Widgets& widgets, const session::Guests& guests);
 
 /// Draws the hash table of the method that is shown: a square for each bucket, coloured by its load. A click asks for
 /// the bucket: its boxes are shown in the scene.

@@ -1,4 +1,4 @@
-#include "app/base/process.h"
+#include "app/base/piped_program.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ class ProcessTest : public testing::Test {
 
 TEST_F(ProcessTest, ReadsAllThatItIsSent) {
   const std::string text(1 << 20, 'x');  // more than a socket holds
-  Process cat({"cat"}, descriptor);
+  PipedProgram cat({"cat"}, descriptor);
   EXPECT_TRUE(cat.send(std::as_bytes(std::span(text))));
   EXPECT_TRUE(cat.finish());
   EXPECT_TRUE(output() == text);
@@ -32,14 +32,14 @@ TEST_F(ProcessTest, ReadsAllThatItIsSent) {
 }
 
 TEST_F(ProcessTest, SaysThatItFailedAndItsLastErrorLine) {
-  Process shell({"sh", "-c", "echo first >&2; echo second line >&2; exit 1"}, descriptor);
+  PipedProgram shell({"sh", "-c", "echo first >&2; echo second line >&2; exit 1"}, descriptor);
   EXPECT_FALSE(shell.finish());
   EXPECT_EQ(shell.last_error_line(), "second line");
   EXPECT_FALSE(shell.finish());
 }
 
 TEST_F(ProcessTest, IsNoLongerSentToOnceItHasEnded) {
-  Process shell({"true"}, descriptor);
+  PipedProgram shell({"true"}, descriptor);
   const std::string text = "more";
   while (shell.send(std::as_bytes(std::span(text)))) continue;
   EXPECT_TRUE(shell.finish());
@@ -47,7 +47,7 @@ TEST_F(ProcessTest, IsNoLongerSentToOnceItHasEnded) {
 
 TEST_F(ProcessTest, RefusesAProgramThatIsNotThere) {
   try {
-    Process nothing({"no-such-program"}, descriptor);
+    PipedProgram nothing({"no-such-program"}, descriptor);
     ADD_FAILURE();
   } catch (const std::system_error& error) {
     EXPECT_EQ(error.code(), std::errc::no_such_file_or_directory);

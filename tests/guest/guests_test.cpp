@@ -1,0 +1,81 @@
+// The user's own methods in the window.
+
+#include "app/session/guests.h"
+
+#include "tests/app/panel_rig.h"
+#include "tests/own_process.h"
+#include "tests/temporary_folder.h"
+
+namespace app {
+namespace THIS_FILE {
+
+std::string loop(const std::string& condition) {
+  return "#include <sbcollide/method.h>\n"
+         "static void find(void* self, const sbcollide_frame* f, float h, sbcollide_pairs* pairs) {\n"
+         "  (void)self;\n"
+         "  for (uint32_t a = 0; a < f->vertex_count; ++a)\n"
+         "    for (uint32_t b = 0; b < a; ++b) {\n"
+         "      float x = f->x[a] - f->x[b], y = f->y[a] - f->y[b], z = f->z[a] - f->z[b];\n"
+         "      if (" +
+         condition +
+         ") sbcollide_add(pairs, a, b);\n"
+         "    }\n"
+         "}\n"
+         "static const sbcollide_method m = {SBCOLLIDE_METHOD_VERSION, \"loop\", \"Loop\", \"All pairs.\", 0, find, "
+         "0};\n"
+         "SBCOLLIDE_GUEST const sbcollide_method* sbcollide_guest(void) { return &m; }\n";
+}
+const std::string right = "x * x + y * y + z * z < h * h", false_one = "x * x < h * h", endless = "a >= b || (b = 0)";
+
+void expect_the_life_of_a_guest() {
+  const tests::TemporaryFolder folder;
+  const auto write = [&](const std::string& condition) { return folder.write("loop.c", loop(condition)).string(); };
+  PanelRig rig;
+  session::Guests& guests = rig.session.guests;
+  const std::vector<std::string> others = guests.take_from({"ball.obj", write("x *"), "scene.toml"});
+  EXPECT_EQ(others, (std::vector<std::string>{"ball.obj", "scene.toml"}));
+  rig.frames(3);
+  EXPECT_TRUE(rig.shows("Guest report"));
+  rig.click("Leave");
+  EXPECT_FALSE(rig.shows("Guest report"));
+  guests.take_from({write("x *")});
+  rig.frames(3);
+  const std::size_t before = collide::method_table().size();
+  rig.click("Run");
+  ASSERT_TRUE(rig.frames_until([&] { return rig.shows("x###Close guest report"); }));
+  EXPECT_NE(guests.message().find("loop.c:7:"), std::string::npos) << guests.message();
+  EXPECT_EQ(collide::method_table().size(), before) << "nobody knows its key yet";
+  rig.click("x###Close guest report");
+  EXPECT_FALSE(rig.shows("Guest report"));
+
+  const session::LiveComparison& comparison = rig.session.comparison;
+  const auto row = [&] { return comparison.scored_row(before); };
+  const auto not_run = [&] {
+    return comparison.report().rows.size() > before ? comparison.report().rows[before].not_run : std::string();
+  };
+  write(right);
+  ASSERT_TRUE(rig.frames_until([&] { return row() != nullptr; }));
+  EXPECT_EQ(collide::method_table()[before].key, "guest:loop");
+  EXPECT_EQ(row()->recall, 1);
+  EXPECT_EQ(row()->precision, 1);
+  EXPECT_TRUE(row()->ms);
+  const std::string driver = rig.session.world().method().key;
+  rig.click("Loop###Drive Loop");
+  EXPECT_EQ(rig.session.world().method().key, driver) << "it never drives bodies";
+
+  write(false_one);
+  ASSERT_TRUE(rig.frames_until([&] { return row() && row()->precision < 1; }));
+  write(endless);
+  ASSERT_TRUE(rig.frames_until([&] { return !not_run().empty(); }));
+  EXPECT_EQ(not_run(), "not run: loop.c: over its time: 2 s");
+  write(right);
+  ASSERT_TRUE(rig.frames_until([&] { return row() && row()->precision == 1; }));
+  EXPECT_EQ(comparison.sum(before).recall(), 1);
+}
+
+TEST(Guests, AreAskedForShownMendedAndComparedButDriveNothing) {
+  tests::in_a_process_of_its_own(expect_the_life_of_a_guest);
+}
+
+}  // namespace THIS_FILE
+}  // namespace app
