@@ -90,38 +90,13 @@ void ContactSearch::keep_contacts(Thread& own) {
 }
 
 void ContactSearch::finish(Result& result) {
-  sort_into(result.contacts);
+  result.contacts.clear();
+  for (const Thread& thread : threads_)
+    result.contacts.insert(result.contacts.end(), thread.contacts.begin(), thread.contacts.end());
+  sort_.sort(result.contacts, {0, frame_->bodies->vertex_count()});
   for (const Thread& thread : threads_) {
     result.self_contacts += thread.self_contacts;
     result.counters.pair_tests += thread.pair_tests;
-  }
-}
-
-/// Sorts the contacts of all threads: by counting those of each first vertex, unless they are too few to be worth a
-/// pass over all vertices.
-void ContactSearch::sort_into(std::vector<Contact>& contacts) {
-  const std::size_t vertices = frame_->bodies->vertex_count();
-  contacts.clear();
-  if (found_ < vertices / 16) {
-    for (const Thread& thread : threads_) {
-      contacts.insert(contacts.end(), thread.contacts.begin(), thread.contacts.end());
-    }
-    return std::sort(contacts.begin(), contacts.end());
-  }
-  end_.assign(vertices + 1, 0);
-  for (const Thread& thread : threads_) {
-    for (const Contact& contact : thread.contacts) ++end_[contact.a + std::size_t{1}];
-  }
-  for (std::size_t v = 0; v < vertices; ++v) end_[v + 1] += end_[v];
-  contacts.resize(found_);
-  for (const Thread& thread : threads_) {
-    for (const Contact& contact : thread.contacts) contacts[end_[contact.a]++] = contact;
-  }
-  auto begin = contacts.begin();  // end_[v] is now where the contacts of v end
-  for (std::size_t v = 0; v < vertices; ++v) {
-    const auto end = contacts.begin() + end_[v];
-    if (end - begin > 1) std::sort(begin, end);
-    begin = end;
   }
 }
 

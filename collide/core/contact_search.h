@@ -5,6 +5,7 @@
 
 #include <atomic>
 
+#include "collide/core/contact_sort.h"
 #include "collide/core/detector.h"
 #include "collide/core/near_pairs.h"
 
@@ -40,7 +41,6 @@ class ContactSearch {
     std::uint64_t self_contacts, pair_tests;
   };
   void keep_contacts(Thread& own);
-  void sort_into(std::vector<Contact>& contacts);
 
   const Frame* frame_ = nullptr;
   const Points* points_ = nullptr;
@@ -48,7 +48,7 @@ class ContactSearch {
   bool self_collision_ = true;
   std::vector<Thread> threads_;
   std::atomic<std::size_t> found_ = 0;
-  std::vector<std::uint32_t> end_;  // of each vertex's contacts
+  ContactSort sort_;
 };
 
 }  // namespace collide

@@ -14,7 +14,6 @@ namespace collide::exact {
 namespace {
 
 constexpr std::size_t max_uncounted_pairs = 1u << 16;  // of one thread
-constexpr std::size_t few_share = 16;                  // so many times as many vertices as contacts: these are few
 
 // Of work: the bounds of a vertex; two near bodies, a body, a vertex of a shared body; a contact in its order.
 constexpr double bounds_ns = 1, pair_ns = 100, body_ns = 50, patch_ns = 30, contact_ns = 10;
@@ -64,39 +63,8 @@ void BodyPairSearch::find(const Frame& frame, const Settings& settings, const Re
     find_patch_contacts(part, parts);
     find_part(part, parts, resting);
   });
-  std::size_t loose = 0;
-  for (Thread& thread : threads_) {
-    check_contact_limit(thread);  // the rest, so that no more pass on many threads than on one
-    loose += thread.loose.size();
-  }
-  if (loose < frame_->bodies->vertex_count() / few_share) insert_loose();
-}
-
-/// Sorts the loose contacts, and inserts them into the groups that they belong to: faster than to place rows, if most
-/// rows are empty.
-void BodyPairSearch::insert_loose() {
-  std::vector<Contact>& all = threads_.front().loose;
-  for (const Thread& thread : std::span(threads_).subspan(1))
-    all.insert(all.end(), thread.loose.begin(), thread.loose.end());
-  std::sort(all.begin(), all.end());
-  auto next = all.cbegin();
-  auto body = loose_.begin();
-  for (Thread& thread : threads_) {
-    if (thread.segments.empty()) continue;
-    auto begin = thread.pairs.cbegin();
-    thread.group.clear();
-    for (const Segment& segment : thread.segments) {
-      const auto end = thread.pairs.cbegin() + static_cast<std::ptrdiff_t>(segment.end);
-      thread.group.insert(thread.group.end(), std::exchange(begin, end), end);
-      const Index behind = frame_->bodies->first[*body++ + std::size_t{1}];
-      const auto last = std::lower_bound(next, all.cend(), Contact{behind, 0});
-      thread.group.insert(thread.group.end(), std::exchange(next, last), last);
-    }
-    thread.group.insert(thread.group.end(), begin, thread.pairs.cend());
-    thread.group.swap(thread.pairs);
-    thread.segments.clear();
-  }
-  loose_.clear();
+  for (Thread& thread : threads_)
+    check_contact_limit(thread);  // the rest: no more may pass on many threads than on one
 }
 
 void BodyPairSearch::begin(const Frame& frame, const Settings& settings) {
@@ -113,7 +81,6 @@ void BodyPairSearch::begin(Thread& own) const {
   own.pairs.clear();
   own.loose.clear();
   own.patches.boxes.clear();
-  own.segments.clear();
   own.checked = 0;
   own.self_contacts = own.pair_tests = own.separated = own.unfolded = own.kept = 0;
 }
@@ -175,7 +142,7 @@ void BodyPairSearch::keep_group(Thread& own, Index a, std::span<const Contact> g
   own.pairs.insert(own.pairs.end(), group.begin(), group.end());
 }
 
-/// Of a loose group, finds what threads do not share, and leaves a gap where it belongs.
+/// Of a loose group, finds what threads do not share.
 void BodyPairSearch::find_group(Thread& own, Index a) {
   own.group.clear();
   if (self_collision_ && !is_shared(a, a)) find_self(own, a);
@@ -189,8 +156,7 @@ void BodyPairSearch::find_group(Thread& own, Index a) {
     runs += own.group.size() != before;
   }
   const bool loose = std::ranges::binary_search(loose_, a);
-  if (loose) own.segments.push_back({own.pairs.size(), 0});
-  if (runs > 1 && !loose) sort_group(own, a);
+  if (runs > 1 && !loose) own.sort.sort_by_first(own.group, {frame_->bodies->first[a], frame_->bodies->first[a + 1]});
   std::vector<Contact>& to = loose ? own.loose : own.pairs;
   to.insert(to.end(), own.group.begin(), own.group.end());
 }
@@ -238,8 +204,7 @@ void BodyPairSearch::find_self(Thread& own, Index body) {
       own.group.push_back({first + i, first + j});
     }
   }
-  for (const Index outlier : risk.outliers)
-    contacts_of(vertices, first, outlier, tolerance2_, own.vertex_count, own.group);
+  for (const Index outlier : risk.outliers) contacts_of(vertices, first, outlier, tolerance2_, own.close, own.group);
   own.unfolded += risk.outliers.empty();
   own.pair_tests += risk.pairs.size() + std::uint64_t{risk.outliers.size()} * (vertices.size - 1);
   if (!own.group.empty()) sort_self_contacts(own, body);
@@ -257,56 +222,23 @@ void BodyPairSearch::sort_self_contacts(Thread& own, Index body) {
   own.group.erase(std::unique(own.group.begin(), own.group.end()), own.group.end());
 }
 
-/// Sorts a group. Each of its runs is ordered, and they come by their second body: so a stable sort by the first vertex
-/// is enough, which counts unless the body has far more vertices than contacts.
-void BodyPairSearch::sort_group(Thread& own, Index a) {
-  const Index first = frame_->bodies->first[a], size = frame_->bodies->size(a);
-  if (own.group.size() < size / few_share) {
-    std::sort(own.group.begin(), own.group.end());
-    return;
-  }
-  own.vertex_count.assign(size, 0);
-  for (const Contact& contact : own.group) ++own.vertex_count[contact.a - first];
-  Index end = 0;
-  for (Index& count : own.vertex_count) end += std::exchange(count, end);
-  own.sorted.resize(own.group.size());
-  for (const Contact& contact : own.group) own.sorted[own.vertex_count[contact.a - first]++] = contact;
-  own.group.swap(own.sorted);
-}
-
 void BodyPairSearch::concatenate(Workers& workers, std::vector<Contact>& pairs) {
-  const int threads = workers.threads_for(contact_ns * static_cast<double>(found_.load()));
-  const auto for_parts = [&](const auto& task) {
-    workers.share(threads, threads_.size(), [&](int, std::size_t part) { task(static_cast<int>(part)); });
-  };
-  if (!loose_.empty()) {
-    rows_.begin(frame_->bodies->vertex_count(), static_cast<int>(threads_.size()));
-    for_parts([&](int part) { rows_.count(part, threads_[static_cast<std::size_t>(part)].loose); });
-  }
   std::size_t total = 0;
-  auto loose = loose_.begin();
-  for (Thread& thread : threads_) {
-    std::size_t begin = 0;
-    for (Segment& segment : thread.segments) {
-      segment.place = total;
-      total += segment.end - std::exchange(begin, segment.end);
-      const Index body = *loose++;
-      total = rows_.place({frame_->bodies->first[body], frame_->bodies->first[body + 1]}, total);
-    }
-    thread.segments.push_back({thread.pairs.size(), total});
-    total += thread.pairs.size() - begin;
-  }
+  for (Thread& thread : threads_) thread.place = std::exchange(total, total + thread.pairs.size());
   pairs.resize(total);
-  for_parts([&](int part) {
-    const Thread& own = threads_[static_cast<std::size_t>(part)];
-    auto begin = own.pairs.begin();
-    for (const Segment& segment : own.segments) {
-      const auto end = own.pairs.begin() + static_cast<std::ptrdiff_t>(segment.end);
-      std::copy(std::exchange(begin, end), end, pairs.begin() + static_cast<std::ptrdiff_t>(segment.place));
-    }
-    if (!loose_.empty()) rows_.scatter(part, own.loose, pairs);
+  const int threads = workers.threads_for(contact_ns * static_cast<double>(found_.load()));
+  workers.share(threads, threads_.size(), [&](int, std::size_t part) {
+    const Thread& own = threads_[part];
+    std::ranges::copy(own.pairs, pairs.begin() + static_cast<std::ptrdiff_t>(own.place));
   });
-  if (!loose_.empty()) for_parts([&](int part) { rows_.sort(part, pairs); });
+  if (loose_.empty()) return;
+  std::vector<Contact>& loose = threads_.front().loose;
+  for (const Thread& thread : std::span(threads_).subspan(1))
+    loose.insert(loose.end(), thread.loose.begin(), thread.loose.end());
+  sort_.sort(loose, {0, frame_->bodies->vertex_count()});
+  merged_.resize(pairs.size() + loose.size());
+  std::ranges::merge(pairs, loose, merged_.begin());
+  pairs.swap(merged_);
 }
 
 void BodyPairSearch::count(Result& result) const {

@@ -5,8 +5,8 @@
 
 #include <atomic>
 
+#include "collide/core/contact_sort.h"
 #include "collide/exact/body_broad_phase.h"
-#include "collide/exact/contact_rows.h"
 #include "collide/exact/pair_kernels.h"
 #include "collide/exact/patch_search.h"
 #include "collide/exact/resting_contacts.h"
@@ -28,7 +28,7 @@ class BodyPairSearch {
 
   const BodyBroadPhase& near() const { return near_; }
 
-  /// Copies all groups, one after another, into `pairs`, and sorts the loose ones there.
+  /// Copies all groups, one after another, into `pairs`.
   void concatenate(Workers& workers, std::vector<Contact>& pairs);
 
   /// Adds the counters of the last search, and what it left out, to the result.
@@ -42,11 +42,6 @@ class BodyPairSearch {
   }
 
  private:
-  /// Contacts of a thread that no loose group interrupts.
-  struct Segment {
-    std::size_t end;    // behind its last pair; it begins where the one before it ends
-    std::size_t place;  // of the first one among those of all threads
-  };
   struct alignas(64) Thread {
     FacingScratch facing;
     CullingReference::Scratch self;
@@ -54,9 +49,10 @@ class BodyPairSearch {
     std::vector<Contact> pairs;  // of its groups, in order
     std::vector<Contact> loose;  // of loose groups, in no order
     std::size_t checked = 0;     // how many of both are counted in found_
-    std::vector<Segment> segments;
-    std::vector<Contact> group, sorted;
-    std::vector<Index> vertex_count;
+    std::size_t place = 0;       // of its pairs among those of all threads
+    std::vector<Contact> group;
+    ContactSort sort;
+    std::vector<Index> close;  // to one vertex
     std::uint64_t self_contacts = 0, pair_tests = 0, separated = 0, unfolded = 0, kept = 0;
   };
 
@@ -78,9 +74,7 @@ class BodyPairSearch {
   void find_by_patches(Thread& own, Index a, Index b);
   void find_self(Thread& own, Index body);
   void sort_self_contacts(Thread& own, Index body);
-  void sort_group(Thread& own, Index a);
   void check_contact_limit(Thread& own);
-  void insert_loose();
 
   const Frame* frame_ = nullptr;
   bool self_collision_ = true;
@@ -93,7 +87,8 @@ class BodyPairSearch {
   std::vector<Index> loose_;                  // their first bodies: the contacts of these groups come in no order
   PatchSearch patches_;
   std::size_t patch_tasks_ = 0;  // of this frame
-  ContactRows rows_;             // of loose groups
+  ContactSort sort_;
+  std::vector<Contact> merged_;
   std::vector<Thread> threads_;
   std::atomic<std::size_t> found_ = 0;
 };

@@ -19,7 +19,7 @@ std::size_t PatchSearch::take(const Frame& frame, std::span<const std::array<Ind
   std::vector<Index> which;
   for (const auto& pair : pairs) which.insert(which.end(), pair.begin(), pair.end());
   std::ranges::sort(which);
-  which.erase(std::ranges::unique(which).begin(), which.end());
+  which.erase(std::unique(which.begin(), which.end()), which.end());
   Index groups = 0;
   for (const Index body : which) {
     bodies_.push_back(lay_out(frame, body, groups, false));
