@@ -92,7 +92,8 @@ TEST_P(EveryKernel, GivesTheSameBitsForForces) {
     if constexpr (is_projected<F>())
       expect_the_same([&](int width, int first, Values xs, Values vs, Values, Results&) {
         LaneField room(n);
-        force_kernels(width).project[index_of<F>](bodies(width, xs, {}), {0.01f, moves + first, xs, vs, room.field()});
+        force_kernels(width).project[index_of<F>](bodies(width, xs, {}),
+                                                  {0.01f, moves + first, xs, vs, room.field(), nullptr});
       });
   });
   expect_the_same([&](int width, int, Values xs, Values, Values fs, Results& results) {
