@@ -121,8 +121,8 @@ void Motion::solve_implicit(const BatchShare& share, const Batch& b, Quantity me
                            .features = parts_.solids.find_feature_rows(b, h),
                            .penalty = penalty,
                            .ends = penalty.ends_of(b),
-                           .held = state.held.of(b),
-                           .is_moving = [&state](BodyId body) { return state.body(body).moves(); }},
+                           .is_moving = [&state](BodyId body) { return state.body(body).moves(); },
+                           .held = state.held.of(b)},
                           {field(array(mean)), field(array(rest)), parts_.solids.sums(b)}, double(h));
 }
 

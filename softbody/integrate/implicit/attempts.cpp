@@ -148,12 +148,9 @@ LaneMask first_order_step(ImplicitStep& step, ImplicitBodies& bodies, LaneMask t
   for (std::size_t l = 0; l < implicit_lanes; ++l) {
     if (!tried[l]) continue;
     if (!bodies.holds[l] && !satisfies_momentum_balance(step.model, bodies, l, step.h, step.gravity)) continue;
-    if (bodies.holds_move[l]) {  // they do work that is not known here
-      solved[l] = step.solver.converged()[l];
-      continue;
-    }
     const double gain = energy_gain(step.model, bodies, l, step.gravity, pushed[l]);
-    solved[l] = dissipate(step.model, bodies, l, gain, pushed[l]);
+    // Holds that move do work which is not known here.
+    solved[l] = bodies.holds_move[l] ? std::isfinite(gain) : dissipate(step.model, bodies, l, gain, pushed[l]);
   }
   return solved;
 }

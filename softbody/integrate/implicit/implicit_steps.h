@@ -25,9 +25,9 @@ struct ImplicitBatch {
   std::span<const ContactRow> features;   // of the bodies, which may meet these solids between vertices
   PenaltyContact& penalty;                // evaluated at x, v; is told what its pairs do
   std::span<const PenaltyEnd> ends;       // of its pairs, those that fall to this batch
-  std::span<const HeldParticle> held;     // of the batch
   std::function<bool(BodyId)> is_moving;  // false for bodies that are held or asleep
   std::size_t first_lane = 0;             // of the batch, of implicit_lanes that are solved side by side
+  std::span<const HeldParticle> held{};   // of the batch
 
   /// Returns where the value `at` = particle * implicit_lanes + lane stands in the fields of all batches.
   std::size_t slot(std::size_t at) const {
