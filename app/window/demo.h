@@ -17,12 +17,12 @@ namespace app::window {
 
 struct DemoOptions {
   files::Opened opened;
-  std::string scene_name;                       // its key or file
-  bool scene_given = false;                     // else it is the default scene, which opens with the story
-  std::filesystem::path scene_folder;           // of the other scenes that the panel offers
-  std::vector<std::string> meshes;              // mesh files that are imported; they join a scene that is given
+  std::string scene_name;                             // its key or file
+  bool scene_given = false;                           // else it is the default scene, which opens with the story
+  std::filesystem::path scene_folder;                 // of the other scenes that the panel offers
+  std::vector<std::string> meshes;                    // mesh files that are imported; they join a scene that is given
   std::vector<std::shared_ptr<guest::Guest>> guests;  // in the table of methods
-  std::function<void(softbody::Scene&)> apply;  // the options of scenes, for the one in which meshes open
+  std::function<void(softbody::Scene&)> apply;        // the options of scenes, for the one in which meshes open
   softbody::IntegratorChoice integrator;
   std::optional<compare::HowSimulated> beside;  // the second world
   int threads = 1;
