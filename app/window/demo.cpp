@@ -352,10 +352,15 @@ class Demo {
     if (task == Task::show_highlight && highlight)
       camera_.glide_to(highlight->centre, tour_radius_factor * highlight->radius, size);
     if (task == Task::show_as_before_tour && orbit_before_tour_) camera_.glide_to(*orbit_before_tour_);
+    if (task == Task::show_first_missed || task == Task::show_first_false)
+      show_wrong_pair(task == Task::show_first_missed, size);
+  }
+
+  void show_wrong_pair(bool missed, glm::ivec2 size) {
     const compare::CompareRow* row = session_.comparison.scored_row(session_.comparison.choice.misses_of);
-    if (task == Task::show_first_missed && row && !row->missed.empty())
-      focus_on(row->missed.front(), session_, camera_, size);
-    if (task == Task::show_first_false && row && row->first_false) focus_on(*row->first_false, session_, camera_, size);
+    if (row && missed && !row->missed.empty()) return focus_on(row->missed.front(), session_, camera_, size);
+    if (row && !missed && row->first_false) return focus_on(*row->first_false, session_, camera_, size);
+    session_.simulation.notice.tell("in this frame no such pair is wrong: go on, and click again");
   }
 
   void throw_body(glm::ivec2 size) {
