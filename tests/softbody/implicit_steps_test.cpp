@@ -53,7 +53,7 @@ struct BatchRig {
   }
   ImplicitBatch batch(std::span<const PenaltyEnd> ends = {}) {
     own = {.model = model, .width = lanes, .base = base, .used = implicit_lanes, .moves = moves};
-    return {own, x.field(), v.field(), gravity, solids, features, penalty, ends, {}, [](BodyId id) { return id < 2; }};
+    return {own, x.field(), v.field(), gravity, solids, features, penalty, ends, [](BodyId id) { return id < 2; }};
   }
   ImplicitResult result() { return {mean.field(), rest.field(), {field(impulse), returned.data(), given.data()}}; }
   /// m/s, of a lane's ball as a whole.
