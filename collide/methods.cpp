@@ -95,8 +95,7 @@ std::vector<Method> built_in() {
            "patches of 16 vertices that come near it; it proves of most bodies that they cannot touch themselves. "
            "Choose it wherever contacts are what you need: it is the fastest here and misses nothing. Cost: linear in "
            "n and in the pairs of near bodies. It searches from scratch in every frame, but bodies at rest keep their "
-           "contacts, and shapes the patches that they are cut into. Source: the paper's §2.1 and §5; the rest is "
-           "ours.",
+           "contacts, and shapes their patches. Source: the paper's §2.1 and §5; the rest is ours.",
        .group = MethodGroup::paper,
        .make = exact::make_multi_level_sb_exact},
       {.key = "sorted-grid",

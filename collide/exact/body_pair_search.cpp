@@ -173,7 +173,8 @@ void BodyPairSearch::find_between(Thread& own, Index a, Index b) {
   const VertexRun run_a = vertices_of(*frame_, a), run_b = vertices_of(*frame_, b);
   const Index first_a = frame_->bodies->first[a], first_b = frame_->bodies->first[b];
   const Slab slab = slab_between(bounds_[a], bounds_[b], cutoff_);
-  const Index facing = find_facing_contacts(run_a, first_a, run_b, first_b, slab, tolerance2_, own.facing, own.group);
+  if (!own.facing) own.facing = std::make_unique_for_overwrite<FacingScratch>();
+  const Index facing = find_facing_contacts(run_a, first_a, run_b, first_b, slab, tolerance2_, *own.facing, own.group);
   own.separated += facing == 0;
   if (facing <= FacingScratch::max_tests) {
     own.pair_tests += facing;

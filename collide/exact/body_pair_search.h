@@ -43,7 +43,7 @@ class BodyPairSearch {
 
  private:
   struct alignas(64) Thread {
-    FacingScratch facing;
+    std::unique_ptr<FacingScratch> facing;  // null until it is needed
     CullingReference::Scratch self;
     PatchSearch::Scratch patches;
     std::vector<Contact> pairs;  // of its groups, in order

@@ -124,7 +124,7 @@ void ListNearGroups(const Patches& patches, Index group, Range others, const Kno
   }
 }
 
-HWY_INLINE Index near_patches(const Patches& patches, Index patch, float cutoff, GroupHits& out) {
+HWY_INLINE Index ListNearPatches(const Patches& patches, Index patch, float cutoff, GroupHits& out) {
   if (out.list.size() < (out.near.size() + 1) * size) out.list.resize((out.near.size() + 1) * size);
   const Reach reach(patches.patch, patch, cutoff);
   Index count = 0;
@@ -142,10 +142,6 @@ HWY_INLINE Index near_patches(const Patches& patches, Index patch, float cutoff,
     }
   }
   return count;
-}
-
-Index ListNearPatches(const Patches& patches, Index patch, float cutoff, GroupHits& out) {
-  return near_patches(patches, patch, cutoff, out);
 }
 
 /// All pairs of lanes of two patches, in the order of KnownPairs::Mask: the second lanes from pair `first` on.
@@ -252,7 +248,7 @@ void FindGroupHits(const Patches& patches, Index group, const KnownPairs* known,
   for (Index patch = group * size; patch < group * size + patches.count[group]; ++patch) {
     const Index local = patch - offset * size, first = known ? known->first_other[local] : 0;
     const Index listed = known ? known->first_other[local + std::size_t{1}] - first : 0;
-    const Index near_count = near_patches(patches, patch, cutoff, out);
+    const Index near_count = ListNearPatches(patches, patch, cutoff, out);
     if (listed + near_count == 0) continue;
     const Spread spread(patches, patch);
     if (known) {

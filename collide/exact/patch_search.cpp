@@ -32,7 +32,16 @@ std::size_t PatchSearch::take(const Frame& frame, std::span<const std::array<Ind
     for (const Body& body : bodies_)
       body.cut->spread = std::max(body.cut->spread, spread_of(patches_.patch, body.patches()));
   }
-  deal(pairs, threads);
+  const Index groups_a_task = threads == 1 ? groups : 8;
+  const auto find = [&](Index body) { return &*std::ranges::lower_bound(bodies_, body, {}, &Body::body); };
+  for (const auto& pair : pairs) {
+    const Body *a = find(pair[0]), *b = find(pair[1]);
+    if (a == b) a->cut->list_pairs(tolerance2_, cutoff_);
+    if (b->cut->groups() < a->cut->groups()) std::swap(a, b);  // each group of a looks at all of b
+    const Index end = a->groups().end;
+    for (Index begin = a->groups().begin; begin < end; begin += groups_a_task)
+      tasks_.push_back({a, b, {begin, std::min(end, begin + groups_a_task)}});
+  }
   return tasks_.size();
 }
 
@@ -78,22 +87,6 @@ bool PatchSearch::cut_spread_shapes(const Frame& frame) {
 void PatchSearch::forget() {
   bodies_.clear();
   std::erase_if(cuts_, [](const auto& item) { return !item.second.is_of_rest(); });
-}
-
-/// The first body of a task is the one with fewer groups.
-void PatchSearch::deal(std::span<const std::array<Index, 2>> pairs, int threads) {
-  const Index groups_a_task = threads == 1 ? ~Index{0} : 8;
-  const auto find = [&](Index body) { return &*std::ranges::lower_bound(bodies_, body, {}, &Body::body); };
-  for (const auto& pair : pairs) {
-    const Body *a = find(pair[0]), *b = find(pair[1]);
-    if (a == b) a->cut->list_pairs(tolerance2_, cutoff_);
-    if (b->cut->groups() < a->cut->groups()) std::swap(a, b);
-    const Range all = a->groups();
-    for (Index begin = all.begin, end; begin < all.end; begin = end) {
-      end = begin + std::min(groups_a_task, all.end - begin);
-      tasks_.push_back({a, b, {begin, end}});
-    }
-  }
 }
 
 PatchSearch::Found PatchSearch::find(std::size_t task, std::size_t max_contacts, Scratch& scratch,

@@ -58,7 +58,6 @@ class PatchSearch {
     Range groups;  // of a
   };
   Body lay_out(const Frame& frame, Index body, Index first_group, bool self);
-  void deal(std::span<const std::array<Index, 2>> pairs, int threads);
   void fill(const Frame& frame, Workers& workers);
   void fill(const Frame& frame, const Body& body, Range groups, Patches& patches) const;
   bool cut_spread_shapes(const Frame& frame);

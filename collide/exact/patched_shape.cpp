@@ -55,15 +55,8 @@ void cut_items(std::span<trees::Item> items) {
   if (items.size() <= Patches::size) return;
   const std::size_t unit = items.size() > Patches::group_size ? Patches::group_size : Patches::size;
   const std::size_t low = (items.size() / 2 + unit - 1) / unit * unit;
-  std::array<float, 3> lo = items.front().at, hi = lo;
-  for (const trees::Item& item : items) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      lo[axis] = std::min(lo[axis], item.at[axis]);
-      hi[axis] = std::max(hi[axis], item.at[axis]);
-    }
-  }
-  const auto half = [&](std::size_t axis) { return hi[axis] * 0.5f - lo[axis] * 0.5f; };
-  split_at(items, low, static_cast<std::size_t>(longest_axis({half(0), half(1), half(2)})));
+  const Aabb box = trees::bounds_of(items);
+  split_at(items, low, static_cast<std::size_t>(longest_axis(box.hi * 0.5f - box.lo * 0.5f)));
   cut_items(items.first(low));
   cut_items(items.subspan(low));
 }
