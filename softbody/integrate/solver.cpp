@@ -279,6 +279,7 @@ void Solver::run(int count, float h, bool first, const AfterSubstep& after_subst
     if (holds) hand_.note_point(state_);
     integrator.advance(motion_, share, {h, first && s == 0});
     if (holds) hand_.book_work(state_);
+    if (state_.held.moves()) motion_.contact_forces(share, 0);  // as they are at the end
     for (const Batch* b : share.batches) {
       state_.held.impose(*b, field(state_.v));
       if (state_.held.moves(*b)) motion_.count_work_of_holds(share, *b, h);

@@ -20,20 +20,6 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// Returns the particles that carry vertices of a body's mesh, at `places` (m), that are in a shape.
-std::vector<Index> particles_in(const Solid& where, const BodyModel& model, const std::vector<glm::dvec3>& places) {
-  constexpr double rounding = 1e-9;  // m
-  std::set<Index> found;
-  for (Index vertex = 0; vertex < places.size(); ++vertex) {
-    if (surface_at(where, places[vertex]).distance > rounding) continue;
-    if (model.fine)
-      found.insert(model.fine->embedding()[vertex].corner.begin(), model.fine->embedding()[vertex].corner.end());
-    else
-      found.insert(vertex);
-  }
-  return {found.begin(), found.end()};
-}
-
 /// Returns the automatic cell size for the bodies at rest.
 glm::vec3 rest_cell_size(const BodyModelSet& models, int levels, float tolerance) {
   collide::Bodies bodies;
@@ -87,20 +73,27 @@ void World::Parts::check_sizes(const BodyModelSet& all, const IntegratorChoice& 
                        std::to_string(max_implicit_particles) + " vertices); choose another integrator");
 }
 
-/// Returns what the holds of a body hold. Throws SceneError if one holds nothing.
+/// Returns the particles that carry what the holds of a body hold. Throws SceneError if one holds nothing.
 std::vector<HeldVertices> World::Parts::held_vertices(const BodySource& source) const {
+  constexpr double rounding = 1e-9;  // m
   std::vector<HeldVertices> list;
   if (source.holds.empty()) return list;
   const BodyModel& model = *models.of(source);
-  std::vector<glm::dvec3> places = turned(model.shown_at_rest(), source.axes);
-  for (glm::dvec3& place : places) place += source.position;
+  const std::vector<glm::dvec3> places = turned(model.shown_at_rest(), source.axes);
   for (const Hold& h : source.holds) {
-    list.push_back({particles_in(Solid{h.where}, model, places), h.velocity, h.turn.vector(), h.through, h.until});
-    if (!list.back().vertices.empty()) continue;
-    std::string at;
-    for (int k = 0; k < 3; ++k) at += (k > 0 ? ", " : "") + shortest_text(source.position[k]);
-    throw SceneError("scene '" + scene.key + "': hold[" + std::to_string(list.size() - 1) + "] of the body at [" + at +
-                     "] holds no vertex; put it where the body has some when it appears, in the world's coordinates");
+    std::set<Index> found;
+    for (Index vertex = 0; vertex < places.size(); ++vertex) {
+      if (surface_at(Solid{h.where}, source.position + places[vertex]).distance > rounding) continue;
+      if (!model.fine) found.insert(vertex);
+      for (std::size_t k = 0; model.fine && k < 3; ++k) found.insert(model.fine->embedding()[vertex].corner[k]);
+    }
+    if (found.empty()) {
+      std::string at;
+      for (int k = 0; k < 3; ++k) at += (k > 0 ? ", " : "") + shortest_text(source.position[k]);
+      throw SceneError("scene '" + scene.key + "': hold[" + std::to_string(list.size()) + "] of the body at [" + at +
+                       "] holds no vertex; put it where the body has some when it appears, in the world's coordinates");
+    }
+    list.push_back({{found.begin(), found.end()}, h.velocity, h.turn.vector(), h.through, h.until});
   }
   return list;
 }

@@ -71,7 +71,11 @@ BodyId World::Parts::spawn(BodySource source) {
   return id;
 }
 
-Dropper World::Parts::dropper() const { return scene.dropper ? *scene.dropper : Dropper{.body = scene.bodies.front()}; }
+Dropper World::Parts::dropper() const {
+  Dropper dropper = scene.dropper ? *scene.dropper : Dropper{.body = scene.bodies.front()};
+  dropper.body.holds.clear();  // they are elsewhere
+  return dropper;
+}
 
 /// True if a new body would be outside all solids and no vertex of another body in its bounding box.
 bool World::Parts::is_clear(const BodyModel& model, const BodySource& source) const {

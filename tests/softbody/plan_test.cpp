@@ -97,8 +97,9 @@ TEST(Plan, OfTheDropSceneHasAllButWhatNoneOfItsBodiesAndSolidsNeeds) {
   const World world(drop_scene(), {});
   std::vector<Stage> left_out;
   for (const LeftOut& l : world.plan().left_out) left_out.push_back(l.stage);
-  EXPECT_EQ(left_out, (std::vector{Stage::surface_contact, stage_of<ShearSprings>, stage_of<ShapeMatching>,
-                                   stage_of<Hand>, Stage::restitution, Stage::solid_features, Stage::rebound_damping}));
+  EXPECT_EQ(left_out, (std::vector{Stage::hold, Stage::surface_contact, stage_of<ShearSprings>, stage_of<ShapeMatching>,
+                                   stage_of<AirDrag>, stage_of<Hand>, Stage::restitution, Stage::solid_features,
+                                   Stage::rebound_damping}));
 }
 
 /// Two scenes that differ by a stage which, where it runs, has nothing to do.

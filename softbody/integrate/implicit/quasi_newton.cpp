@@ -17,6 +17,34 @@ namespace {
 
 constexpr int max_iterations = 40, iterations_of_round = 12;
 
+/// Replaces the displacements (m) of held particles by the forces (N) that cause them, in the matrix's axes, by
+/// Cholesky.
+void find_forces(const ImplicitMatrix& matrix, std::span<const HeldEnd> held, std::span<glm::dvec3> moved) {
+  const std::size_t axes = matrix.rotates() ? 3 : 1, size = axes * held.size();
+  const auto compliance = [&](std::size_t row, std::size_t column) {
+    const auto particle = [&](std::size_t i) { return Index(held[i / axes].at / implicit_lanes); };
+    return matrix.compliance(particle(row), particle(column))[int(column % axes)][int(row % axes)];
+  };
+  std::vector<double> factor(size * size);
+  for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      double rest = compliance(i, j);
+      for (std::size_t k = 0; k < j; ++k) rest -= factor[i * size + k] * factor[j * size + k];
+      factor[i * size + j] = j < i ? rest / factor[j * size + j] : std::sqrt(std::max(rest, 1e-12 * compliance(i, i)));
+    }
+  for (int axis = 0; axis < 3; axis += int(axes)) {  // those that have no factor of their own one after another
+    const auto at = [&](std::size_t i) -> double& { return moved[i / axes][axis + int(i % axes)]; };
+    for (std::size_t i = 0; i < size; ++i) {
+      for (std::size_t k = 0; k < i; ++k) at(i) -= factor[i * size + k] * at(k);
+      at(i) /= factor[i * size + i];
+    }
+    for (std::size_t i = size; i-- > 0;) {
+      for (std::size_t k = i + 1; k < size; ++k) at(i) -= factor[k * size + i] * at(k);
+      at(i) /= factor[i * size + i];
+    }
+  }
+}
+
 }  // namespace
 
 QuasiNewton::QuasiNewton(const BodyModel& model)
@@ -103,7 +131,7 @@ void QuasiNewton::apply_matrix(const ImplicitProblem& p, Lanes& q) {
     std::vector<glm::dvec3> moved;
     const glm::dmat3 r = rotation(p, lane);
     for (const HeldEnd& one : own) moved.push_back(glm::transpose(r) * read(q, one.at));
-    of_lane_[lane].find_forces(p.matrix, own, moved);
+    find_forces(p.matrix, own, moved);
     for (std::size_t i = 0; i < own.size(); ++i) add(forces_on_free_, own[i].at, -(r * moved[i]));
   }
   q = forces_on_free_;

@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "softbody/integrate/implicit/contact_forces.h"
-#include "softbody/integrate/implicit/holding_forces.h"
 #include "softbody/integrate/implicit/kernels.h"
 #include "softbody/integrate/implicit/minimiser.h"
 #include "softbody/integrate/implicit/problem.h"
@@ -56,9 +55,8 @@ class QuasiNewton {
   Minimiser minimiser_;
   ContactForces contact_;
   Lanes target_, x_, push_, scratch_;  // push: changes of contact forces, and what they move
-  Lanes forces_on_free_;
-  std::array<HoldingForces, implicit_lanes> of_lane_;
-  PerLane max_step_{};  // m, of one iteration, the root of the mean square
+  Lanes forces_on_free_;               // room for what apply_matrix() begins with, where particles are held
+  PerLane max_step_{};                 // m, of one iteration, the root of the mean square
   alignas(64) double rotation_[9][implicit_lanes];
   double work_ = 0;  // beside that of the minimiser and of the contact forces
 };
