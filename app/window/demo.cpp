@@ -13,6 +13,7 @@
 
 #include "app/base/background.h"
 #include "app/base/timings.h"
+#include "app/session/system_files.h"
 #include "app/ui/state/shortcuts.h"
 #include "app/ui/user_interface.h"
 #include "app/ui/views/scene_labels.h"
@@ -60,7 +61,7 @@ std::unique_ptr<Session> open_session(const DemoOptions& options, Graphics& grap
 class Demo {
  public:
   explicit Demo(const DemoOptions& options)
-      : preferences_(preferences_path()),
+      : preferences_(session::preferences_path()),
         graphics_(std::make_unique<Graphics>(options.size.value_or(preferences_.stored().size), options.threads)),
         session_owner_(open_session(options, *graphics_)),
         session_(*session_owner_) {

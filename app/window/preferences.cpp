@@ -1,6 +1,6 @@
 #include "app/window/preferences.h"
 
-#include <cstdlib>
+#include <array>
 #include <utility>
 
 #include "app/files/output_file.h"
@@ -62,13 +62,6 @@ std::string text_of(const Preferences& p) {
   return out.text();
 }
 
-/// Returns an absolute path from the environment. The XDG specification asks to ignore relative ones.
-fs::path folder_in(const char* variable) {
-  const char* value = std::getenv(variable);
-  const fs::path folder = value ? value : "";
-  return folder.is_absolute() ? folder : fs::path();
-}
-
 }  // namespace
 
 Preferences first_preferences(glm::ivec2 size) {
@@ -93,16 +86,6 @@ void apply(const Preferences& p, Session& session, ui::UiState& ui) {
   session.simulation.clock.slow_factor = p.slow_factor;
   session.exporter.with_panel = p.picture_with_panel;
   session.comparison.choice.methods = p.methods;
-}
-
-fs::path preferences_path() {
-  fs::path folder = folder_in("XDG_CONFIG_HOME");
-  if (folder.empty()) {
-    folder = folder_in("HOME");
-    if (folder.empty()) return {};
-    folder /= ".config";
-  }
-  return folder / "sbcollide" / "preferences.toml";
 }
 
 PreferencesFile::PreferencesFile(fs::path file) : file_(std::move(file)) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the demo remembers from one start to the next, in the platform's folder for preferences.
+// What the demo remembers from one start to the next, in the file session::preferences_path().
 
 #include <filesystem>
 #include <string>
@@ -26,9 +26,6 @@ Preferences first_preferences(glm::ivec2 size);
 Preferences preferences_of(const Session& session, const ui::UiState& ui, glm::ivec2 size);
 /// Applies everything except the window's size.
 void apply(const Preferences& preferences, Session& session, ui::UiState& ui);
-
-/// Returns $XDG_CONFIG_HOME/sbcollide/preferences.toml, or the same in ~/.config; empty if neither folder is known.
-std::filesystem::path preferences_path();
 
 class PreferencesFile {
  public:

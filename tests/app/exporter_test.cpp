@@ -10,6 +10,7 @@
 
 #include "app/files/playback.h"
 #include "app/session/session.h"
+#include "app/session/system_files.h"
 #include "softbody/forces/springs.h"
 #include "tests/app/recorded_bodies.h"
 #include "tests/app/scenes.h"
@@ -62,8 +63,9 @@ class ExporterTest : public testing::Test {
     }));
   }
   void start(std::string_view kind) {
-    const auto row = std::ranges::find(session::recording_kinds, kind, &session::RecordingKind::key);
-    exporter.kind = static_cast<std::size_t>(row - session::recording_kinds.begin());
+    const std::span kinds = session::recording_kinds();
+    const auto row = std::ranges::find(kinds, kind, &session::RecordingKind::key);
+    exporter.kind = static_cast<std::size_t>(row - kinds.begin());
     exporter.toggle_recording();
   }
   void record(std::string_view kind, int steps) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "app/session/system_files.h"
 #include "softbody/scene/scene.h"
 #include "tests/app/panel_rig.h"
 #include "tests/temporary_folder.h"
@@ -141,10 +142,10 @@ TEST(ExportPanel, RequestsAPictureAndRecords) {
   EXPECT_TRUE(rig.session.exporter.picture_requested);
   rig.click("Curves");
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "curves_0001.csv"));
-  for (const session::RecordingKind& kind : session::recording_kinds) {
+  for (const session::RecordingKind& kind : session::recording_kinds()) {
     rig.click("Kind of recording");
     rig.click(kind.name);
-    EXPECT_EQ(session::recording_kinds[rig.session.exporter.kind].key, kind.key);
+    EXPECT_EQ(session::recording_kinds()[rig.session.exporter.kind].key, kind.key);
   }
   rig.click("Picture size");
   rig.click("3840 x 2160");

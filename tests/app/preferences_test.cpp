@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include "app/session/system_files.h"
 #include "app/window/preferences.h"
 #include "tests/app/scenes.h"
 #include "tests/full_disk.h"
@@ -108,9 +109,10 @@ TEST(Preferences, AreInThePlatformsFolder) {
   const char* before = ::getenv("XDG_CONFIG_HOME");
   const std::string kept = before ? before : "";
   ::setenv("XDG_CONFIG_HOME", "/some/where", 1);
-  EXPECT_EQ(window::preferences_path(), "/some/where/sbcollide/preferences.toml");
+  EXPECT_EQ(session::preferences_path(), "/some/where/sbcollide/preferences.toml");
   ::setenv("XDG_CONFIG_HOME", "not/absolute", 1);
-  EXPECT_EQ(window::preferences_path(), std::filesystem::path(::getenv("HOME")) / ".config/sbcollide/preferences.toml");
+  EXPECT_EQ(session::preferences_path(),
+            std::filesystem::path(::getenv("HOME")) / ".config/sbcollide/preferences.toml");
   before ? ::setenv("XDG_CONFIG_HOME", kept.c_str(), 1) : ::unsetenv("XDG_CONFIG_HOME");
 }
 

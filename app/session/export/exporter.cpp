@@ -9,6 +9,7 @@
 
 #include "app/base/table.h"
 #include "app/files/output_file.h"
+#include "app/session/system_files.h"
 
 namespace app::session {
 namespace fs = std::filesystem;
@@ -93,7 +94,7 @@ void Exporter::toggle_recording() {
   if (recording()) return stop();
   if (recording_) return;  // the last recording is still being written
   attempt([&] {
-    recorded_ = &recording_kinds[kind];
+    recorded_ = &recording_kinds()[kind];
     std::unique_ptr<FrameWriter> writer = recorded_->make(absolute_folder(folder));
     progress_ = {.name = writer->name(), .error = {}};
     recording_ = std::make_unique<Background<RecordingTask>>(usual_runs, std::move(writer));

@@ -36,7 +36,7 @@ class Exporter {
   bool with_panel = false;         // pictures show the panel, too, and are as large as the window
   std::size_t size = 0;            // of pictures and videos: an index of `sizes`, or `own`
   glm::uvec2 own_size{1280, 720};  // pixels, min_side .. max_side
-  std::size_t kind = 0;            // of the next recording: an index of recording_kinds
+  std::size_t kind = 0;            // of the next recording: an index of recording_kinds()
   bool picture_requested = false;  // take a picture with the next frame
 
   /// Both must outlive this.

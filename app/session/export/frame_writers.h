@@ -1,8 +1,6 @@
 #pragma once
-// The kinds of recordings, and the task that writes one beside the demo. The panel, the demo and the tests loop over
-// one table of the kinds.
+// A kind of recordings, and the task that writes one beside the demo.
 
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -62,18 +60,11 @@ std::unique_ptr<FrameWriter> make_picture_writer(const std::filesystem::path& fo
 std::unique_ptr<FrameWriter> make_video_writer(const std::filesystem::path& folder);
 std::unique_ptr<FrameWriter> make_motion_writer(const std::filesystem::path& folder);
 
+/// A row of recording_kinds() (system_files.h), over which the panel and the tests loop.
 struct RecordingKind {
   std::string_view key, name, tooltip;
   bool pictures;  // consists of pictures, else of bodies
   std::unique_ptr<FrameWriter> (*make)(const std::filesystem::path& folder);
 };
-
-inline constexpr std::array<RecordingKind, 3> recording_kinds{{
-    {"video", "Video", "An MP4 file, 60 pictures a second, by ffmpeg.", true, &make_video_writer},
-    {"pictures", "Pictures", "A folder of PNG files, one a frame of the world.", true, &make_picture_writer},
-    {"motion", "Motion (OBJ)",
-     "A folder of OBJ files, one a frame of the world, each body an object; `sbcollide detect` reads them back.", false,
-     &make_motion_writer},
-}};
 
 }  // namespace app::session

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "app/base/text.h"
+#include "app/session/system_files.h"
 #include "app/ui/panel/panel.h"
 
 namespace app::ui {
@@ -178,10 +179,11 @@ void draw_recording(Widgets& w, const session::Exporter& exporter) {
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - w.px(file_button_width) - gap);
   ImGui::BeginDisabled(exporter.recording() || exporter.finishing());
-  const session::RecordingKind& now = session::recording_kinds[exporter.kind];
+  const std::span kinds = session::recording_kinds();
+  const session::RecordingKind& now = kinds[exporter.kind];
   if (w.begin_combo("Kind of recording", now.name, now.tooltip)) {
-    for (std::size_t i = 0; i < session::recording_kinds.size(); ++i) {
-      const session::RecordingKind& kind = session::recording_kinds[i];
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      const session::RecordingKind& kind = kinds[i];
       if (w.combo_item(kind.name, i == exporter.kind, kind.tooltip)) w.ask([i](Session& s) { s.exporter.kind = i; });
     }
     ImGui::EndCombo();
