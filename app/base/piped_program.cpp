@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cassert>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -56,6 +57,7 @@ struct PipedProgram::System {
 };
 
 PipedProgram::PipedProgram(std::vector<std::string> words, int output) : system_(std::make_unique<System>()) {
+  assert(!words.empty());
   auto& [input, errors, child] = *system_;
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input.data()) != 0) refuse(errno);
   if (::pipe2(errors.data(), O_CLOEXEC) != 0) refuse(errno);

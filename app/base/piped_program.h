@@ -12,8 +12,9 @@ namespace app {
 /// A running program. It reads from standard input what it is sent.
 class PipedProgram {
  public:
-  /// Starts a program that is found in $PATH. output: an open file, by its descriptor, which becomes the standard
-  /// output. Throws std::system_error, with std::errc::no_such_file_or_directory if there is no such program.
+  /// Starts a program that is found in $PATH. words: its name and its arguments. output: an open file, by its
+  /// descriptor, which becomes the standard output. Throws std::system_error, with std::errc::no_such_file_or_directory
+  /// if there is no such program.
   PipedProgram(std::vector<std::string> words, int output);
   /// Ends the program if it still runs.
   ~PipedProgram();
