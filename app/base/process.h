@@ -61,10 +61,9 @@ bool receive(int channel, std::span<std::byte> message, int milliseconds = -1);
 // In a process that is to harm nothing.
 /// Takes the memory of another process. Only the first `writable` bytes, whole pages, can be written to.
 std::span<std::byte> take_memory(int handle, std::size_t writable);
-/// Lets this process take at most so many more bytes of memory, and start neither processes nor threads.
+/// Lets this process take at most so many more bytes of memory, and start neither processes nor threads. It ends with
+/// the thread that has started it.
 void confine(std::size_t memory);
-/// Ends this process after so many seconds, unless it is called again; 0: never.
-void end_after(unsigned seconds);
 /// Loads a library and returns its function. Throws std::runtime_error with why there is none.
 void* load_function(int library, const char* name);
 

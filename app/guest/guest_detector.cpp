@@ -67,25 +67,19 @@ class GuestDetector final : public collide::Detector {
         for (const float value : axis.subspan(bodies.first[body], bodies.size(body)))
           words_.push_back(std::bit_cast<std::uint32_t>(value));
     words_.insert(words_.end(), first_.begin(), first_.end());
-    Request request{.vertices = first_.back(), .bodies = bodies.count()};
-    const auto add = [&](auto&& mesh_parts, std::uint32_t& count) {
-      for (const collide::Index body : live_.live)
-        mesh_parts(bodies.shape[body]->topology(), [&, first = first_[body]](auto... corners) {
-          words_.insert(words_.end(), {first + corners...});
-          ++count;
-        });
-    };
-    const auto edges = [](const collide::Topology& mesh, const auto& take) {
-      for (collide::Index v = 0; v < mesh.vertex_count(); ++v)
-        for (const collide::Index neighbour : mesh.neighbours(v))
-          if (v < neighbour) take(v, neighbour);
-    };
-    const auto triangles = [](const collide::Topology& mesh, const auto& take) {
-      for (const auto& [a, b, c] : mesh.triangles()) take(a, b, c);
-    };
-    add(edges, request.edges);
-    add(triangles, request.triangles);
-    return request;
+    const std::size_t edges = words_.size();
+    for (const collide::Index body : live_.live)
+      for (collide::Index v = 0; v < bodies.size(body); ++v)
+        for (const collide::Index neighbour : bodies.shape[body]->topology().neighbours(v))
+          if (v < neighbour) words_.insert(words_.end(), {first_[body] + v, first_[body] + neighbour});
+    const std::size_t triangles = words_.size();
+    for (const collide::Index body : live_.live)
+      for (const auto& [a, b, c] : bodies.shape[body]->topology().triangles())
+        words_.insert(words_.end(), {first_[body] + a, first_[body] + b, first_[body] + c});
+    return {.vertices = first_.back(),
+            .bodies = bodies.count(),
+            .edges = static_cast<std::uint32_t>((triangles - edges) / 2),
+            .triangles = static_cast<std::uint32_t>((words_.size() - triangles) / 3)};
   }
 
   /// Takes the pairs that count, whatever their distance: two vertices of different bodies, or of one body whose shape
@@ -104,7 +98,7 @@ class GuestDetector final : public collide::Detector {
       if (a != b) contacts.push_back({a, b});
     }
     std::ranges::sort(contacts);
-    contacts.erase(std::ranges::unique(contacts).begin(), contacts.end());
+    contacts.erase(std::unique(contacts.begin(), contacts.end()), contacts.end());
     std::erase_if(contacts, [&](collide::Contact& contact) {
       auto& [a, b] = contact;
       const std::size_t body = body_of(a), other = body_of(b);

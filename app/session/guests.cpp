@@ -14,9 +14,10 @@ Guests::~Guests() {
 }
 
 std::vector<std::string> Guests::take_from(std::vector<std::string> dropped) {
-  const auto guests = std::ranges::stable_partition(dropped, [](const auto& file) { return !guest::is_guest(file); });
-  dropped_.insert(dropped_.end(), guests.begin(), guests.end());
-  dropped.erase(guests.begin(), guests.end());
+  const auto guests = std::stable_partition(dropped.begin(), dropped.end(),
+                                            [](const std::string& file) { return !guest::is_guest(file); });
+  dropped_.insert(dropped_.end(), guests, dropped.end());
+  dropped.erase(guests, dropped.end());
   return dropped;
 }
 
@@ -47,7 +48,7 @@ std::string Guests::message() const {
   std::string problems;
   for (const auto& guest : guests_)
     if (const auto build = guest->build(); build && !dismissed_)
-      problems += build->errors.empty() ? build->problem : build->errors;
+      problems += build->errors.empty() ? build->problem + "\n" : build->errors;
   return problems;
 }
 

@@ -47,7 +47,7 @@ TEST_F(DetectGuest, IsComparedWithAllOthers) {
 }
 
 TEST_F(DetectGuest, EndsWithOneLineWhereItsMethodFails) {
-  for (const auto& [wrong, said] : {std::pair(Wrong::segfault, "SIGSEGV"), {Wrong::out_of_range, "hands over vertex"}})
+  for (const auto& [wrong, said] : {std::pair(Wrong::abort, "SIGABRT"), {Wrong::out_of_range, "hands over vertex"}})
     expect_refused({"detect", mesh, "--guest", guest, "--tolerance", metres(wrong), "--method", "guest:hostile"},
                    {"hostile_guest.so: ", said});
 }

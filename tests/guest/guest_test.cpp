@@ -64,6 +64,13 @@ std::string problem(collide::Detector& detector, Wrong wrong) {
   }
 }
 
+// A sanitizer catches the signal itself, and has its own heap.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+
 /// What must not grow.
 struct Taken {
   std::size_t handles = 0, mappings = 0;
@@ -122,6 +129,8 @@ TEST(GuestDetector, SaysWhatAGuestDoesWrongAndKeepsNothingOfIt) {
                                     {Wrong::much_memory, "takes more than 4 GiB of memory"},
                                     {Wrong::reads_input, ""},
                                     {Wrong::throws, "no idea"}}) {
+    if (sanitized && (wrong == Wrong::segfault || wrong == Wrong::writes_frame || wrong == Wrong::much_memory))
+      continue;
     {
       const auto detector = make_detector(guest);
       const std::string text = *said ? std::string("hostile_guest.so: ") + said : "";
