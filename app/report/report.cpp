@@ -9,6 +9,7 @@
 #include "app/report/detection/results.h"
 #include "app/report/solver/results.h"
 #include "app/report/stability/results.h"
+#include "app/report/theory/results.h"
 #include "engine/resources.h"
 
 namespace app::report {
@@ -21,7 +22,8 @@ struct Report {
 };
 
 constexpr std::array reports{Report{"detection", report_detection}, Report{"contact", report_contact},
-                             Report{"solver", report_solver}, Report{"stability", report_stability}};
+                             Report{"solver", report_solver}, Report{"stability", report_stability},
+                             Report{"theory", report_theory}};
 
 }  // namespace
 

@@ -95,6 +95,12 @@ stability() {
   table "$work/stability/stability.md" "Cells that pass" | publish stability-cells.csv "$program" "$command"
 }
 
+theory() {
+  report theory --threads "${THREADS:-1}"
+  publish theory.csv "$program" "$command" <"$work/theory/theory.csv"
+  table "$work/theory/theory.md" "All cases" | publish theory-cases.csv "$program" "$command"
+}
+
 # has_bench NAME: whether a benchmark was built.
 has_bench() {
   [ -x "$bench/$1" ] || { echo "$1: left out, $bench has none (cmake --preset bench)"; return 1; }
@@ -121,7 +127,7 @@ bench_ccd() {
   table "$work/ccd.md" "Queries" | publish bench-ccd.csv "$bench/bench_ccd" "bench_ccd FILE..."
 }
 
-all=(detection contact solver stability bench_detection bench_step bench_stages bench_ccd)
+all=(detection contact solver stability theory bench_detection bench_step bench_stages bench_ccd)
 for part in "${@:-"${all[@]}"}"; do
   case " ${all[*]} " in
     *" $part "*) SECONDS=0; $part ;;

@@ -151,8 +151,12 @@ TEST(Errors, NameAFolderThatCannotBeWrittenToEvenIfNothingWouldBe) {
   const TemporaryFolder folder;
   const auto file = folder.write("file", "not a folder");  // a regular file stops even root
   const std::string out = file / "below", contacts = file / "contacts.csv";
-  for (const Words& command :
-       {drop, {"report", "detection"}, {"report", "contact"}, {"report", "solver"}, {"report", "stability"}})
+  for (const Words& command : {drop,
+                               {"report", "detection"},
+                               {"report", "contact"},
+                               {"report", "solver"},
+                               {"report", "stability"},
+                               {"report", "theory"}})
     expect_refused(with(command, {"--out", out}), {"--out " + out + ": cannot be written to"});
   for (const Words& detect : {detect_mesh, {"detect", mesh, mesh, "--continuous"}})
     expect_refused(with(detect, {"--contacts", contacts}), {contacts + ": cannot be written"});
