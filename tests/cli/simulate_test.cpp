@@ -109,10 +109,27 @@ TEST(Simulate, NamesEachStageOnceAndWhyOthersAreLeftOut) {
     EXPECT_TRUE(all.insert(l["stage"]).second);
     EXPECT_FALSE(l["why"].get<std::string>().empty());
   }
-  EXPECT_EQ(
-      all, (Keys{"arrive", "contact-response", "surface-contact", "structural-springs", "bend-springs", "shear-springs",
-                 "gas-pressure", "shape-matching", "grab", "gravity", "integrate", "restitution", "solids",
-                 "solid-features", "internal-damping", "rebound-damping", "rolling-resistance", "detect", "sleep"}));
+  EXPECT_EQ(all, (Keys{"arrive",
+                       "hold",
+                       "air-drag",
+                       "contact-response",
+                       "surface-contact",
+                       "structural-springs",
+                       "bend-springs",
+                       "shear-springs",
+                       "gas-pressure",
+                       "shape-matching",
+                       "grab",
+                       "gravity",
+                       "integrate",
+                       "restitution",
+                       "solids",
+                       "solid-features",
+                       "internal-damping",
+                       "rebound-damping",
+                       "rolling-resistance",
+                       "detect",
+                       "sleep"}));
   const auto runs = [&](const char* stage) {
     return std::find(plan["stages"].begin(), plan["stages"].end(), stage) != plan["stages"].end();
   };

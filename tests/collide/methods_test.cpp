@@ -38,6 +38,7 @@ TEST(Methods, StandByGroup) {
   for (const Method& method : method_table()) {
     if (groups.empty() || groups.back() != method.group) groups.push_back(method.group);
   }
+  groups.push_back(MethodGroup::guests);  // there are none at first
   EXPECT_TRUE(std::ranges::equal(groups, method_groups, {}, {}, &MethodGroupName::group));
 }
 
