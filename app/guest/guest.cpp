@@ -51,17 +51,16 @@ struct TemporaryFolder {
 
 std::string contents(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw std::runtime_error("cannot be read");
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// Returns the first line with an error of those that a compiler has printed; else all of them.
+/// Returns the first line with an error of those that a compiler has printed; else the first one.
 std::string first_error(const std::string& printed) {
   std::istringstream lines(printed);
   for (std::string line; std::getline(lines, line);)
     if (const std::size_t at = line.find("error"); at != std::string::npos)
       return line.substr(line.rfind('/', at) + 1);  // without the folder
-  return printed;
+  return printed.substr(0, printed.find('\n'));
 }
 
 /// Compiles a source into folder/guest.so. Returns why that fails, and fills in the errors; else an empty text.
@@ -118,7 +117,7 @@ void Guest::load() {
   try {
     const TemporaryFolder folder;
     const Language* language = language_of(file_);
-    if (language) contents(file_);  // says so if it cannot be read
+    if (!fs::is_regular_file(file_)) throw std::runtime_error("cannot be read");
     if (language) build->problem = compile(*language, file_, folder.path, *this, build->errors);
     if (build->problem.empty()) {
       const std::string bytes = contents(language ? folder.path / "guest.so" : file_);

@@ -2,6 +2,7 @@
 
 #include "app/session/guests.h"
 
+#include "app/window/preferences.h"
 #include "tests/app/panel_rig.h"
 #include "tests/temporary_folder.h"
 
@@ -61,6 +62,11 @@ TEST(Guests, AreAskedForShownMendedAndComparedButDriveNothing) {
   const std::string driver = rig.session.world().method().key;
   rig.click("Drive Loop");
   EXPECT_EQ(rig.session.world().method().key, driver) << "it never drives bodies";
+
+  const std::filesystem::path kept = folder.path() / "preferences.toml";
+  window::PreferencesFile(kept).store(window::preferences_of(rig.session, rig.ui, {800, 600}), 0, true);
+  window::PreferencesFile read(kept);
+  EXPECT_EQ(read.store(read.stored(), 0, true), "") << "the key of a guest would be no key of TOML";
 
   write(false_one);
   ASSERT_TRUE(rig.frames_until([&] { return row() && row()->precision < 1; }));
