@@ -22,6 +22,11 @@ program simulate --scene D --frames 90 --obj-every 90 --capture 90 --size 320x18
 [ -s "$work/out/frame_0090.png" ] || fail "there is no picture"
 program report detection --quick --out "$work/out/report" >/dev/null
 [ "$(find "$work/out/report" -name '*.png' -o -name '*.svg' | wc -l)" -gt 0 ] || fail "the report has no plot"
+program new-method "$work/out/mine.c" >/dev/null
+for guest in "$work/out/mine.c" "$share/doc/sbcollide/app/package/examples/guests/hash_grid.c"; do
+  program detect "$work/out/frame_0090.obj" --tolerance 0.1 --method all --guest "$guest" >"$work/guest"
+  grep -Eq '^guest:my-[a-z]+ +[1-9][0-9]* +1 +1 ' "$work/guest" || fail "$guest is compared wrongly"
+done
 if command -v xvfb-run >/dev/null; then
   command=$(sed -n 's/^Exec=//p' "$share/applications/sbcollide.desktop")
   status=0

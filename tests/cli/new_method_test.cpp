@@ -1,8 +1,8 @@
-// `new-method`: a detector to begin with.
+// `new-method`: a detector to begin with; and the examples of detectors of one's own, as guests.
 
 #include <gtest/gtest.h>
 
-#include "tests/cli/process.h"
+#include "tests/cli/detect_rig.h"
 
 namespace cli::test {
 namespace THIS_FILE {
@@ -35,6 +35,26 @@ TEST(NewMethod, RefusesOtherKindsOfFiles) {
   expect_refused({"new-method", folder.path() / "no/folder/mine.c"}, {"no/folder/mine.c"});
   expect_refused({"new-method"}, {"FILE"});
   EXPECT_TRUE(file_names(folder.path()).empty());
+}
+
+using GuestExamplesInDetect = DetectFolder;
+
+TEST_F(GuestExamplesInDetect, FindAllContactsButForTheMistake) {
+  const State first = random_state(3), second = moved(first, 0.05f, 4);
+  Words all{file("1.obj", first), file("2.obj", second), "--tolerance", "0.07", "--method", "all"};
+  for (const char* name : {"double_loop.c", "hash_grid.c", "one_cell.c"})
+    all = with(all, {"--guest", SBCOLLIDE_GUESTS "/" + std::string(name)});
+  std::size_t guests = 0;
+  for (const nlohmann::json& document : detect(all)) {
+    if (!document["method"].get<std::string>().starts_with("guest:")) continue;
+    ++guests;
+    const bool mistaken = document["method"] == "guest:my-mistake";
+    EXPECT_EQ(document["recall"] == 1.0, !mistaken) << document;
+    EXPECT_EQ(document["precision"], 1.0);
+    EXPECT_EQ(document["first_missed"].is_null(), !mistaken);
+    EXPECT_TRUE(document["first_false"].is_null());
+  }
+  EXPECT_EQ(guests, 3u);
 }
 
 }  // namespace THIS_FILE
