@@ -46,7 +46,21 @@ void focus_on(const collide::Contact& pair, const Session& session, engine::Came
   const softbody::BodyModel& model = session.world().model(session.world().bodies().body_of(pair.a));
   const float radius = std::max({0.5f * glm::distance(at[pair.a], at[pair.b]), session.world().collision().tolerance,
                                  around * static_cast<float>(model.shown().mean_edge)});
-  camera.glide_to(0.5f * (at[pair.a] + at[pair.b]), radius, size);
+  engine::Camera trial = camera;
+  trial.glide_to(0.5f * (at[pair.a] + at[pair.b]), radius, size);
+  trial.finish_glide();
+  const engine::Orbit ahead = trial.orbit();
+  engine::Orbit best = ahead;
+  float best_free = 0;  // m from the eye, in which nothing hides the pair
+  for (const float elevation : {ahead.elevation, 0.8f, 1.3f})
+    for (float turn = 0; turn < 6; ++turn) {
+      trial.set_orbit({ahead.target, ahead.distance, ahead.azimuth + turn, elevation});
+      const engine::Ray ray{trial.eye(), glm::normalize(ahead.target - trial.eye())};
+      const float free = std::min(render::distance_to_scene(ray, session.world(), at).value_or(ahead.distance),
+                                  ahead.distance - radius);
+      if (free > best_free) best = trial.orbit(), best_free = free;
+    }
+  camera.glide_to(best);
 }
 
 MouseInput read_mouse(glm::vec2 origin, bool over_scene) {

@@ -25,7 +25,7 @@ struct MouseInput {
 /// Returns where bodies are for the mouse. It is valid until the next step.
 render::DrawnPositions positions_under_mouse(const Session& session, session::Half half = session::Half::first);
 
-/// Makes the camera glide to a body, or to two vertices.
+/// Makes the camera glide to a body, or to two vertices, from where as little as possible hides them.
 void focus_on(softbody::BodyId body, const Session& session, engine::Camera& camera, glm::ivec2 size);
 void focus_on(const collide::Contact& pair, const Session& session, engine::Camera& camera, glm::ivec2 size);
 
