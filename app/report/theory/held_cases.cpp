@@ -32,14 +32,13 @@ Scene held(Mesh mesh, double k, double shear, const std::vector<double>& z) {
 
 void chain(TheoryRun& run) {
   const int links = 10 << run.variant;
+  constexpr double half = 1.5;  // the angle of half an arc, which is not yet a catenary
+  const double radius = 0.5 / std::sin(half), length = links * 2 * radius * std::sin(half / links);
   Mesh mesh;
-  double length = 0;
   for (softbody::Index i = 0; i <= softbody::Index(links); ++i) {
-    const double z = double(i) / links - 0.5;
-    mesh.vertices.emplace_back(0, 0.6 * (4 * z * z - 1), z);  // a parabola; it becomes a catenary
-    if (i == 0) continue;
-    mesh.edges.push_back({i - 1, i});
-    length += glm::distance(mesh.vertices[i], mesh.vertices[i - 1]);
+    const double angle = half * (2.0 * i / links - 1);
+    mesh.vertices.emplace_back(0, radius * (std::cos(half) - std::cos(angle)), radius * std::sin(angle));
+    if (i > 0) mesh.edges.push_back({i - 1, i});
   }
   Scene scene = held(std::move(mesh), 3e4 * links, 0, {-0.5, 0.5});
   scene.gravity = {0, -g, 0};

@@ -67,7 +67,7 @@ void long_run(TheoryRun& run, const std::function<void(softbody::Particle&)>& ch
   const double first = energy(), scale = std::max(first, 0.01);  // J
   const dvec3 spin_first = spin();
   double band = 0, last = 0;
-  while (run.substeps_done < (run.quick ? 1e3 : 1e5)) {
+  while (run.substeps_done < (run.quick ? 1e3 : run.by.implicit ? 1e4 : 1e5)) {
     run.step(world, 1);
     last = energy();
     band = std::max(band, std::abs(last - first));

@@ -86,8 +86,9 @@ void breathing(TheoryRun& run) {
 }
 
 void pressed_flat(TheoryRun& run) {
-  constexpr double weight = 20 * closed_form::g;
+  constexpr double weight = 60 * closed_form::g;
   Scene scene = sphere(run.variant, 10'000, 113'000, ambient);
+  scene.materials[0][softbody::StructuralSprings::damping_ratio] = 0.3;
   scene.materials[0][Material::mass] = weight / closed_form::g;
   scene.materials[0][Material::internal_damping] = 10;
   scene.gravity = {0, -closed_form::g, 0};
