@@ -47,7 +47,7 @@ std::string Guests::message() const {
   if (loading_) return "Loading " + loading_->file().filename().string();
   std::string problems;
   for (const auto& guest : guests_)
-    if (const auto build = guest->build(); build && !dismissed_)
+    if (const auto build = guest->build(); build && !build->problem.empty() && !dismissed_)
       problems += build->errors.empty() ? build->problem + "\n" : build->errors;
   return problems;
 }

@@ -28,15 +28,36 @@ void Widgets::register_number(std::string_view label, std::string_view tooltip) 
 
 namespace {
 
-/// Makes ImGui's grab faint while it lives, since it lies behind the value.
-struct FaintGrab {
-  FaintGrab() {
-    for (const ImGuiCol which : {ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive})
-      ImGui::PushStyleColor(which, ImGui::GetColorU32(which, 0.45f));
+/// Hides ImGui's own grab, which would cover the value in the middle of the slider.
+class HiddenGrab {
+ public:
+  HiddenGrab() {
+    for (const ImGuiCol which : {ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive}) ImGui::PushStyleColor(which, {});
   }
-  ~FaintGrab() { ImGui::PopStyleColor(2); }
+  ~HiddenGrab() { ImGui::PopStyleColor(2); }
 };
 
+/// Returns the position of a value between the ends of a slider, 0 .. 1.
+float relative_position(double value, double min, double max, bool logarithmic) {
+  const double position = logarithmic ? std::log(value / min) / std::log(max / min) : (value - min) / (max - min);
+  return static_cast<float>(std::clamp(position, 0.0, 1.0));
+}
+
+/// Draws a bar and a grab along the lower edge of the last item, below its text. `steps`: between whole numbers; 0: the
+/// slider has no steps.
+void draw_grab(float position, float steps, float bar) {
+  const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+  constexpr float border = 2;  // as that of ImGui's grab
+  const float room = max.x - min.x - 2 * border;
+  const float grab = std::min(room, std::max(ImGui::GetStyle().GrabMinSize, steps > 0 ? room / (steps + 1) : 0));
+  const float left = min.x + border + position * (room - grab);
+  const ImU32 colour = ImGui::GetColorU32(ImGui::IsItemActive() ? ImGuiCol_SliderGrabActive : ImGuiCol_SliderGrab);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled({min.x + border, max.y - bar}, {left, max.y}, ImGui::GetColorU32(ImGuiCol_SliderGrab, 0.35f));
+  draw->AddRectFilled({left, max.y - 2 * bar}, {left + grab, max.y}, colour, bar);
+}
+
+constexpr float slider_bar = 2.5f;  // design pixels
 constexpr ImGuiSliderFlags clamped = ImGuiSliderFlags_AlwaysClamp;
 
 /// True at a double-click, unless a field is open already: there a double-click selects a word.
@@ -118,7 +139,7 @@ bool Widgets::slider(std::string_view label, Value& value, std::type_identity_t<
   const bool double_clicked = opens_field() && input_.pressed == label;
   if (double_clicked) value = static_cast<Value>(input_.value_before);
   const bool changed = [&] {
-    const FaintGrab faint;
+    const HiddenGrab hide;
     const OpenByDoubleClick opens;
     return drag_or_type(n, [&](const char* id) {
       return ImGui::SliderScalar(id, imgui_type<Value>, &value, &min, &max, format,
@@ -132,6 +153,12 @@ bool Widgets::slider(std::string_view label, Value& value, std::type_identity_t<
     input_.pressed = label;
     input_.value_before = static_cast<double>(now);
   }
+  const auto first = static_cast<double>(min), last = static_cast<double>(max);
+  // A logarithmic slider from 0 begins at the smallest number that ImGui shows.
+  const double begin = logarithmic ? std::max(first, std::pow(0.1, ImParseFormatPrecision(n.format, 3))) : first;
+  const double steps = std::is_integral_v<Value> && !logarithmic ? last - first : 0;
+  draw_grab(relative_position(static_cast<double>(value), begin, last, logarithmic), static_cast<float>(steps),
+            px(slider_bar));
   register_number(label, tooltip);
   return changed || value != now;
 }
