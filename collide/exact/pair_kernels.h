@@ -22,7 +22,8 @@ struct Slab {
 struct FacingScratch {
   static constexpr Index max_vertices = 2048, max_tests = 1 << 15;
   template <class T>
-  using Values = std::array<T, max_vertices + 2 * max_lanes>;
+  using Values = std::array<T, max_vertices + 12 * max_lanes>;  // no multiple of 4 KiB: where few are used, none of
+                                                                // them waits for a store to another at like addresses
   Values<float> along_a, x, y, z;  // of a; of the facing vertices of b
   Values<Index> list, vertex;
   std::array<std::uint64_t, 2 * max_tests / 64 + 2> words;  // a bit for each pair, if close
