@@ -12,7 +12,7 @@
 #include "app/base/usage_error.h"
 #include "app/compare/difference.h"
 #include "app/files/body_file.h"
-#include "app/files/recording.h"
+#include "app/files/playback.h"
 #include "app/report/report.h"
 #include "collide/methods.h"
 #include "softbody/integrate/integrators.h"

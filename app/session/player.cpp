@@ -5,7 +5,7 @@
 
 namespace app::session {
 
-Player::Player(std::shared_ptr<files::Recording> recording, softbody::Scene scene, int threads)
+Player::Player(std::shared_ptr<files::Playback> recording, softbody::Scene scene, int threads)
     : recording_(std::move(recording)),
       scene_(std::move(scene)),
       settings_(settings_of(scene_)),

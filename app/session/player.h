@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "app/files/recording.h"
+#include "app/files/playback.h"
 #include "collide/core/workers.h"
 #include "softbody/world/bodies_in_motion.h"
 
@@ -13,12 +13,12 @@ namespace app::session {
 class Player : public softbody::BodiesInMotion {
  public:
   /// Shows the first frame. Of `scene`, bodies and solids do not count. Throws as show() does.
-  Player(std::shared_ptr<files::Recording> recording, softbody::Scene scene, int threads);
+  Player(std::shared_ptr<files::Playback> recording, softbody::Scene scene, int threads);
 
   /// Shows the next frame, and after the last one the first one. Throws as show(); the next call then goes on behind
   /// the frame that cannot be read.
   void step();
-  /// Shows a frame and detects. Throws as Recording::frame() does, and then shows what it did before. If it is the
+  /// Shows a frame and detects. Throws as Playback::frame() does, and then shows what it did before. If it is the
   /// detector that throws, the frame is shown, but detection() is not of it.
   void show(int number);
   /// Makes `scene` the scene, and detects anew. Changes nothing if it throws: SceneError for settings that are not
@@ -27,7 +27,7 @@ class Player : public softbody::BodiesInMotion {
   /// Frees the memory of the detection, until apply() is called.
   void forget_detection();
 
-  const std::shared_ptr<files::Recording>& recording() const { return recording_; }
+  const std::shared_ptr<files::Playback>& recording() const { return recording_; }
   /// Returns the memory of the frame that is shown, in bytes.
   std::size_t bytes() const { return 3 * sizeof(float) * shown_->x.size(); }
 
@@ -52,7 +52,7 @@ class Player : public softbody::BodiesInMotion {
   glm::vec3 automatic_cell_size(int levels, float tolerance) const;
   collide::Settings settings_of(const softbody::Scene& scene) const;
 
-  std::shared_ptr<files::Recording> recording_;
+  std::shared_ptr<files::Playback> recording_;
   softbody::Scene scene_;
   collide::Settings settings_;
   const collide::Method* method_;

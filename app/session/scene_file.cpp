@@ -105,7 +105,7 @@ std::string demo_command(const std::string& name, const softbody::Scene& used,
   return this_program() + scene_options(name, used, integrator);
 }
 
-std::string play_command(const files::Recording& recording, const softbody::Scene& used) {
+std::string play_command(const files::Playback& recording, const softbody::Scene& used) {
   std::string text = this_program();
   for (const std::string& word : recording.command_words()) text.append(1, ' ').append(shell_word(word));
   return text + detection_options(used);

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/files/recording.h"
+#include "app/files/playback.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/scene/scene.h"
 
@@ -47,7 +47,7 @@ std::string shell_word(const std::string& text);
 /// window.
 std::string demo_command(const std::string& name, const softbody::Scene& used,
                          const softbody::IntegratorChoice& integrator);
-std::string play_command(const files::Recording& recording, const softbody::Scene& used);
+std::string play_command(const files::Playback& recording, const softbody::Scene& used);
 std::string simulate_command(const std::string& name, const softbody::Scene& used,
                              const softbody::IntegratorChoice& integrator, int frame);
 

@@ -8,7 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/compare/difference.h"
-#include "app/files/recording.h"
+#include "app/files/playback.h"
 #include "app/guest/guest.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/scene/scene.h"

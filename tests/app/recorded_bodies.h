@@ -1,53 +1,47 @@
 #pragma once
-// A recording in memory: balls that move along x, of which the last one joins late.
+// A recording of balls that move along x, of which the last one joins late.
 
-#include <optional>
+#include <fmt/core.h>
 
-#include "app/files/recording.h"
-#include "softbody/world/body_model_set.h"
+#include "app/files/playback.h"
+#include "softbody/mesh/mesh.h"
+#include "tests/temporary_folder.h"
 
 namespace app {
 
-class RecordedBalls : public files::Recording {
+/// Its frames are read from their files whenever they are shown.
+class RecordedBalls : private tests::TemporaryFolder, public files::Playback {
  public:
   static constexpr std::uint32_t few = 2, all = 3;  // bodies, before and from frame `late` on
   static constexpr int late = 4;
 
-  explicit RecordedBalls(int frames, double radius = 0.5) : frames_(frames), mesh_(softbody::icosphere(1, radius)) {
-    const auto shape = std::make_shared<const collide::Shape>(collide::Index(mesh_.vertices.size()), mesh_.edges);
-    model_ = softbody::recorded_body_model(mesh_, shape);
-  }
+  explicit RecordedBalls(int frames, double radius = 0.5)
+      : files::Playback(written(*this, frames, radius), {}, 0, true) {}
 
-  std::array<glm::vec3, 2> bounds() const override { return {glm::vec3(-0.5f), glm::vec3(1.8f, 0.5f, 0.5f)}; }
-  int frame_count() const override { return frames_; }
-  std::shared_ptr<const files::RecordedFrame> frame(int number) override {
-    if (broken == number) throw softbody::SceneError("frame 3 is broken");
-    auto frame = std::make_shared<files::RecordedFrame>();
-    frame->body_count = number < late ? few : all;
-    for (std::uint32_t body = 0; body < frame->body_count; ++body)
-      for (const glm::dvec3& v : mesh_.vertices) {
-        frame->x.push_back(static_cast<float>(v.x + (1.3 - 0.05 * number) * body));
-        frame->y.push_back(static_cast<float>(v.y + 0.01 * number));
-        frame->z.push_back(static_cast<float>(v.z));
-      }
-    return frame;
-  }
-  const std::shared_ptr<const softbody::BodyModel>& model(std::uint32_t) const override { return model_; }
-
-  void release() override { ++releases; }
-  std::vector<std::string> command_words() const override { return {"--play", "ball 0.obj"}; }
-
-  std::optional<int> broken;
-  int releases = 0;
+  std::filesystem::path file(int number) const { return path() / fmt::format("ball {}.obj", number); }
 
  private:
-  int frames_;
-  softbody::Mesh mesh_;
-  std::shared_ptr<const softbody::BodyModel> model_;
+  static std::vector<std::filesystem::path> written(const RecordedBalls& balls, int frames, double radius) {
+    const softbody::Mesh mesh = softbody::icosphere(1, radius);
+    std::vector<std::filesystem::path> files;
+    for (int number = 0; number < frames; ++number) {
+      std::string text;
+      for (std::uint32_t body = 0; body < (number < late ? few : all); ++body) {
+        const std::size_t first = 1 + body * mesh.vertices.size();
+        text += "o ball\n";
+        for (const glm::dvec3& v : mesh.vertices)
+          text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", v.x + (1.3 - 0.05 * number) * body, v.y + 0.01 * number, v.z);
+        for (const auto& [a, b, c] : mesh.triangles)
+          text += fmt::format("f {} {} {}\n", first + a, first + b, first + c);
+      }
+      files.push_back(balls.write(balls.file(number).filename().string(), text));
+    }
+    return files;
+  }
 };
 
 /// Returns a recording with a scene to play it in.
-inline files::Opened opened(std::shared_ptr<files::Recording> recording) {
+inline files::Opened opened(std::shared_ptr<files::Playback> recording) {
   softbody::Scene scene;
   scene.key = scene.name = "balls";
   scene.collision.tolerance = 0.15f;
