@@ -53,8 +53,8 @@ void focus_on(const collide::Contact& pair, const Session& session, engine::Came
   engine::Orbit best = ahead;
   float best_free = 0;  // m from the eye, in which nothing hides the pair
   for (const float elevation : {ahead.elevation, 0.8f, 1.3f})
-    for (float turn = 0; turn < 6; ++turn) {
-      trial.set_orbit({ahead.target, ahead.distance, ahead.azimuth + turn, elevation});
+    for (int turn = 0; turn < 6; ++turn) {
+      trial.set_orbit({ahead.target, ahead.distance, ahead.azimuth + static_cast<float>(turn), elevation});
       const engine::Ray ray{trial.eye(), glm::normalize(ahead.target - trial.eye())};
       const float free = std::min(render::distance_to_scene(ray, session.world(), at).value_or(ahead.distance),
                                   ahead.distance - radius);
