@@ -179,8 +179,13 @@ TEST(CompareView, LetsTheWindowLookAtTheFirstMissedPair) {
   const compare::CompareReport& report = rig.session.comparison.report();
   const collide::Contact pair = report.rows[literal].missed.at(0);
   engine::Camera camera;
+  camera.set_orbit({.azimuth = -1.57f, .elevation = 0});  // from the left, where a body is 1 m deep before the pair
   window::focus_on(pair, rig.session, camera, {1280, 720});
   camera.finish_glide();
+  const engine::Ray ray{camera.eye(), glm::normalize(camera.orbit().target - camera.eye())};
+  const auto hidden_at =
+      render::distance_to_scene(ray, rig.session.world(), window::positions_under_mouse(rig.session));
+  EXPECT_GT(hidden_at.value_or(camera.orbit().distance), camera.orbit().distance - 0.8f) << "one looks between them";
   const collide::Frame frame = rig.session.world().positions();
   const glm::vec3 a = position(frame, pair.a), b = position(frame, pair.b);
   EXPECT_LT(glm::distance(camera.orbit().target, 0.5f * (a + b)), 1e-5f);
