@@ -243,6 +243,23 @@ TEST(HoldsOfAScene, KeepTheBodyAwakeWhereTheyMoveIt) {
   }
 }
 
+TEST(SwitchHold, HoldsAParticleAndLetsGoOfIt) {
+  Scene s = lone_body(spring_ball());
+  s.gravity = down;
+  World w(s, {});
+  const Plan without = w.plan();
+  EXPECT_FALSE(without.has(Stage::hold));
+  run(w, 5);
+  w.switch_hold(0, 3);
+  EXPECT_TRUE(w.plan().has(Stage::hold));
+  const glm::dvec3 place = w.particle(0, 3).position;
+  run(w, 5);
+  EXPECT_EQ(w.particle(0, 3).position, place);
+  w.switch_hold(0, 3);
+  run(w, 5);
+  EXPECT_GT(glm::distance(w.particle(0, 3).position, place), 0.01);
+}
+
 TEST(Bodies, StartTurnedAndSpinAboutTheirMiddle) {
   for (const Integrator& integrator : integrators()) {
     SCOPED_TRACE(integrator.key);
