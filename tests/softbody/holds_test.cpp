@@ -191,14 +191,14 @@ TEST_P(Holds, CarryBodiesByBothContacts) {
     s.contact_surface = contact;
     s.collision.tolerance = 0.15f;
     s.materials.push_back(damped(gas_ball()));
-    for (Material& m : s.materials) m[contact::stiffness] = 1000;
+    for (Material& m : s.materials) m[contact::stiffness] = 400;
     s.bodies.push_back({.mesh = {.subdivisions = 1, .radius = 0.2}, .material = 1, .position = {0, 0.4, 0}});
     World w = world(s);
     EnergyWatch watch;
     for (int i = 0; i < 60; ++i) {
       w.step();
       const auto change = watch.look(w, measure_bodies(w));
-      ASSERT_FALSE(change && change->from_nowhere()) << i;
+      ASSERT_FALSE(change && change->from_nowhere()) << i << ": " << change->gain << " J of " << change->active;
     }
     EXPECT_NEAR(w.particle(0, 0).position.y, 0.5, 1e-3);
     EXPECT_GT(motion(w, 1).centre.y, 0.5 + 0.05) << "it lies on the sheet";

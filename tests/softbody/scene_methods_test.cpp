@@ -97,7 +97,7 @@ struct Moments {
 const Moments moments[]{{"A", {35, 40, 45}},     {"B", {52, 140, 200}},           {"C", {52, 130, 300}},
                         {"D", {52, 130, 300}},   {"cloth", {53, 80, 400}, false}, {"drop", {421, 540, 610}},
                         {"star", {40, 80, 200}}, {"container", {40, 100, 300}},   {"trampoline", {60, 200}},
-                        {"wring", {150}}};
+                        {"wring", {150}, false}};
 
 class SceneMethods : public testing::TestWithParam<Moments> {};
 
