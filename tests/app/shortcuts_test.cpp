@@ -114,6 +114,7 @@ TEST(Shortcuts, ActWithControlShiftAndDelete) {
   const auto request = ui::request_by_key(session, 'B', false);
   ASSERT_TRUE(request);
   EXPECT_TRUE(std::get<ui::WindowTask>(*request) == ui::WindowTask::throw_body);
+  EXPECT_TRUE(std::get<ui::WindowTask>(*ui::request_by_key(session, 'K', false)) == ui::WindowTask::switch_hold);
   struct Row {
     int key, mods;
     std::size_t bodies;  // afterwards
