@@ -58,7 +58,7 @@ mesh/points mesh/polygon mesh/read_number mesh/shortest_text mesh/surface
 state/best_rotation state/body state/energy_ledger state/lanes
 model/key model/material model/body_model model/scene_error
 contact/contacts contact/keys contact/solid contact/solid_surface
-forces/coordinates forces/gas forces/grab forces/shape_matching forces/springs
+forces/air_drag forces/coordinates forces/gas forces/grab forces/shape_matching forces/springs
 mechanics/body_measures mechanics/bound mechanics/material_keys
 scene/scene scene/scene_keys scene/toml_table scene/toml_text
 integrate/integrators integrate/work integrate/plan

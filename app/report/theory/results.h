@@ -43,8 +43,8 @@ struct TheoryRun {
   /// Returns the scene's world with this integrator. change: of each particle of the first body at the start.
   softbody::World begin(const softbody::Scene& scene,
                         const std::function<void(softbody::Particle&)>& change = {}) const;
-  /// Simulates frames. Throws SceneError where they take too much work.
-  void step(softbody::World& world, int frames, const std::function<void()>& after_substep = {});
+  /// Simulates frames, of `planned` if these are more. Throws SceneError where they take too much work.
+  void step(softbody::World& world, int frames, const std::function<void()>& after_substep = {}, int planned = 0);
   /// Simulates so many frames, and returns the value at the start and after each substep, or some of them.
   Signal sample(softbody::World& world, int frames, const std::function<double(const collide::Frame&)>& value);
   /// Returns what the rounding of a position in each substep comes to, as a share.

@@ -29,7 +29,7 @@ softbody::World TheoryRun::begin(const softbody::Scene& scene,
                      change ? changed_start(scene, change) : std::vector<Particles>());
 }
 
-void TheoryRun::step(softbody::World& world, int frames, const std::function<void()>& after_substep) {
+void TheoryRun::step(softbody::World& world, int frames, const std::function<void()>& after_substep, int planned) {
   const double most_work = quick ? 5e6 : 2.5e7;  // particles times substeps
   for (int frame = 0; frame < frames; ++frame) {
     world.step(after_substep);
@@ -37,7 +37,8 @@ void TheoryRun::step(softbody::World& world, int frames, const std::function<voi
     const softbody::StepReport& done = world.last_step();
     ms += done.solve_ms, substeps_done += done.substeps, substep = done.last_substep, took = done.integrator;
     most_substeps = std::max(most_substeps, done.substeps);
-    if (double(done.substeps) * frames * double(world.positions().x.size()) > most_work)
+    const double work = by.implicit ? 300 : 1;  // of a particle in a substep
+    if (work * done.substeps * std::max(frames, planned) * double(world.positions().x.size()) > most_work)
       throw softbody::SceneError("too many steps");
   }
 }
@@ -48,9 +49,10 @@ Signal TheoryRun::sample(softbody::World& world, int frames,
   for (int frame = 0; frame < frames; ++frame) {
     const int every = 1 + most_substeps / 100;
     int steps = 0;
-    step(world, 1, [&] {
+    const auto look = [&] {
       if (++steps % every == 0) signal.value.push_back(value(world.positions()));
-    });
+    };
+    step(world, 1, look, frames);
     for (int i = every; i <= steps; i += every) signal.t.push_back((frame + double(i) / steps) * world.frame_time());
   }
   return signal;
