@@ -41,7 +41,7 @@ void append_file(ShaderSource& source, const fs::path& file) {
 }
 
 // In OpenGL ES, not every type has a default precision.
-constexpr const char* precision =
+constexpr const char* default_precisions =
     "#ifdef GL_ES\n"
     "precision highp float;\n"
     "precision highp int;\n"
@@ -50,7 +50,7 @@ constexpr const char* precision =
     "#endif\n";
 
 ShaderSource read_source(const fs::path& file, const std::string& version) {
-  ShaderSource source{version + "\n" + precision, {}};
+  ShaderSource source{version + "\n" + default_precisions, {}};
   source.lines.assign(static_cast<std::size_t>(std::ranges::count(source.text, '\n')), {file, 1});
   append_file(source, file);
   return source;

@@ -87,7 +87,13 @@ void Session::exchange() {
   // The workers rest longer while pictures come late, and where steps need the cores that they would take.
   const bool late = simulation.history.frame_ms.median(15) > late_ms;
   const int rests = late || simulation.step_ms() > 500 * world().frame_time() ? 10 : 2;
-  if (const auto method = guests.update()) comparison.method_changed(*method);
+  if (const auto method = guests.update()) {
+    comparison.method_changed(*method);
+    if (sweep().running)
+      sweep_worker.cancel();
+    else if (!sweep().scene.empty())
+      sweep_worker.start(world(), comparison.shown_methods());
+  }
   comparison.exchange(world(), simulation.revision(), simulation.world_number(), rests);
   look_at_surfaces(surfaces, Half::first, rests);
   look_at_surfaces(surfaces_beside, Half::second, rests);

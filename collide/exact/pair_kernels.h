@@ -21,9 +21,9 @@ struct Slab {
 /// Scratch memory of the function below, for bodies of up to max_vertices vertices.
 struct FacingScratch {
   static constexpr Index max_vertices = 2048, max_tests = 1 << 15;
+  // No multiple of 4 KiB: where few are used, none of them waits for a store to another at like addresses.
   template <class T>
-  using Values = std::array<T, max_vertices + 12 * max_lanes>;  // no multiple of 4 KiB: where few are used, none of
-                                                                // them waits for a store to another at like addresses
+  using Values = std::array<T, max_vertices + 12 * max_lanes>;
   Values<float> along_a, x, y, z;  // of a; of the facing vertices of b
   Values<Index> list, vertex;
   std::array<std::uint64_t, 2 * max_tests / 64 + 2> words;  // a bit for each pair, if close

@@ -55,11 +55,11 @@ inline glm::dmat3 rotation(const glm::dvec3& turn) {
   return glm::dmat3(1) + 2.0 * (w * cross + cross * cross);
 }
 
-/// Returns places that are turned by `axes` about the origin; without a turn, the same to the bit.
-inline std::vector<glm::dvec3> turned(std::vector<glm::dvec3> places, const glm::dmat3& axes) {
+/// Returns points that are turned by `axes` about the origin; without a turn, the same to the bit.
+inline std::vector<glm::dvec3> turned(std::vector<glm::dvec3> points, const glm::dmat3& axes) {
   if (axes != glm::dmat3(1.0))
-    for (glm::dvec3& place : places) place = axes * place;
-  return places;
+    for (glm::dvec3& point : points) point = axes * point;
+  return points;
 }
 
 /// Returns the rigid motion of `count` particles with position(i) and velocity(i).

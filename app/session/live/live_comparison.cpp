@@ -97,6 +97,7 @@ void LiveComparison::method_changed(std::size_t method) {
   if (method >= sums_.size()) return;  // it was not compared yet
   sums_[method] = {};
   method_ms_[method].clear();
+  if (method < report_.rows.size()) report_.rows[method].scored = false;
 }
 
 void LiveComparison::forget_times() {
