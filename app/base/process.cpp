@@ -8,6 +8,7 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <linux/audit.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <poll.h>
@@ -22,6 +23,7 @@
 
 #include <array>
 #include <csignal>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
 #include <new>
@@ -85,19 +87,18 @@ Process::Process(std::vector<std::string> words, const std::vector<int>& handles
 
 Process::~Process() {
   for (const int all : {id_, -id_}) ::kill(all, SIGKILL);  // it, and its group
-  if (!end_) ::waitpid(id_, nullptr, 0);
+  ::waitpid(id_, nullptr, 0);
   ::close(channel_);
 }
 
-std::optional<std::string> Process::end() {
-  int status = 0;
-  if (end_ || ::waitpid(id_, &status, WNOHANG) == 0) return end_;
-  const int signal = WTERMSIG(status);
-  const char* name = ::sigabbrev_np(signal);
-  end_ = WIFSIGNALED(status)
-             ? std::string("ended by signal SIG") + (name ? name : "") + " (" + ::strsignal(signal) + ")"
-             : "ended itself with status " + std::to_string(WEXITSTATUS(status));
-  return end_;
+std::optional<std::string> Process::end() const {
+  siginfo_t found{};
+  // It stays a zombie until the destructor: no other process can get its number before.
+  if (::waitid(P_PID, static_cast<id_t>(id_), &found, WEXITED | WNOHANG | WNOWAIT) != 0 || found.si_pid == 0)
+    return std::nullopt;
+  if (found.si_code == CLD_EXITED) return "ended itself with status " + std::to_string(found.si_status);
+  const char* name = ::sigabbrev_np(found.si_status);
+  return std::string("ended by signal SIG") + (name ? name : "") + " (" + ::strsignal(found.si_status) + ")";
 }
 
 void send(int channel, std::span<const std::byte> message) {
@@ -125,15 +126,26 @@ void confine(std::size_t memory) {
   ::setrlimit(RLIMIT_CORE, &none);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   // RLIMIT_NPROC counts all processes of the user, and does not hold for root.
-  std::vector<sock_filter> filter{BPF_STMT(BPF_LD | BPF_W | BPF_ABS, 0)};  // the number of the system call
-  for (const unsigned call : {SYS_clone, SYS_clone3,
-#ifdef SYS_fork
-                              SYS_fork, SYS_vfork
-#endif
-       }) {
-    filter.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, call, 0, 1));
+  std::vector<sock_filter> filter;
+  const auto load = [&](std::size_t place) {
+    filter.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<unsigned>(place)));
+  };
+  const auto refuse = [&](unsigned short comparison, unsigned value, bool if_true = true) {
+    filter.push_back(sock_filter{static_cast<unsigned short>(BPF_JMP | comparison | BPF_K), !if_true, if_true, value});
     filter.push_back(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EAGAIN));
-  }
+  };
+#ifdef __x86_64__  // also has the system calls of 32 bits, and of x32, by other numbers
+  load(offsetof(seccomp_data, arch));
+  refuse(BPF_JEQ, AUDIT_ARCH_X86_64, false);
+#endif
+  load(offsetof(seccomp_data, nr));
+#ifdef __x86_64__
+  refuse(BPF_JGE, 0x40000000);
+  refuse(BPF_JEQ, SYS_fork);
+  refuse(BPF_JEQ, SYS_vfork);
+#endif
+  refuse(BPF_JEQ, SYS_clone);
+  refuse(BPF_JEQ, SYS_clone3);
   filter.push_back(BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW));
   const sock_fprog program{static_cast<unsigned short>(filter.size()), filter.data()};
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
@@ -141,10 +153,11 @@ void confine(std::size_t memory) {
 }
 
 void* load_function(int library, const char* name) {
-  void* opened = ::dlopen(("/proc/self/fd/" + std::to_string(library)).c_str(), RTLD_NOW | RTLD_LOCAL);
-  void* function = opened ? ::dlsym(opened, name) : nullptr;
-  if (!function) throw std::runtime_error(::dlerror());
-  return function;
+  const std::string file = "/proc/self/fd/" + std::to_string(library);
+  void* opened = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (void* function = opened ? ::dlsym(opened, name) : nullptr) return function;
+  const std::string why = ::dlerror();  // "FILE: ..."
+  throw std::runtime_error(why.starts_with(file) ? why.substr(file.size() + 2) : why);
 }
 
 }  // namespace app
@@ -157,7 +170,7 @@ SharedMemory::SharedMemory(std::size_t) { throw UsageError("methods of your own 
 SharedMemory::~SharedMemory() = default;
 Process::Process(std::vector<std::string>, const std::vector<int>&, const std::filesystem::path&) {}
 Process::~Process() = default;
-std::optional<std::string> Process::end() { return "not started"; }
+std::optional<std::string> Process::end() const { return "not started"; }
 void send(int, std::span<const std::byte>) {}
 bool receive(int, std::span<std::byte>, int) { return false; }
 std::span<std::byte> take_memory(int, std::size_t) { return {}; }

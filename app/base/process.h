@@ -46,11 +46,10 @@ class Process {
   int channel() const { return channel_; }
   /// Returns how it ended: "ended by signal SIGSEGV (Segmentation fault)", "ended itself with status 0"; nothing while
   /// it runs.
-  std::optional<std::string> end();
+  std::optional<std::string> end() const;
 
  private:
   int id_ = 0, channel_ = -1;
-  std::optional<std::string> end_;
 };
 
 /// Sends a message, which is lost if nobody has the other end. Messages arrive whole and in order.

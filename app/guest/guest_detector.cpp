@@ -11,6 +11,7 @@
 #include "app/base/text.h"
 #include "app/guest/guest_process.h"
 #include "collide/core/body_boxes.h"
+#include "collide/core/contact_sort.h"
 
 namespace app::guest {
 namespace {
@@ -97,7 +98,7 @@ class GuestDetector final : public collide::Detector {
         throw std::runtime_error(fmt::format("hands over vertex {}, but there are only {}", b, first_.back()));
       if (a != b) contacts.push_back({a, b});
     }
-    std::ranges::sort(contacts);
+    collide::ContactSort().sort(contacts, {0, first_.back()});
     contacts.erase(std::unique(contacts.begin(), contacts.end()), contacts.end());
     std::erase_if(contacts, [&](collide::Contact& contact) {
       auto& [a, b] = contact;

@@ -128,13 +128,14 @@ Reply GuestProcess::reply(double seconds) {
   using Clock = std::chrono::steady_clock;
   for (const auto latest = Clock::now() + std::chrono::duration<double>(seconds); !guest_.stopped();) {
     Reply reply;
+    const auto end = process_.end();  // asked for first: its last message may come before its end
     if (receive(process_.channel(), std::as_writable_bytes(std::span(&reply, 1)), 20)) {
       for (auto* text : {&reply.error, &reply.key, &reply.name, &reply.summary}) text->back() = 0;
       if (reply.error[0] != 0) throw std::runtime_error(reply.error.data());
       if (reply.pairs > max_pairs) throw std::runtime_error("says that it has found more pairs than there is room for");
       return reply;
     }
-    if (const auto end = process_.end()) throw std::runtime_error(*end);
+    if (end) throw std::runtime_error(*end);
     if (Clock::now() > latest) throw std::runtime_error(fmt::format("over its time: {:.3g} s", seconds));
   }
   throw std::runtime_error("was stopped");
