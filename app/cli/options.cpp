@@ -411,8 +411,11 @@ void require_length(const std::string& option, double metres, const softbody::Ke
 
 const collide::Method& chosen_method(const DetectionOptions& options, std::string_view otherwise) {
   const collide::Method* method = collide::find_method(options.method ? *options.method : otherwise);
-  if (!method) throw UsageError("--method " + *options.method + ": unknown; use one of: " + collide::method_keys());
-  return *method;
+  if (method) return *method;
+  std::string guests;
+  for (const collide::Method& row : collide::method_table())
+    if (!row.can_drive()) guests += ", " + row.key;
+  throw UsageError("--method " + *options.method + ": unknown; use one of: " + collide::method_keys() + guests);
 }
 
 void apply(const DetectionOptions& options, collide::Settings& settings) {

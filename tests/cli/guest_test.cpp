@@ -60,6 +60,9 @@ TEST_F(DetectGuest, IsRefusedWhereItIsNoneOrWouldDriveBodies) {
   expect_refused({"--guest", guest, "simulate"}, {"--guest", "detect"});
   expect_refused({"report", "contact", "--out", folder.path(), "--guest", guest}, {"--guest", "report detection"});
   expect_refused({"--guest", guest, "--method", "guest:hostile"}, {"guest:hostile", "drives no bodies"});
+  expect_refused(with(detects, {"--guest", guest, "--method", "guest:host"}), {"octree, guest:hostile"});
+  const std::string none = folder.write("none.c", "int none;\n");
+  expect_refused(with(detects, {"--guest", none}), {"--guest none.c: undefined symbol: sbcollide_guest"});
 
   const std::string broken =
       folder.write("broken.cpp", "#include <sbcollide/method.h>\nint twice = 1;\nint twice = 2;\n");
