@@ -258,7 +258,8 @@ void detect(const Options& options) {
     if (!options.json) return print_table(task, all);
     Json list = Json::array();
     for (const MethodRun& run : all.runs) list.push_back(to_json(task, run, &all));
-    std::cout << list.dump() << '\n';
+    // What a guest has said may be no UTF-8.
+    std::cout << list.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
     return;
   }
   std::optional<files::OutputFile> csv;

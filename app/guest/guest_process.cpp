@@ -130,7 +130,11 @@ Reply GuestProcess::reply(double seconds) {
     Reply reply;
     const auto end = process_.end();  // asked for first: its last message may come before its end
     if (receive(process_.channel(), std::as_writable_bytes(std::span(&reply, 1)), 20)) {
-      for (auto* text : {&reply.error, &reply.key, &reply.name, &reply.summary}) text->back() = 0;
+      for (auto* text : {&reply.error, &reply.key, &reply.name, &reply.summary}) {
+        text->back() = 0;
+        for (char& c : *text)
+          if (c > 0 && c < ' ') c = ' ';  // a text is one line
+      }
       if (reply.error[0] != 0) throw std::runtime_error(reply.error.data());
       if (reply.pairs > max_pairs) throw std::runtime_error("says that it has found more pairs than there is room for");
       return reply;

@@ -59,7 +59,7 @@ void find(void* self, const sbcollide_frame* frame, float tolerance, sbcollide_p
       std::fputs("printed\n", stderr);
       return loop(frame, 0.5f, pairs);
     case Wrong::throws:
-      throw std::runtime_error("no idea");
+      throw std::runtime_error("no\nidea");
     case Wrong::counts:  // not wrong
       sbcollide_add(pairs, 0, 1 + searches++);
       sbcollide_add(pairs, 1, frame->edge_count);
