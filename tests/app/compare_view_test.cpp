@@ -190,6 +190,11 @@ TEST(CompareView, LetsTheWindowLookAtTheFirstMissedPair) {
   const glm::vec3 a = position(frame, pair.a), b = position(frame, pair.b);
   EXPECT_LT(glm::distance(camera.orbit().target, 0.5f * (a + b)), 1e-5f);
   EXPECT_FLOAT_EQ(report.rows[literal].missed_distance, glm::distance(a, b));
+
+  rig.ui.once_compared = ui::WindowTask::show_first_missed;
+  rig.session.simulation.clock.paused = false;
+  rig.frames(1);
+  EXPECT_FALSE(rig.ui.once_compared) << "the frame is gone";
 }
 
 TEST(CompareView, ShowsThePrecisionOnlyIfSomeContactIsFalse) {

@@ -17,6 +17,7 @@ std::vector<WindowTask> carry_out(const Requests& requests, session::Session& se
   const Tour::Camera camera = ui.tour.update(session, &ui.view);
   if (camera.overview) for_window.push_back(WindowTask::show_as_before_tour);
   if (camera.framing) for_window.push_back(WindowTask::show_highlight);
+  if (!session.simulation.clock.paused) ui.once_compared.reset();  // that frame is gone
   if (ui.once_compared && session.comparison.report().id == session.simulation.revision())
     for_window.push_back(*std::exchange(ui.once_compared, std::nullopt));
   if (ui.lower == LowerView::sweep && !had_sweep && !session.sweep_worker.knows(session.world()))
