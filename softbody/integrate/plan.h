@@ -54,7 +54,7 @@ struct Plan {
 struct AddedBodies {
   std::size_t bodies = 0;  // dropped or thrown in by hand
   bool grabs = false;      // a hand holds a body
-  bool holds = false;      // vertices are held by hand
+  bool holds = false;      // vertices are held by hand, or of such bodies
 };
 
 /// `models`: those of the scene's bodies, of its dropper and of the visitors.

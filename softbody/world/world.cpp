@@ -100,8 +100,9 @@ std::vector<HeldVertices> World::Parts::held_vertices(const BodySource& source) 
 
 BodyId World::Parts::add(const BodySource& source, const glm::dvec3& position) {
   const auto& model = models.of(source);
+  std::vector<HeldVertices> holds = held_vertices(source);
   const BodyId id = solver.state().add(model, position, source.velocity, source.axes, source.spin.vector());
-  solver.state().memory(id).holds = held_vertices(source);
+  solver.state().memory(id).holds = std::move(holds);
   if (model->fine && !fine) {
     count_vertices();  // the first one: the bodies before it are shown as they are
   } else {

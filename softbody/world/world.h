@@ -19,6 +19,7 @@
 
 namespace softbody {
 
+struct HeldVertices;
 struct Snapshot;
 class State;
 
@@ -77,6 +78,9 @@ class World : public BodiesInMotion {
   const std::optional<Grab>& grabbed() const;
   /// Holds a particle where it is, or lets go of it if it is held.
   void switch_hold(BodyId body, Index particle);
+  /// Replaces what is held of a body. The holds must be of its particles.
+  void hold(BodyId body, std::vector<HeldVertices> holds);
+  const std::vector<HeldVertices>& holds_of(BodyId body) const;
 
   /// Makes `wanted` the scene, all but its bodies and dropper: those of the world stay. Materials are told apart by
   /// their place in the list; those beyond the end of the wanted list stay, further ones are for later bodies. Bodies

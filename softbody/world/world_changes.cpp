@@ -67,6 +67,7 @@ BodyId World::Parts::spawn(BodySource source) {
   source.appear = frame;
   source.release = frame;
   const BodyId id = add(source, source.position);
+  added_bodies.holds = added_bodies.holds || !source.holds.empty();
   added.push_back({id, std::move(source)});
   return id;
 }
@@ -200,12 +201,19 @@ void World::grab(const std::optional<Grab>& grab) {
 const std::optional<Grab>& World::grabbed() const { return parts_->solver.hand().grab(); }
 
 void World::switch_hold(BodyId body, Index particle) {
-  Parts& s = *parts_;
-  assert(particle < s.particles.bodies.size(body));
-  std::vector<HeldVertices>& holds = s.solver.state().memory(body).holds;
+  assert(particle < parts_->particles.bodies.size(body));
+  std::vector<HeldVertices> holds = holds_of(body);
   std::size_t let_go = 0;
   for (HeldVertices& h : holds) let_go += std::erase(h.vertices, particle);
   if (let_go == 0) holds.push_back({.vertices = {particle}});
+  hold(body, std::move(holds));
+}
+
+const std::vector<HeldVertices>& World::holds_of(BodyId body) const { return state().body(body).memory.holds; }
+
+void World::hold(BodyId body, std::vector<HeldVertices> holds) {
+  Parts& s = *parts_;
+  s.solver.state().memory(body).holds = std::move(holds);
   s.solver.state().set_asleep(body, false);
   s.added_bodies.holds = true;
   s.update_plan();

@@ -101,6 +101,18 @@ TEST_F(BesideTest, LetsDropsThrowsDeletionsAndPullsActInBoth) {
   EXPECT_FALSE(world(Half::second).grabbed());
 }
 
+TEST_F(BesideTest, LetsHoldsActInBoth) {
+  session.simulation.set_beside(by_paper(0.1f));
+  run(session, 10);
+  session.bodies.select(1);
+  session.bodies.switch_hold(7);
+  run(session, 20);
+  for (const Half half : {Half::first, Half::second}) EXPECT_EQ(world(half).particle(1, 7).velocity, glm::dvec3(0.0));
+  session.bodies.switch_hold(7);
+  run(session, 20);
+  for (const Half half : {Half::first, Half::second}) EXPECT_LT(world(half).particle(1, 7).velocity.y, -1);
+}
+
 TEST_F(BesideTest, ForgetsMissedContactsWhenVerticesHaveOtherNumbers) {
   session.simulation.set_beside(by_paper(0.02f));
   run(session, 30);

@@ -10,6 +10,7 @@
 #include "softbody/contact/solid_surface.h"
 #include "softbody/forces/air_drag.h"
 #include "softbody/integrate/integrators.h"
+#include "softbody/state/state.h"
 #include "softbody/world/energy_watch.h"
 #include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
@@ -228,6 +229,19 @@ TEST(HoldsOfAScene, ThatHoldNothingAreNamed) {
   World w(sheet({}), {});
   expect_error("hold[0]", [&] { w.add({.mesh = {}, .holds = {edge(5)}}); });
   EXPECT_EQ(w.bodies().count(), 1u);
+  EXPECT_EQ(w.state().body_count(), 1u);
+}
+
+TEST(HoldsOfAScene, OfABodyThatIsAddedLastAsLongAsTheySay) {
+  World w(sheet({}), {});
+  Hold all{.where = SolidSphere{.centre = {0, 5, 0}, .radius = 2}, .until = 5};
+  all.velocity = {0, 1, 0};
+  const BodyId added = w.add({.mesh = {}, .position = {0, 5, 0}, .holds = {all}});
+  run(w, 5);
+  EXPECT_NEAR(motion(w, added).centre.y, 5 + 5.0 / 60, 1e-5);
+  EXPECT_EQ(w.holds_of(added).size(), 1u);
+  run(w, 1);
+  EXPECT_TRUE(w.holds_of(added).empty());
 }
 
 TEST(HoldsOfAScene, KeepTheBodyAwakeWhereTheyMoveIt) {

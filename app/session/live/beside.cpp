@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/session/stability/stability_monitor.h"
+#include "softbody/state/state.h"
 #include "softbody/world/measures.h"
 
 namespace app::session {
@@ -58,8 +59,8 @@ void Beside::follow(const World& first) {
   if (!stopped_.empty()) return;
   apply(first, difference_);
   const std::vector<std::uint32_t> here = numbers(*world_), there = numbers(first);
-  const bool may_remove = first.frame() == world_->frame();  // else bodies have come since the first world stopped
-  for (BodyId b = world_->bodies().count(); may_remove && b-- > 0;)
+  const bool together = first.frame() == world_->frame();  // else bodies have come since the first world stopped
+  for (BodyId b = world_->bodies().count(); together && b-- > 0;)
     if (!std::ranges::binary_search(there, here[b])) {
       world_->grab({});
       world_->remove(b);
@@ -68,6 +69,10 @@ void Beside::follow(const World& first) {
     }
   for (const softbody::AddedBody& added : first.added())
     if (here.empty() || first.body(added.body).number > here.back()) world_->add(added.source);
+  for (BodyId b = 0; together && b < world_->bodies().count(); ++b)
+    if (!std::ranges::equal(world_->holds_of(b), first.holds_of(b), {}, &softbody::HeldVertices::vertices,
+                            &softbody::HeldVertices::vertices))
+      world_->hold(b, first.holds_of(b));
 }
 
 void Beside::step(const World& first) {
