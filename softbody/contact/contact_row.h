@@ -49,6 +49,15 @@ inline glm::vec3 relative_velocity(const ContactRow& row, Field<const float> v) 
   return velocity;
 }
 
+/// Returns the work (J) of those who hold corners of a row, against its impulse.
+inline float work_of_holders(const ContactRow& row, Field<const float> v) {
+  const glm::vec3 impulse = row.normal_impulse * row.normal + row.friction_impulse;
+  float sum = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    if (row.mobility[k] == held_mobility) sum -= row.weight[k] * glm::dot(impulse, read(v, row.slot[k]));
+  return sum;
+}
+
 /// Changes the velocities of a row's corners by an impulse (N s).
 inline void apply(const ContactRow& row, const glm::vec3& impulse, Field<float> v) {
   for (std::size_t k = 0; k < 4; ++k) add(v, row.slot[k], row.mobility[k] * impulse);

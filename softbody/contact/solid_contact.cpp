@@ -177,8 +177,9 @@ void SolidContact::note_velocities(const Batch& b) {
 
 /// Particles first, then what lies between them, which may push particles back.
 void SolidContact::apply(const Batch& b, float h) {
-  if (apply_to_particles(b, h, false)) apply_to_features(b, h);
+  const bool near = apply_to_particles(b, h, false);
   state_.held.impose(b, field(state_.v));
+  if (near) apply_to_features(b, h);
 }
 
 /// Applies each solid in turn. Where two act on one body the later may push a particle into the earlier, as in a

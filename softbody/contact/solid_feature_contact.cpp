@@ -144,9 +144,13 @@ void SolidContact::apply_to_features(const Batch& b, float h) {
     for (ContactRow& row : rows) solve_row(row, v);
     if (!std::ranges::any_of(rows, acted)) return;
     apply_to_particles(b, h, true);
+    state_.held.impose(b, field(state_.v));
   }
   for (const ContactRow& row : rows) {
-    if (acted(row)) own.book(row, std::size_t(own.features[row.feature].lane));
+    if (!acted(row)) continue;
+    const auto lane = std::size_t(own.features[row.feature].lane);
+    own.book(row, lane);
+    own.energy[lane] += work_of_holders(row, v);
   }
 }
 

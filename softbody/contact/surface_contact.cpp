@@ -220,26 +220,13 @@ void SurfaceContact::solve_island(int thread, const Island& island, std::span<Co
   std::for_each(own.together.begin(), own.together.begin() + surfaces, [&](const ContactRow* row) { keep(*row); });
 }
 
-namespace {
-
-/// Returns the work (J) of those who hold corners of a row, against its impulse.
-double work_of_holders(const ContactRow& row, Field<const float> v) {
-  const glm::vec3 impulse = row.normal_impulse * row.normal + row.friction_impulse;
-  float sum = 0;
-  for (std::size_t k = 0; k < 4; ++k)
-    if (row.mobility[k] == held_mobility) sum -= row.weight[k] * glm::dot(impulse, read(v, row.slot[k]));
-  return double(sum);
-}
-
-}  // namespace
-
 void SurfaceContact::add_row_work(int thread, int threads, Field<const float> v) {
   const collide::Part part = collide::part_of(candidates_.pairs().size(), thread, threads);
   for (Pair& p : std::span(candidates_.pairs()).subspan(part.begin, part.end - part.begin)) {
     const bool holds = !candidates_.side(p, false).held.empty() || !candidates_.side(p, true).held.empty();
     for (const ContactRow& row : rows_of(p)) {
       p.energy += double(row.energy);
-      if (holds) p.energy += work_of_holders(row, v);
+      if (holds) p.energy += double(work_of_holders(row, v));
       if (p.restitution <= 0) continue;
       p.returned += double(row.returned);
       p.impulse += glm::dvec3(row.normal_impulse * row.normal);

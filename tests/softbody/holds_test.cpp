@@ -207,6 +207,23 @@ TEST_P(Holds, CarryBodiesByBothContacts) {
   }
 }
 
+/// The sphere lies between the vertices of a sheet of one quad that is held at all but a corner.
+TEST_P(Holds, BookWhatTheyDoAgainstSolids) {
+  if (std::string(GetParam()) == "implicit") return;  // its solids do not book it
+  Scene s = sheet({edge(-0.5), {.where = SolidSphere{.centre = {0.5, 0, 0.5}, .radius = 0.1}}});
+  for (Hold& hold : s.bodies[0].holds) hold.velocity = {0, -0.5, 0};
+  s.bodies[0].mesh.columns = s.bodies[0].mesh.rows = 1;
+  s.contact_surface = ContactSurface::surfaces;
+  s.solids = {Solid{SolidSphere{.centre = {0.2, -0.3, -0.1}, .radius = 0.2}}};
+  World w = world(s);
+  EnergyWatch watch;
+  for (int i = 0; i < 60; ++i) {
+    w.step();
+    const auto change = watch.look(w, measure_bodies(w));
+    ASSERT_FALSE(change && change->from_nowhere()) << i << ": " << change->gain << " J of " << change->active;
+  }
+}
+
 TEST_P(Holds, GoOnFromASnapshotToTheBit) {
   Hold moving = edge(0.5);
   moving.turn = {.axis = {1, 0, 0}, .degrees_per_second = 90};
