@@ -99,10 +99,12 @@ void BodyControls::select(std::optional<BodyId> body) {
 
 void BodyControls::switch_hold(softbody::Index particle) {
   assert(selected_);
+  bool holds = false;
   simulation_.change_bodies("hold of a vertex", [&](World& world) {
-    world.switch_hold(*selected_, particle);
+    holds = world.switch_hold(*selected_, particle);
     return true;
   });
+  simulation_.notice.tell(holds ? "Held there. K at the same place lets it go." : "Let go.");
 }
 
 void BodyControls::remove_selected() {

@@ -76,8 +76,9 @@ class World : public BodiesInMotion {
   /// body wakes up, stays awake, and is no longer held in place.
   void grab(const std::optional<Grab>& grab);
   const std::optional<Grab>& grabbed() const;
-  /// Holds a particle where it is, or lets go of it if it is held.
-  void switch_hold(BodyId body, Index particle);
+  /// Lets go of the held particles near a particle, up to a fifth of the body's radius away; if there are none, holds it
+  /// where it is. Returns true if it is held now.
+  bool switch_hold(BodyId body, Index particle);
   /// Replaces what is held of a body. The holds must be of its particles.
   void hold(BodyId body, std::vector<HeldVertices> holds);
   const std::vector<HeldVertices>& holds_of(BodyId body) const;

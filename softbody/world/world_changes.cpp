@@ -200,13 +200,16 @@ void World::grab(const std::optional<Grab>& grab) {
 
 const std::optional<Grab>& World::grabbed() const { return parts_->solver.hand().grab(); }
 
-void World::switch_hold(BodyId body, Index particle) {
+bool World::switch_hold(BodyId body, Index particle) {
   assert(particle < parts_->particles.bodies.size(body));
   std::vector<HeldVertices> holds = holds_of(body);
+  const auto place = [&](Index i) { return this->particle(body, i).position; };
+  const auto is_near = [&](Index i) { return glm::distance(place(i), place(particle)) <= 0.2 * model(body).radius; };
   std::size_t let_go = 0;
-  for (HeldVertices& h : holds) let_go += std::erase(h.vertices, particle);
+  for (HeldVertices& h : holds) let_go += std::erase_if(h.vertices, is_near);
   if (let_go == 0) holds.push_back({.vertices = {particle}});
   hold(body, std::move(holds));
+  return let_go == 0;
 }
 
 const std::vector<HeldVertices>& World::holds_of(BodyId body) const { return state().body(body).memory.holds; }
