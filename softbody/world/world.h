@@ -19,7 +19,6 @@
 
 namespace softbody {
 
-struct HeldVertices;
 struct Snapshot;
 class State;
 
@@ -76,12 +75,11 @@ class World : public BodiesInMotion {
   /// body wakes up, stays awake, and is no longer held in place.
   void grab(const std::optional<Grab>& grab);
   const std::optional<Grab>& grabbed() const;
-  /// Lets go of the held particles near a particle, up to a fifth of the body's radius away; if there are none, holds it
-  /// where it is. Returns true if it is held now.
+  /// Lets go of the held particles near a particle, up to a fifth of the body's radius away; if there are none, holds
+  /// it where it is. Returns true if it is held now.
   bool switch_hold(BodyId body, Index particle);
-  /// Replaces what is held of a body. The holds must be of its particles.
-  void hold(BodyId body, std::vector<HeldVertices> holds);
-  const std::vector<HeldVertices>& holds_of(BodyId body) const;
+  /// Holds of each body what `other` holds, a world of the same bodies.
+  void copy_holds(const World& other);
 
   /// Makes `wanted` the scene, all but its bodies and dropper: those of the world stay. Materials are told apart by
   /// their place in the list; those beyond the end of the wanted list stay, further ones are for later bodies. Bodies

@@ -202,24 +202,28 @@ const std::optional<Grab>& World::grabbed() const { return parts_->solver.hand()
 
 bool World::switch_hold(BodyId body, Index particle) {
   assert(particle < parts_->particles.bodies.size(body));
-  std::vector<HeldVertices> holds = holds_of(body);
+  std::vector<HeldVertices> holds = state().body(body).memory.holds;
   const auto place = [&](Index i) { return this->particle(body, i).position; };
   const auto is_near = [&](Index i) { return glm::distance(place(i), place(particle)) <= 0.2 * model(body).radius; };
   std::size_t let_go = 0;
   for (HeldVertices& h : holds) let_go += std::erase_if(h.vertices, is_near);
   if (let_go == 0) holds.push_back({.vertices = {particle}});
-  hold(body, std::move(holds));
+  parts_->hold(body, std::move(holds));
   return let_go == 0;
 }
 
-const std::vector<HeldVertices>& World::holds_of(BodyId body) const { return state().body(body).memory.holds; }
+void World::copy_holds(const World& other) {
+  for (BodyId b = 0; b < parts_->particles.bodies.count(); ++b) {
+    const std::vector<HeldVertices>&own = state().body(b).memory.holds, &others = other.state().body(b).memory.holds;
+    if (!std::ranges::equal(own, others, {}, &HeldVertices::vertices, &HeldVertices::vertices)) parts_->hold(b, others);
+  }
+}
 
-void World::hold(BodyId body, std::vector<HeldVertices> holds) {
-  Parts& s = *parts_;
-  s.solver.state().memory(body).holds = std::move(holds);
-  s.solver.state().set_asleep(body, false);
-  s.added_bodies.holds = true;
-  s.update_plan();
+void World::Parts::hold(BodyId body, std::vector<HeldVertices> holds) {
+  solver.state().memory(body).holds = std::move(holds);
+  solver.state().set_asleep(body, false);
+  added_bodies.holds = true;
+  update_plan();
 }
 
 double World::Parts::energy() const {

@@ -65,6 +65,7 @@ struct World::Parts : WorldValues {
   double energy() const;  // J, of all bodies
   BodyId add(const BodySource& source, const glm::dvec3& position);
   std::vector<HeldVertices> held_vertices(const BodySource& source) const;
+  void hold(BodyId body, std::vector<HeldVertices> holds);
   void arrive();
   void count_vertices();
   void update_positions();

@@ -256,9 +256,9 @@ TEST(HoldsOfAScene, OfABodyThatIsAddedLastAsLongAsTheySay) {
   const BodyId added = w.add({.mesh = {}, .position = {0, 5, 0}, .holds = {all}});
   run(w, 5);
   EXPECT_NEAR(motion(w, added).centre.y, 5 + 5.0 / 60, 1e-5);
-  EXPECT_EQ(w.holds_of(added).size(), 1u);
+  EXPECT_EQ(w.state().body(added).memory.holds.size(), 1u);
   run(w, 1);
-  EXPECT_TRUE(w.holds_of(added).empty());
+  EXPECT_TRUE(w.state().body(added).memory.holds.empty());
 }
 
 TEST(HoldsOfAScene, KeepTheBodyAwakeWhereTheyMoveIt) {

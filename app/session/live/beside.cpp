@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "app/session/stability/stability_monitor.h"
-#include "softbody/state/state.h"
 #include "softbody/world/measures.h"
 
 namespace app::session {
@@ -69,10 +68,7 @@ void Beside::follow(const World& first) {
     }
   for (const softbody::AddedBody& added : first.added())
     if (here.empty() || first.body(added.body).number > here.back()) world_->add(added.source);
-  for (BodyId b = 0; together && b < world_->bodies().count(); ++b)
-    if (!std::ranges::equal(world_->holds_of(b), first.holds_of(b), {}, &softbody::HeldVertices::vertices,
-                            &softbody::HeldVertices::vertices))
-      world_->hold(b, first.holds_of(b));
+  if (together) world_->copy_holds(first);
 }
 
 void Beside::step(const World& first) {
