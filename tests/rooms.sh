@@ -36,7 +36,7 @@ app/files: app/base collide softbody engine
 app/compare: app/base collide softbody
 app/reference: softbody
 app/session/stability: app/base app/compare softbody
-app/session/live: app/base app/compare app/session/stability collide softbody
+app/session/live: app/base app/compare app/guest app/session/stability collide softbody
 app/session: app/base app/files app/compare app/guest app/session/stability app/session/live collide softbody engine
 app/render: app/base app/files app/compare collide softbody engine
 app/report: app/base app/files app/compare app/reference collide softbody engine

@@ -1,6 +1,6 @@
 // The user's own methods in the window.
 
-#include "app/session/guests.h"
+#include "app/session/live/guests.h"
 
 #include "app/window/preferences.h"
 #include "tests/app/panel_rig.h"

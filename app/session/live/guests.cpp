@@ -1,4 +1,4 @@
-#include "app/session/guests.h"
+#include "app/session/live/guests.h"
 
 #include <algorithm>
 #include <utility>
