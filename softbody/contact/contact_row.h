@@ -39,6 +39,8 @@ inline constexpr std::uint32_t uncached = std::numeric_limits<std::uint32_t>::ma
 /// The mobility of the corners that are held: so little that no impulse moves them, and more than 0, so that their
 /// velocities count.
 inline constexpr float held_mobility = 1e-30f;
+/// The mobility of a row up to which no corner moves: all are held, or belong to a body that does not move.
+inline constexpr float least_mobility = 1e6f * held_mobility;
 
 /// Returns the relative velocity (m/s) of the two closest points. A body that does not move has none, whatever it will
 /// set out with.

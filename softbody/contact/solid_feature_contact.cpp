@@ -180,7 +180,7 @@ void SolidContact::add_row(const Batch& b, SolidFeature& f, float h) {
     row.mobility[k] = !held.empty() && held[f.vertices[k]] ? held_mobility : m.weight[k] / s.mass;
     mobility += row.weight[k] * row.mobility[k];
   }
-  if (mobility <= 1e6f * held_mobility) return;
+  if (mobility <= least_mobility) return;
   row.mass = 1 / mobility;
   row.normal = {surface->normal.x, surface->normal.y, surface->normal.z};
   row.friction = s.friction;

@@ -229,7 +229,7 @@ void SurfaceRowMaker::add_row(const Pair& pair, const ContactRow& corners, const
                               CachedContact& cached) {
   float mobility = 0;
   for (std::size_t k = 0; k < 4; ++k) mobility += corners.weight[k] * corners.mobility[k];
-  if (mobility <= 1e6f * held_mobility) return;
+  if (mobility <= least_mobility) return;
   const float distance = corners.feature == uncached ? pair.distance : candidates_.max_gap(pair, corners.feature);
   const float gap = apart - distance;
   ContactRow& row = rows_.emplace_back(corners);
