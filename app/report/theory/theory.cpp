@@ -30,7 +30,7 @@ softbody::World TheoryRun::begin(const softbody::Scene& scene,
 }
 
 void TheoryRun::step(softbody::World& world, int frames, const std::function<void()>& after_substep, int planned) {
-  const double most_work = quick ? 5e6 : 2.5e7;  // particles times substeps
+  const double most_work = quick ? 5e6 : 2e8;  // particles times substeps
   for (int frame = 0; frame < frames; ++frame) {
     world.step(after_substep);
     require_whole_frame(world);
