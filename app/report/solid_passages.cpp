@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/report/worlds.h"
 #include "softbody/model/body_model.h"
 #include "softbody/world/measures.h"
 
@@ -17,14 +18,6 @@ namespace {
 constexpr float opposite = -0.2f;
 
 }  // namespace
-
-glm::dvec3 middle_of(const softbody::World& world, collide::Index body) {
-  const collide::Frame at = world.simulated().positions;
-  glm::dvec3 sum{0.0};
-  for (collide::Index v = at.bodies->first[body]; v < at.bodies->first[body + 1]; ++v)
-    sum += glm::dvec3(at.x[v], at.y[v], at.z[v]);
-  return sum / double(at.bodies->size(body));
-}
 
 bool SolidPassages::passed(const softbody::World& world, const glm::dvec3& from, const glm::dvec3& to,
                            double radius) const {
@@ -44,7 +37,7 @@ bool SolidPassages::observe(const softbody::World& world) {
   bool finite = true;
   for (collide::Index b = 0; b < world.bodies().count(); ++b) {
     const softbody::BodyModel& model = world.model(b);
-    const glm::dvec3 to = middle_of(world, b);
+    const glm::dvec3 to = middle_of(world.simulated().positions, b);
     if (b == outside_.size()) outside_.push_back(to);
     const bool known = std::isfinite(glm::distance(outside_[b], to));
     finite = finite && known;

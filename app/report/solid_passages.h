@@ -7,9 +7,6 @@
 
 namespace app::report {
 
-/// Returns the mean of a body's vertices (m, in the world).
-glm::dvec3 middle_of(const softbody::World& world, collide::Index body);
-
 /// Counts how often a closed body has gone through a solid: its middle has, on a straight line from where it was
 /// outside last, in on one side and out on the opposite one. The middle of a body that is wrapped around a solid may be
 /// inside for a while, but comes out on the same side, or round a corner on the side beside it.

@@ -1,5 +1,9 @@
 #include "app/report/worlds.h"
 
+#include <algorithm>
+#include <memory>
+#include <utility>
+
 #include "softbody/contact/keys.h"
 #include "softbody/forces/gas.h"
 #include "softbody/forces/springs.h"
@@ -56,6 +60,18 @@ std::vector<Particles> changed_start(const softbody::Scene& scene,
   Particles start = particles_of(world_of(scene), 0);
   for (softbody::Particle& p : start) change(p);
   return {std::move(start)};
+}
+
+glm::dvec3 middle_of(const collide::Frame& at, collide::Index begin, collide::Index end) {
+  glm::dvec3 sum{0.0};
+  for (collide::Index v = begin; v < end; ++v) sum += glm::dvec3(at.x[v], at.y[v], at.z[v]);
+  return sum / std::max(1.0, double(end - begin));
+}
+
+softbody::MeshSource source_of(softbody::Mesh mesh) {
+  auto imported = std::make_shared<softbody::ImportedMesh>();
+  imported->mesh = std::move(mesh);
+  return {.kind = "file", .file = {}, .imported = std::move(imported)};
 }
 
 void require_whole_frame(const softbody::World& world) {

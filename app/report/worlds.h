@@ -41,6 +41,15 @@ std::vector<Particles> all_particles(const softbody::World& world);
 std::vector<Particles> changed_start(const softbody::Scene& scene,
                                      const std::function<void(softbody::Particle&)>& change);
 
+/// Returns the mean of some vertices (m).
+glm::dvec3 middle_of(const collide::Frame& at, collide::Index begin, collide::Index end);
+/// Returns the mean of a body's.
+inline glm::dvec3 middle_of(const collide::Frame& at, collide::Index body) {
+  return middle_of(at, at.bodies->first[body], at.bodies->first[body + 1]);
+}
+/// Returns the source of a body with this mesh, as if from a file.
+softbody::MeshSource source_of(softbody::Mesh mesh);
+
 /// Throws SceneError if only a part of the last frame was simulated (see StepReport): figures are of whole
 /// frames.
 void require_whole_frame(const softbody::World& world);

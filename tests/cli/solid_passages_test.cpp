@@ -16,7 +16,7 @@ using glm::dvec3;
 
 void move(softbody::World& world, const dvec3& middle) {
   std::vector<softbody::Particle> particles;
-  const dvec3 way = middle - report::middle_of(world, 0);
+  const dvec3 way = middle - report::middle_of(world.positions(), 0);
   for (collide::Index v = 0; v < world.bodies().size(0); ++v)
     particles.push_back({world.particle(0, v).position + way, dvec3(0.0)});
   world.set_particles(0, particles);

@@ -121,7 +121,7 @@ class Trial {
 
   /// Returns the way of a body's middle since the last look for passages.
   glm::dvec3 way_of(collide::Index body) const {
-    return body < middles_.size() ? middle_of(world_, body) - middles_[body] : glm::dvec3(0.0);
+    return body < middles_.size() ? middle_of(world_.simulated().positions, body) - middles_[body] : glm::dvec3(0.0);
   }
 
   void look_for_overlaps() {
@@ -145,7 +145,8 @@ class Trial {
 
   void remember_middles() {
     middles_.clear();
-    for (collide::Index b = 0; b < world_.bodies().count(); ++b) middles_.push_back(middle_of(world_, b));
+    const collide::Frame at = world_.simulated().positions;
+    for (collide::Index b = 0; b < at.bodies->count(); ++b) middles_.push_back(middle_of(at, b));
   }
 
   void look_at_speeds() {

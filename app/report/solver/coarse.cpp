@@ -30,10 +30,9 @@ struct Look {
 
 Look look_at(const softbody::World& world) {
   const collide::Frame at = world.positions();
-  Look look;
-  for (std::size_t v = 0; v < at.x.size(); ++v) look.about.emplace_back(at.x[v], at.y[v], at.z[v]);
-  for (const glm::dvec3& p : look.about) look.middle += p / double(look.about.size());
-  for (glm::dvec3& p : look.about) p -= look.middle;
+  Look look{middle_of(at, 0, at.bodies->vertex_count()), {}};
+  for (std::size_t v = 0; v < at.x.size(); ++v)
+    look.about.push_back(glm::dvec3(at.x[v], at.y[v], at.z[v]) - look.middle);
   return look;
 }
 

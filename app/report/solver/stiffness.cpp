@@ -1,5 +1,4 @@
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -31,11 +30,8 @@ MeshSource waisted(int subdivisions) {
     v = 0.5 * glm::normalize(v + 0.15 * dvec3(std::sin(4 * v.y), std::sin(5 * v.z), std::sin(3 * v.x)));
     v *= dvec3(1, 0.8 - 0.3 * std::exp(-20 * v.x * v.x), 0.8);
   }
-  auto imported = std::make_shared<softbody::ImportedMesh>();
-  imported->mesh.vertices = std::move(mesh.vertices), imported->mesh.triangles = std::move(mesh.triangles);
-  softbody::connect_triangles(imported->mesh);
-  imported->findings.closed = true;
-  return {.kind = "file", .file = {}, .imported = std::move(imported)};
+  softbody::connect_triangles(mesh);
+  return source_of(std::move(mesh));
 }
 
 /// Returns a material with this frequency of shape matching, or without.

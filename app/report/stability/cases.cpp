@@ -108,11 +108,10 @@ StabilityScene pressure_times(double k, double factor) {
 template <class Damage>
 StabilityScene damaged_mesh(double k, Damage damage) {
   StabilityScene s = lone(k);
-  auto imported = std::make_shared<softbody::ImportedMesh>();
-  imported->mesh = softbody::icosphere(2, radius);
-  const auto [a, b, c] = imported->mesh.triangles[0];
-  damage(imported->mesh.vertices[a], imported->mesh.vertices[b], imported->mesh.vertices[c]);
-  s.scene.bodies[0].mesh = {.kind = "file", .file = {}, .imported = imported};
+  softbody::Mesh mesh = softbody::icosphere(2, radius);
+  const auto [a, b, c] = mesh.triangles[0];
+  damage(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+  s.scene.bodies[0].mesh = source_of(std::move(mesh));
   s.scene.materials[0][softbody::ShapeMatching::frequency] = 0;
   s.start = changed_start(s.scene, [](softbody::Particle& p) { p.position.y *= 0.5; });
   return s;

@@ -67,8 +67,6 @@ std::vector<TheoryCase> long_cases();
 
 /// Returns the mean of a body's particles.
 softbody::Particle mean(const softbody::World& world, softbody::BodyId body = 0);
-/// Returns the source of a body with this mesh.
-softbody::MeshSource source_of(softbody::Mesh mesh);
 
 struct TheoryRow : Comparison {
   const TheoryCase* of;

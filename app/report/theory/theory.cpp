@@ -1,5 +1,4 @@
 #include <cmath>
-#include <memory>
 
 #include "app/base/usage_error.h"
 #include "app/files/output_file.h"
@@ -14,13 +13,6 @@ softbody::Particle mean(const softbody::World& world, softbody::BodyId body) {
   softbody::Particle sum{};
   for (const softbody::Particle& p : all) sum.position += p.position, sum.velocity += p.velocity;
   return {sum.position / double(all.size()), sum.velocity / double(all.size())};
-}
-
-softbody::MeshSource source_of(softbody::Mesh mesh) {
-  auto imported = std::make_shared<softbody::ImportedMesh>();
-  imported->findings.closed = mesh.closed;
-  imported->mesh = std::move(mesh);
-  return {.kind = "file", .file = {}, .imported = std::move(imported)};
 }
 
 softbody::World TheoryRun::begin(const softbody::Scene& scene,
