@@ -60,14 +60,17 @@ picture() {
   if [ -f "$work/$1" ]; then cp "$work/$1" "assets/screenshots/$2"; else echo "$2: left as it is, without gnuplot"; fi
 }
 
-# Of detection.csv only the paper's level on its scenes and on the cloth, and the growth; of stability.csv the integrators
+# Of detection.csv only the paper's level on its scenes and on the cloth, and the studies; of stability.csv the integrators
 # that are stable at any step: the pages need no more.
 detection() {
   report detection
-  awk -F, 'NR == 1 || $1 == "growth" || ($2 ~ /^([A-D]|cloth)$/ && $7 ~ /^3?$/)' "$work/detection/detection.csv" |
+  awk -F, 'NR == 1 || $1 != "sweep" || ($2 ~ /^([A-D]|cloth)$/ && $8 ~ /^3?$/)' "$work/detection/detection.csv" |
     publish detection.csv "$program" "$command"
   table "$work/detection/report.md" "Table 1" | publish detection-table-1.csv "$program" "$command"
-  table "$work/detection/report.md" "Growth" | publish detection-growth.csv "$program" "$command"
+  local study
+  for study in Growth Density Sizes Order; do
+    table "$work/detection/report.md" "$study" | publish "detection-${study,,}.csv" "$program" "$command"
+  done
   publish misses.csv "$program" "$command" <"$work/detection/misses.csv"
   table "$work/detection/report.md" "What misses cost" | publish misses-left.csv "$program" "$command"
   picture detection/error-time-D.png error-time-D.png

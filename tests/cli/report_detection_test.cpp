@@ -19,13 +19,12 @@ std::set<std::string> all_methods() {
   return keys;
 }
 
-/// Checks that the table has every method with all its settings in every state, and the growth.
+/// Checks that the table has every method with all its settings in every state.
 void check_table(const std::filesystem::path& report) {
   std::map<std::string, std::set<std::string>> settings;  // by method and frame
-  std::set<std::string> frames, methods, grown;
+  std::set<std::string> frames, methods;
   bool missed = false;  // something, by the literal method
   for (Row row : read_csv(report / "detection.csv")) {
-    if (row["part"] == "growth") grown.insert(row["bodies"]);
     if (row["part"] != "sweep") continue;
     EXPECT_EQ(row["scene"], "four, 'balls'");
     EXPECT_EQ(row["bodies"], "4");
@@ -53,7 +52,6 @@ void check_table(const std::filesystem::path& report) {
         << "measured twice";
   }
   EXPECT_TRUE(missed);
-  EXPECT_EQ(grown, (std::set<std::string>{"3", "4"}));
   EXPECT_EQ(methods, all_methods());
   EXPECT_EQ(frames.size(), 2u);
   for (const std::string& frame : frames) {
@@ -61,6 +59,35 @@ void check_table(const std::filesystem::path& report) {
     EXPECT_EQ(settings["grid-hash" + frame].size(), 4u * 5);
     EXPECT_EQ(settings["multi-level-sb" + frame].size(), 4u * 4 * 5);
   }
+}
+
+/// Checks that each study has every method in every state, and that the exact methods find the same contacts.
+void check_studies(const std::filesystem::path& report) {
+  std::map<std::string, std::map<std::string, std::set<std::string>>> methods, contacts;  // by part and change
+  for (Row row : read_csv(report / "detection.csv")) {
+    if (row["part"] == "sweep") continue;
+    methods[row["part"]][row["change"]].insert(row["method"]);
+    if (row["coverage"] == "exact") contacts[row["part"]][row["change"]].insert(row["contacts"]);
+  }
+  const auto changes = [&](const std::string& part) {
+    std::set<std::string> all;
+    for (const auto& [change, keys] : methods[part]) {
+      all.insert(change);
+      EXPECT_EQ(keys, all_methods()) << part << ", " << change;
+      EXPECT_EQ(contacts[part][change].size(), 1u) << part << ", " << change;
+    }
+    return all;
+  };
+  EXPECT_EQ(changes("growth"), (std::set<std::string>{"3 bodies", "4 bodies"}));
+  EXPECT_EQ(changes("density"), (std::set<std::string>{"x 0.7", "x 0.85", "x 1", "x 1.5", "x 3"}));
+  EXPECT_EQ(changes("sizes"), (std::set<std::string>{"1 to 1", "1 to 2", "1 to 5", "1 to 10", "1 to 20"}));
+  EXPECT_EQ(changes("order"), (std::set<std::string>{"as in the scene", "by place", "shuffled"}));
+  const auto count = [&](const char* part, const char* change) { return number(*contacts[part][change].begin()); };
+  EXPECT_GT(count("density", "x 0.7"), count("density", "x 1"));
+  EXPECT_EQ(count("density", "x 3"), 0) << "the bodies are far apart";
+  for (const auto& [part, same] : {std::pair("density", "x 1"), {"sizes", "1 to 1"}, {"order", "by place"}})
+    EXPECT_EQ(count(part, same), count("growth", "4 bodies")) << part;
+  EXPECT_EQ(count("order", "shuffled"), count("order", "as in the scene"));
 }
 
 /// Checks that all methods but brute force have driven the scene, and that those that miss nothing did the same.
@@ -97,6 +124,8 @@ void check_page(const std::filesystem::path& report) {
   const std::string text = read_file(report / "report.md");
   EXPECT_NE(text.find("`sbcollide report detection --scene "), std::string::npos);
   EXPECT_NE(text.find("--quick --out DIR`"), std::string::npos);
+  for (const char* heading : {"### Growth", "### Density", "### Sizes of the bodies", "### Order of the bodies"})
+    EXPECT_NE(text.find(heading), std::string::npos) << heading;
   EXPECT_NE(text.find("1 thread,"), std::string::npos);
   EXPECT_EQ(text.find("nan"), std::string::npos);
   EXPECT_TRUE(std::regex_search(text, std::regex(R"(\n\| Brute force \| \|.*\| \| 2\.00 \|)")))
@@ -125,6 +154,7 @@ TEST(DetectionReport, IsWholeIfQuick) {
   EXPECT_EQ(printed_files(o, out), file_names(out));
   EXPECT_EQ(errors_of(o), "") << "progress is for terminals";
   check_table(out);
+  check_studies(out);
   check_misses(out);
   check_page(out);
 }

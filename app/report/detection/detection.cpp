@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include <fmt/core.h>
+
 #include "app/files/output_file.h"
 #include "app/report/detection/results.h"
 #include "app/report/files.h"
@@ -8,8 +10,8 @@ namespace app::report {
 namespace {
 
 constexpr std::array<std::string_view, 6> driven_scenes{"A", "B", "C", "D", "drop", "container"};
-constexpr std::uint64_t max_driven_vertices = 8'000;               // of a scene that is asked for
-constexpr collide::Index growth_bodies[] = {3, 16, 47, 200, 800};  // and all
+constexpr std::uint64_t max_driven_vertices = 8'000;  // of a scene that is asked for
+constexpr collide::Index min_studied_bodies = 4, quick_studied_bodies = 200;
 
 /// A sequence of the user's own is one scene only, and often one large body: then brute force may take some seconds.
 compare::SweepLimits limits_of(const ReportOptions& options) {
@@ -18,25 +20,24 @@ compare::SweepLimits limits_of(const ReportOptions& options) {
   return {};
 }
 
-/// Measures all configurations on all states. what: says which state it is.
-void sweep(SceneResult& scene, TimedParts& timed, const compare::SweepLimits& limits, collide::Workers& workers,
-           const auto& what) {
+/// Measures all configurations on all states.
+void sweep(SceneResult& scene, const compare::SweepLimits& limits, TimedParts& timed, collide::Workers& workers) {
   for (MeasuredState& state : scene.states) {
-    compare::Sweep sweep(state.view(), scene.configurations, limits, workers);
-    while (sweep.step()) say(what(state), sweep.progress());
+    const std::string what = scene.scene + (state.change.empty() ? ", frame " + std::to_string(state.frame)
+                                                                 : fmt::format(", {}: {}", scene.part, state.change));
+    std::vector<compare::Configuration> configurations = scene.configurations;
+    for (compare::Configuration& c : configurations)  // the automatic cell grows with the largest body
+      *c.settings.cell_size += float(state.largest - 1) * (*c.settings.cell_size - c.settings.tolerance);
+    compare::Sweep sweep(state.view(), configurations, limits, workers);
+    while (sweep.step()) say(what, sweep.progress());
     state.sweep = sweep.report();
     timed += state.sweep.timed;
   }
 }
 
-void sweep_frames(SceneResult& scene, DetectionResults& results, collide::Workers& workers) {
-  sweep(scene, results.timed, results.limits, workers,
-        [&](const MeasuredState& state) { return scene.scene + ", frame " + std::to_string(state.frame); });
-}
-
 /// Returns those with the paper's level and the automatic cell, with its 1001 buckets and with the sweep's largest
 /// number.
-std::vector<compare::Configuration> growth_configurations(std::vector<compare::Configuration> all) {
+std::vector<compare::Configuration> study_configurations(std::vector<compare::Configuration> all) {
   std::erase_if(all, [](const compare::Configuration& c) {
     const collide::Method& method = method_of(c);
     const bool level = !method.uses_levels || c.settings.levels == paper_level;
@@ -48,20 +49,27 @@ std::vector<compare::Configuration> growth_configurations(std::vector<compare::C
   return all;
 }
 
-/// Returns piles of more and more bodies out of the scene's first state, which is no pile yet: the middle is as dense
-/// as the rest.
-SceneResult sweep_growth(const SceneResult& scene, DetectionResults& results, collide::Workers& workers) {
-  SceneResult growth{scene.scene, scene.name, scene.buckets, growth_configurations(scene.configurations)};
+/// Measures what costs depend on, by the scene's first state. This is no pile yet: the middle is as dense as the rest.
+void sweep_studies(const SceneResult& scene, DetectionResults& results, collide::Workers& workers) {
   const MeasuredState& all = scene.states.front();
-  for (const collide::Index count : growth_bodies)
-    if (count < all.bodies.count()) growth.states.push_back(middle_bodies(all, count));
-  if (!growth.states.empty()) growth.states.push_back(all);
-  compare::SweepLimits limits = results.limits;
-  // Every method is to run on all bodies of the largest scene, brute force for some ten seconds.
-  if (!results.options.quick) limits.budget = 500'000'000'000;
-  sweep(growth, results.timed, limits, workers,
-        [](const MeasuredState& state) { return "growth, bodies: " + std::to_string(state.bodies.count()); });
-  return growth;
+  if (all.bodies.count() < min_studied_bodies) return;
+  const bool quick = results.options.quick;
+  for (const CostStudy& of : cost_studies()) {
+    const bool growth = of.key == "growth";
+    const MeasuredState state = quick && !growth ? middle_bodies(all, quick_studied_bodies) : all;
+    SceneResult study{scene.scene, scene.name, scene.buckets, study_configurations(scene.configurations)};
+    study.part = of.key;
+    for (const double value : of.values) {
+      MeasuredState changed = of.changed(state, value);
+      if (study.states.empty() || study.states.back().change != changed.change)
+        study.states.push_back(std::move(changed));
+    }
+    compare::SweepLimits limits = results.limits;
+    // Every method is to run on all bodies of the largest scene once, brute force for some ten seconds.
+    if (growth && !quick) limits.budget = 500'000'000'000;
+    sweep(study, limits, results.timed, workers);
+    results.studies.push_back(std::move(study));
+  }
 }
 
 void measure_scenes(const ReportOptions& options, DetectionResults& results, collide::Workers& workers) {
@@ -75,8 +83,8 @@ void measure_scenes(const ReportOptions& options, DetectionResults& results, col
     if (!swept && !largest) continue;
     say(scene.key + ": simulating", 0);
     SceneResult result = record(scene, options.quick, options.cores);
-    if (swept) sweep_frames(result, results, workers);
-    if (largest) results.growth = sweep_growth(result, results, workers);
+    if (swept) sweep(result, results.limits, results.timed, workers);
+    if (largest) sweep_studies(result, results, workers);
     if (options.scene ? vertex_count(scene) <= max_driven_vertices : std::ranges::count(driven_scenes, scene.key) > 0)
       drive(scene, results);
     if (swept) results.scenes.push_back(std::move(result));
@@ -93,7 +101,7 @@ void report_detection(const ReportOptions& options) {
   } else {
     SceneResult& sequence = results.scenes.emplace_back(record_sequence(options));
     files::prepare_folder(options.out);
-    sweep_frames(sequence, results, workers);
+    sweep(sequence, results.limits, results.timed, workers);
   }
   write_report(options, detection_table(results), "report.md", detection_page(results),
                {{"misses.csv", misses_table(results)}});

@@ -14,16 +14,17 @@ namespace app::report {
 Table detection_table(const DetectionResults& results) {
   constexpr std::array coverage_names{"exact", "covered", "exceeded", "unknown"};  // by value
   Table table;
-  const auto add = [&](std::string_view part, const SceneResult& scene) {
+  const auto add = [&](const SceneResult& scene) {
     for (const MeasuredState& state : scene.states)
       for (const compare::SweepRow& r : state.sweep.rows) {
         const compare::Configuration& c = r.configuration;
         const collide::Method& method = method_of(c);
         const glm::vec3 cell = *c.settings.cell_size;
         const bool run = r.not_run.empty(), known = state.sweep.reference.has_value(), scored = run && known;
-        TableRow row{{"part", part},
+        TableRow row{{"part", scene.part},
                      {"scene", scene.scene},
                      {"frame", state.frame},
+                     {"change", state.change},
                      {"bodies", state.bodies.count()},
                      {"vertices", state.bodies.vertex_count()},
                      {"method", method.key},
@@ -53,8 +54,8 @@ Table detection_table(const DetectionResults& results) {
         table.add(row);
       }
   };
-  for (const SceneResult& scene : results.scenes) add("sweep", scene);
-  add("growth", results.growth);
+  std::ranges::for_each(results.scenes, add);
+  std::ranges::for_each(results.studies, add);
   return table;
 }
 
@@ -235,7 +236,7 @@ Page detection_page(const DetectionResults& results) {
     page.plot(error_against_time(page, scene));
   }
   add_misses(page, results);
-  add_growth(page, results);
+  add_studies(page, results);
   return page;
 }
 

@@ -4,8 +4,6 @@
 #include <set>
 #include <stdexcept>
 
-#include <glm/geometric.hpp>
-
 #include "app/base/usage_error.h"
 #include "app/files/frame_sequence.h"
 #include "app/report/files.h"
@@ -20,12 +18,6 @@ MeasuredState copy(const softbody::World& world) {
   MeasuredState state{{}, world.frame()};
   state.copy(world.positions());
   return state;
-}
-
-glm::dvec3 middle(const MeasuredState& state, collide::Index begin, collide::Index end) {
-  glm::dvec3 sum{0.0};
-  for (collide::Index v = begin; v < end; ++v) sum += glm::dvec3(position(state.view(), v));
-  return sum / std::max(1.0, double(end - begin));
 }
 
 }  // namespace
@@ -98,21 +90,6 @@ SceneResult record_sequence(const ReportOptions& options) {
   recording.configurations = compare::sweep_configurations(
       settings, [&](int levels) { return collide::automatic_cell_size(begin.view(), levels, settings.tolerance); });
   return recording;
-}
-
-MeasuredState middle_bodies(const MeasuredState& state, collide::Index count) {
-  const collide::Bodies& all = state.bodies;
-  const glm::dvec3 centre = middle(state, 0, all.vertex_count());
-  std::vector<std::pair<double, collide::Index>> nearest;  // the body's distance, and which one
-  for (collide::Index b = 0; b < all.count(); ++b)
-    nearest.emplace_back(glm::distance(middle(state, all.first[b], all.first[b + 1]), centre), b);
-  std::ranges::sort(nearest);
-  nearest.resize(std::min<std::size_t>(count, nearest.size()));
-  std::ranges::sort(nearest, {}, &std::pair<double, collide::Index>::second);
-
-  MeasuredState part{{}, state.frame};
-  for (const auto& [distance, b] : nearest) part.add(state.view(), b);
-  return part;
 }
 
 }  // namespace app::report

@@ -18,15 +18,18 @@ namespace app::report {
 /// A copy of a frame, and a sweep of it.
 struct MeasuredState : compare::FrameCopy {
   int frame = 0;                 // its number
+  std::string change{};          // in a study: what was done to the recorded state
+  double largest = 1;            // how many times its own size the largest body has
   compare::SweepReport sweep{};  // empty until it is measured
 };
 
-/// The same configurations on several states of a scene or of a recorded sequence.
+/// The same configurations on several states of a scene or of a recorded sequence, or of a study.
 struct SceneResult {
   std::string scene, name;    // its key and its name; of a sequence the names of its files
   std::uint32_t buckets = 0;  // the scene's own
   std::vector<compare::Configuration> configurations{};
   std::vector<MeasuredState> states{};  // in the order of their frames
+  std::string_view part = "sweep";      // in detection.csv; of a study its key
 };
 
 /// Runs the scene and copies states. A scene runs for at most 800 frames, as the paper's do, and is copied after an
@@ -40,8 +43,18 @@ SceneResult record(const softbody::Scene& scene, bool quick, int threads);
 /// MeshFileError.
 SceneResult record_sequence(const ReportOptions& options);
 
+/// What a cost may depend on: one state, changed by several values.
+struct CostStudy {
+  std::string_view key;  // also of its text on the page
+  std::vector<double> values;
+  /// Returns the changed state, and says in it what was changed.
+  MeasuredState (*changed)(const MeasuredState& state, double value);
+};
+/// Returns all studies, the growth with the number of bodies first.
+std::vector<CostStudy> cost_studies();
+
 /// Returns the `count` bodies nearest to the middle of all: a smaller pile of the same kind.
-MeasuredState middle_bodies(const MeasuredState& state, collide::Index count);
+MeasuredState middle_bodies(const MeasuredState& state, double count);
 
 /// A scene that a method has driven until all bodies slept, or as long as time allows.
 struct DrivenRun {
@@ -55,10 +68,10 @@ struct DrivenRun {
 struct DetectionResults {
   ReportOptions options{};
   compare::SweepLimits limits{};
-  TimedParts timed{};                 // all sweeps
-  std::vector<SceneResult> scenes{};  // or the one sequence
-  SceneResult growth{};  // piles of more and more bodies, cut out of one state; no states if its scene is too small
-  std::vector<DrivenRun> runs{};  // scene by scene
+  TimedParts timed{};                  // all sweeps
+  std::vector<SceneResult> scenes{};   // or the one sequence
+  std::vector<SceneResult> studies{};  // of the scene with the most bodies, if these are not too few
+  std::vector<DrivenRun> runs{};       // scene by scene
 };
 
 /// One configuration over all states of a scene.
@@ -105,8 +118,8 @@ Table misses_table(const DetectionResults& results);
 Page detection_page(const DetectionResults& results);
 /// Adds the part on what misses cost, if scenes were driven.
 void add_misses(Page& page, const DetectionResults& results);
-/// Adds the part on what §3 of the paper claims: hashes by level, and growth with the number of bodies.
-void add_growth(Page& page, const DetectionResults& results);
+/// Adds the part on what §3 of the paper claims, the hashes by level, and the studies.
+void add_studies(Page& page, const DetectionResults& results);
 
 /// Makes the report: what each detector costs, and what it misses.
 void report_detection(const ReportOptions& options);

@@ -1,4 +1,4 @@
-// What §3 of the paper claims: hashes by level, and growth with the number of bodies.
+// What §3 of the paper claims, the hashes by level, and what costs depend on.
 
 #include <algorithm>
 #include <cmath>
@@ -33,9 +33,10 @@ struct Cost {
   const char* exponent;  // its column
   double (*of)(const compare::SweepRow& row);
 };
-constexpr Cost hash_cost{"p of hashes", [](const compare::SweepRow& r) { return double(r.counters.hashes); }};
-constexpr Cost pair_cost{"p of pair tests", [](const compare::SweepRow& r) { return double(r.counters.pair_tests); }};
-constexpr Cost time_cost{"p of ms", [](const compare::SweepRow& r) { return r.times.median(); }};
+constexpr std::array growing{
+    Cost{"p of hashes", [](const compare::SweepRow& r) { return double(r.counters.hashes); }},
+    Cost{"p of pair tests", [](const compare::SweepRow& r) { return double(r.counters.pair_tests); }},
+    Cost{"p of ms", [](const compare::SweepRow& r) { return r.times.median(); }}};
 
 /// Returns the exponent p of cost ~ bodies^p between the last two states that a configuration ran on. Returns nothing
 /// where a cost is 0, or if there are no two such states.
@@ -66,20 +67,23 @@ std::string cost(const compare::SweepRow& row, collide::Index vertices) {
   return fmt::format("{} ({})", brief(ms), brief(1e6 * ms / std::max(1.0, double(vertices))));
 }
 
-Table growth_table(const SceneResult& growth) {
+/// Returns the costs in each state, and the exponents of some of them.
+Table study_table(const SceneResult& study, std::span<const Cost> exponents) {
   Table table;
-  for (std::size_t i = 0; i < growth.configurations.size(); ++i) {
-    const compare::Configuration& c = growth.configurations[i];
+  for (std::size_t i = 0; i < study.configurations.size(); ++i) {
+    const compare::Configuration& c = study.configurations[i];
     TableRow row{{"method", method_of(c).name}, {"buckets", when(method_of(c).uses_hash, grouped(c.settings.buckets))}};
-    for (const MeasuredState& s : growth.states)
-      row.push_back(
-          {fmt::format("{} bodies", grouped(s.bodies.count())), cost(s.sweep.rows[i], s.bodies.vertex_count())});
-    for (const Cost& of : {hash_cost, pair_cost, time_cost}) {
-      const auto p = exponent(growth, i, of);
+    for (const MeasuredState& s : study.states)
+      row.push_back({s.change, cost(s.sweep.rows[i], s.bodies.vertex_count())});
+    for (const Cost& of : exponents) {
+      const auto p = exponent(study, i, of);
       row.push_back({of.exponent, p ? fmt::format("{:.2f}", *p) : ""});
     }
     table.add(row);
   }
+  TableRow contacts{{"method", "Contacts"}};
+  for (const MeasuredState& s : study.states) contacts.push_back({s.change, grouped(s.sweep.true_contacts)});
+  table.add(contacts);
   return table;
 }
 
@@ -105,17 +109,18 @@ Plot cost_against_bodies(const Page& page, const SceneResult& growth) {
 
 }  // namespace
 
-void add_growth(Page& page, const DetectionResults& results) {
-  const SceneResult& growth = results.growth;
+void add_studies(Page& page, const DetectionResults& results) {
   Table hashes;
   for (const SceneResult& scene : results.scenes) hashes.add(hash_row(scene));
   page.add("hashes");
   page.table(hashes);
-  if (growth.states.empty()) return;
-  page.add("growth", fmt::arg("scene", growth.scene), fmt::arg("frame", growth.states.back().frame),
-           fmt::arg("hashes", range(growth, hash_cost)), fmt::arg("pair_tests", range(growth, pair_cost)));
-  page.table(growth_table(growth));
-  page.plot(cost_against_bodies(page, growth));
+  for (const SceneResult& study : results.studies) {
+    const bool growth = study.part == "growth";
+    page.add(std::string(study.part), fmt::arg("scene", study.scene), fmt::arg("frame", study.states.back().frame),
+             fmt::arg("hashes", range(study, growing[0])), fmt::arg("pair_tests", range(study, growing[1])));
+    page.table(study_table(study, growth ? growing : std::span<const Cost>()));
+    if (growth) page.plot(cost_against_bodies(page, study));
+  }
 }
 
 }  // namespace app::report

@@ -1,0 +1,119 @@
+// States changed out of a recorded one, to see what costs depend on.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <random>
+
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+
+#include "app/base/text.h"
+#include "app/report/detection/results.h"
+#include "app/report/worlds.h"
+
+namespace app::report {
+namespace {
+
+using collide::Index;
+using glm::dvec3;
+
+dvec3 middle(const MeasuredState& state) { return middle_of(state.view(), 0, state.bodies.vertex_count()); }
+
+/// Returns these bodies of a state, in this order.
+MeasuredState bodies_of(const MeasuredState& state, const std::vector<Index>& bodies, std::string change) {
+  MeasuredState part{{}, state.frame, std::move(change)};
+  for (const Index b : bodies) part.add(state.view(), b);
+  return part;
+}
+
+/// Returns the numbers of all bodies, ascending in a key.
+template <class Key>
+std::vector<Index> sorted_by(const std::vector<Key>& keys) {
+  std::vector<Index> order(keys.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::ranges::stable_sort(order, {}, [&](Index b) { return keys[b]; });
+  return order;
+}
+
+/// Draws the bodies apart about the middle of all, or together, and scales each about its own middle. sizes: by body.
+MeasuredState placed(MeasuredState state, double apart, const std::vector<double>& sizes, std::string change) {
+  const dvec3 centre = middle(state);
+  for (Index b = 0; b < state.bodies.count(); ++b) {
+    const dvec3 from = middle_of(state.view(), b), to = centre + apart * (from - centre);
+    for (Index v = state.bodies.first[b]; v < state.bodies.first[b + 1]; ++v) {
+      const dvec3 at = to + sizes[b] * (dvec3(position(state.view(), v)) - from);
+      state.at.x[v] = float(at.x), state.at.y[v] = float(at.y), state.at.z[v] = float(at.z);
+    }
+  }
+  state.change = std::move(change);
+  return state;
+}
+
+MeasuredState drawn_apart(const MeasuredState& state, double apart) {
+  return placed(state, apart, std::vector<double>(state.bodies.count(), 1.0), fmt::format("x {:g}", apart));
+}
+
+/// Returns bodies of eight sizes, up to `ratio` times their own. Their distances grow with the mean size.
+MeasuredState of_unlike_sizes(MeasuredState state, double ratio) {
+  state.largest = ratio;
+  std::mt19937 random(1);
+  std::vector<double> sizes;
+  std::map<std::pair<const collide::Shape*, double>, std::shared_ptr<const collide::Shape>> scaled;
+  double mean = 0;
+  for (auto& shape : state.bodies.shape) {
+    const double size = sizes.emplace_back(std::pow(ratio, double(random() % 8) / 7));
+    mean += size / double(state.bodies.count());
+    auto& made = scaled[{shape.get(), size}];
+    if (!made) {
+      std::vector<glm::vec3> rest = shape->rest();
+      for (glm::vec3& p : rest) p *= float(size);
+      made = std::make_shared<collide::Shape>(shape->shared_topology(), std::move(rest));
+    }
+    shape = made;
+  }
+  return placed(std::move(state), mean, sizes, fmt::format("1 to {:g}", ratio));
+}
+
+/// Returns the number along a curve in z-order of the cell of 0.1 m in which a point is: most cells follow a near one.
+std::uint64_t z_order(const dvec3& at) {
+  std::uint64_t number = 0;
+  for (int bit = 0; bit < 60; ++bit)
+    number |= (std::uint64_t(std::max(at[bit % 3] + 5e4, 0.0) * 10) >> (bit / 3) & 1) << bit;
+  return number;
+}
+
+enum Order { as_in_the_scene, by_place, shuffled };
+
+MeasuredState in_order(const MeasuredState& state, double value) {
+  constexpr std::array names{"as in the scene", "by place", "shuffled"};
+  const int order = int(value);
+  std::mt19937 random(1);
+  std::vector<std::uint64_t> keys(state.bodies.count());
+  for (Index b = 0; b < keys.size(); ++b)
+    keys[b] = order == by_place ? z_order(middle_of(state.view(), b)) : order == shuffled ? random() : b;
+  return bodies_of(state, sorted_by(keys), names[std::size_t(order)]);
+}
+
+}  // namespace
+
+MeasuredState middle_bodies(const MeasuredState& state, double count) {
+  const dvec3 centre = middle(state);
+  std::vector<double> distances;
+  for (Index b = 0; b < state.bodies.count(); ++b)
+    distances.push_back(glm::distance(middle_of(state.view(), b), centre));
+  std::vector<Index> nearest = sorted_by(distances);
+  nearest.resize(std::size_t(std::min(count, double(nearest.size()))));
+  std::ranges::sort(nearest);
+  return bodies_of(state, nearest, grouped(nearest.size()) + " bodies");
+}
+
+std::vector<CostStudy> cost_studies() {
+  return {{"growth", {3, 16, 47, 200, 800, HUGE_VAL}, middle_bodies},
+          {"density", {0.7, 0.85, 1, 1.5, 3}, drawn_apart},
+          {"sizes", {1, 2, 5, 10, 20}, [](const auto& state, double ratio) { return of_unlike_sizes(state, ratio); }},
+          {"order", {as_in_the_scene, by_place, shuffled}, in_order}};
+}
+
+}  // namespace app::report
