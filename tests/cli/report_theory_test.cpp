@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/report/theory/closed_forms.h"
+#include "app/report/theory/results.h"
 #include "softbody/integrate/integrators.h"
 #include "tests/cli/report_rig.h"
 
@@ -66,6 +67,42 @@ TEST(ClosedForm, OfFlipsIsThatOfEulersEquations) {
   }
 }
 
+/// Returns rows of a case with two variants: by two integrators, the first with twice the steps, too.
+std::vector<app::report::TheoryRow> rows_of(const app::report::TheoryCase& of) {
+  std::vector<app::report::TheoryRow> rows;
+  for (const softbody::Integrator& i : softbody::integrators().first(2))
+    for (const auto& [variant, finer] : {std::pair(0, 1), {0, 2}, {1, 1}})
+      rows.push_back({{.theory = 1, .measured = 2.0 + variant}, &of, &i, variant, finer, 60.0 * finer});
+  return rows;
+}
+
+app::report::Page page_of(const std::vector<app::report::TheoryRow>& rows) {
+  app::report::ReportOptions options;
+  options.name = "theory";
+  return theory_page(options, rows);
+}
+
+TEST(TheoryPage, JoinsRunsOfOneVariantInTheIntegratorsColour) {
+  const app::report::TheoryCase bounce{"bounce", "Bounce", {"e = 0.5", "e = 1"}, false, nullptr};
+  std::vector<app::report::TheoryRow> rows = rows_of(bounce);
+  const auto plot = [&] { return page_of(rows).plots().at(0); };
+  const app::report::Plot both = plot();
+  ASSERT_EQ(both.series.size(), 4u);
+  for (const app::report::Series& series : both.series)
+    for (const app::report::Point& p : series.points) EXPECT_EQ(p.y, series.points[0].y) << "of another variant";
+  EXPECT_EQ(both.series[0].colour, both.series[1].colour);
+  EXPECT_NE(both.series[0].colour, both.series[2].colour);
+  EXPECT_NE(both.caption.find("squares: e = 1"), std::string::npos) << both.caption;
+  for (int i = 0; i < 3; ++i) rows[std::size_t(i)].rate = 0;  // was not run
+  EXPECT_EQ(plot().series.at(0).colour, both.series[2].colour);
+}
+
+TEST(TheoryPage, WritesAHundredPercentWithoutAnExponent) {
+  const app::report::TheoryCase bounce{"bounce", "Bounce", {"e = 0.5", "e = 1"}, false, nullptr};
+  const std::string text = page_of(rows_of(bounce)).markdown(false);
+  EXPECT_NE(text.find("| 100 % | 100 % | 200 % |"), std::string::npos) << text;
+}
+
 TEST(TheoryReport, ComparesEachIntegratorIfQuick) {
   const TemporaryFolder folder;
   const auto out = folder.path() / "out";
@@ -82,7 +119,8 @@ TEST(TheoryReport, ComparesEachIntegratorIfQuick) {
   }
   EXPECT_EQ(integrators.size(), 19u);
   for (const auto& [name, keys] : integrators) EXPECT_EQ(keys.size(), softbody::integrators().size()) << name;
-  EXPECT_EQ(read_file(out / "theory.md").find("nan"), std::string::npos);
+  const std::string text = read_file(out / "theory.md");
+  for (const char* part : {"nan", "e+0", "100,000 steps at rest"}) EXPECT_EQ(text.find(part), text.npos) << part;
 }
 
 TEST(TheoryReport, TakesNoScene) {

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/core.h>
 
+#include "app/base/text.h"
 #include "app/report/sums.h"
 #include "app/report/theory/results.h"
 
@@ -21,8 +23,9 @@ std::string with_what(std::string text, const TheoryRow& row) {
 std::string name_of(const TheoryRow& row) { return with_what(std::string(row.integrator->name), row); }
 bool ran(const TheoryRow& row) { return row.rate > 0; }
 
-std::string percent(const TheoryRow& row) {
-  return fmt::format("{:.2g} %{}", 100 * row.deviation(), row.failure.empty() ? "" : " *");
+std::string percent(double share) {
+  const bool short_enough = std::abs(share) < 0.995;  // else two digits would be 1e+02
+  return short_enough ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
 }
 
 }  // namespace
@@ -52,7 +55,7 @@ Table overview(const std::vector<std::span<const TheoryRow>>& cases) {
     table.add({{"case", rows.front().of->name},
                {"within bounds", fmt::format("{} of {}", std::ranges::count(rows, "", &TheoryRow::failure),
                                              std::ranges::count_if(rows, ran))},
-               {"`auto`, largest error", fmt::format("{:.2g} %", 100 * worst)}});
+               {"`auto`, largest error", percent(worst)}});
   }
   return table;
 }
@@ -70,21 +73,31 @@ Table errors(std::span<const TheoryRow> rows) {
     for (const std::string& column : columns) {
       const auto row =
           std::ranges::find_if(rows, [&](const TheoryRow& r) { return name_of(r) == name && setting_of(r) == column; });
-      cells.push_back({column, row == rows.end() ? "" : ran(*row) ? percent(*row) : row->failure});
+      cells.push_back({column, row == rows.end() ? ""
+                               : !ran(*row)      ? row->failure
+                                                 : percent(row->deviation()) + (row->failure.empty() ? "" : " *")});
     }
     table.add(cells);
   }
   return table;
 }
 
-/// Returns the errors against the steps in a second.
+/// Returns the errors of the case's first value against the steps in a second. Lines join runs of one variant.
 Plot plot_of(const Page& page, std::span<const TheoryRow> rows) {
-  Plot plot = page.plot_of("plot", "theory-" + rows.front().of->key, fmt::arg("case", rows.front().of->name));
+  constexpr std::array marks{std::pair(7, "circles"), std::pair(5, "squares"), std::pair(9, "triangles")};
+  const TheoryCase& of = *rows.front().of;
+  std::vector<std::string> variants;
+  for (std::size_t v = 0; v < of.variants.size() && of.variants.size() > 1; ++v)
+    variants.push_back(fmt::format("{}: {}", marks.at(v).second, of.variants[v]));
+  Plot plot = page.plot_of("plot", "theory-" + of.key, fmt::arg("case", with_what(of.name, rows.front())),
+                           fmt::arg("marks", variants.empty() ? "" : " (" + joined(variants, ", ") + ")"));
   const std::vector<TheoryRow> all(rows.begin(), rows.end());
-  for (const auto& of_one : groups_of(all, &TheoryRow::integrator)) {
-    Series series{std::string(of_one.front().integrator->name), series_colour(plot.series.size()),
-                  "linespoints pointtype 7 linewidth 2"};
-    for (const TheoryRow& row : of_one)
+  for (const auto& runs : groups_of(all, [](const TheoryRow& r) { return std::pair(r.integrator, r.variant); })) {
+    const TheoryRow& first = runs.front();
+    Series series{first.variant == 0 ? std::string(first.integrator->name) : "",
+                  series_colour(std::size_t(first.integrator - softbody::integrators().data())),
+                  fmt::format("linespoints pointtype {} linewidth 2", marks.at(std::size_t(first.variant)).first)};
+    for (const TheoryRow& row : runs)
       if (ran(row) && row.what == rows.front().what)
         series.points.push_back({row.rate, std::max(std::abs(row.deviation()), 1e-9)});
     plot.add(std::move(series));
@@ -98,7 +111,7 @@ Page theory_page(const ReportOptions& options, const std::vector<TheoryRow>& row
   Page page(options);
   page.introduce();
   const auto cases = groups_of(rows, &TheoryRow::of);
-  page.text("## All cases");
+  page.add("all cases");
   page.table(overview(cases));
   for (const auto& of_one : cases) {
     page.text("## {}", of_one.front().of->name);
