@@ -58,7 +58,7 @@ void SceneControls::enter(ShownWorld world, softbody::Scene scene, const std::st
 
 softbody::Scene SceneControls::with_added_bodies() const {
   softbody::Scene scene = simulation_.world().scene();
-  if (simulation_.simulated()) scene.bodies = softbody::body_sources(*simulation_.simulated());
+  if (simulation_.simulated()) scene.bodies = simulation_.simulated()->body_sources();
   return scene;
 }
 

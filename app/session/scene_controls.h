@@ -27,7 +27,7 @@ class SceneControls {
   /// Throws UsageError or std::filesystem::filesystem_error, and changes nothing then.
   void enter(ShownWorld world, softbody::Scene scene, const std::string& key_or_path,
              std::string change = "choice of scene");
-  /// The scene as it is now: the settings in use, and added bodies, each in the frame in which it came.
+  /// The scene as it is now: the settings in use, and added bodies and changed holds, each in its frame.
   softbody::Scene with_added_bodies() const;
   /// Returns a question for the user if save() would replace a file that is not the scene's own, or that has changed
   /// since the scene was loaded or saved; else an empty text.

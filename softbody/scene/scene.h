@@ -32,10 +32,12 @@ struct Spin {
 /// Holds the vertices of a body that are in a shape where it appears, its surface included.
 struct Hold {
   Solid::Shape where = SolidBox{};
-  int until = 0;             // the frame in which it lets them go; 0: never
-  glm::dvec3 velocity{0.0};  // m/s, with which it moves them ...
-  Spin turn{};               // ... and turns them, about an axis through a place that moves with them:
-  glm::dvec3 through{0.0};   // m
+  std::vector<Index> vertices{};  // if not empty, in place of those: of the mesh that is simulated
+  int from = 0;                   // the frame in which it begins, if the body is there
+  int until = 0;                  // the frame in which it lets them go; 0: never
+  glm::dvec3 velocity{0.0};       // m/s, with which it moves them ...
+  Spin turn{};                    // ... and turns them, about an axis through a place that moves with them:
+  glm::dvec3 through{0.0};        // m
   bool operator==(const Hold&) const = default;
 };
 

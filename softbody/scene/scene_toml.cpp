@@ -129,10 +129,13 @@ Spin read_spin(Table table) {
 /// appear: the first frame of the body.
 Hold read_hold(Table& table, int appear) {
   Hold h;
-  if (table.has("box") == table.has("sphere")) table.fail("box", "or sphere must say where: one of them");
-  h.where =
-      table.has("box") ? read_shape(table.child("box"), SolidBox()) : read_shape(table.child("sphere"), SolidSphere());
-  if (table.has("until")) h.until = table.integer("until", 0, appear + 1, forever);
+  if (int(table.has("box")) + int(table.has("sphere")) + int(table.has("vertices")) != 1)
+    table.fail("box", "or sphere must say where, or vertices which: one of them");
+  if (table.has("box")) h.where = read_shape(table.child("box"), SolidBox());
+  if (table.has("sphere")) h.where = read_shape(table.child("sphere"), SolidSphere());
+  if (table.has("vertices")) h.vertices = table.indices("vertices");
+  h.from = table.integer("from", 0, 0, forever - 1);
+  if (table.has("until")) h.until = table.integer("until", 0, std::max(appear, h.from) + 1, forever);
   h.velocity = table.vector("velocity", h.velocity, -max_speed, max_speed);
   if (!table.has("turn")) return table.close(), h;
   Table turn = table.child("turn");

@@ -82,7 +82,11 @@ TomlInline spin(const Spin& s) {
 
 TomlInline hold(const Hold& h) {
   TomlInline out;
-  out.add(std::holds_alternative<SolidBox>(h.where) ? "box" : "sphere", write_shape(h.where));
+  if (!h.vertices.empty())
+    out.add("vertices", h.vertices);
+  else
+    out.add(std::holds_alternative<SolidBox>(h.where) ? "box" : "sphere", write_shape(h.where));
+  if (h.from > 0) out.add("from", h.from);
   if (h.until > 0) out.add("until", h.until);
   if (h.velocity != glm::dvec3(0.0)) out.add("velocity", h.velocity);
   if (h.turn != Spin() || h.through != glm::dvec3(0.0)) out.add("turn", spin(h.turn).add("through", h.through));

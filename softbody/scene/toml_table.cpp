@@ -6,6 +6,7 @@
 
 #include <glm/common.hpp>
 
+#include "softbody/mesh/limits.h"
 #include "softbody/scene/scene.h"
 
 namespace softbody {
@@ -107,6 +108,20 @@ glm::dmat3 Table::matrix(const std::string& key) {
   glm::dmat3 columns;
   for (int k = 0; k < 3; ++k) columns[k] = vector((*list)[std::size_t(k)], key, -any, any);
   return columns;
+}
+
+std::vector<Index> Table::indices(const std::string& key) {
+  const toml::node* node = find(key);
+  const toml::array* list = node ? node->as_array() : nullptr;
+  if (!list || list->empty()) fail(key, "must be a list of whole numbers, e.g. [0, 8]");
+  std::vector<Index> result;
+  for (const toml::node& item : *list) {
+    const auto value = item.is_integer() ? item.value<std::int64_t>() : std::nullopt;
+    if (!value || *value < 0 || *value >= std::int64_t(max_particles))
+      fail(item, key, "must be whole numbers from 0 on");
+    result.push_back(Index(*value));
+  }
+  return result;
 }
 
 Table Table::child(const std::string& key) {

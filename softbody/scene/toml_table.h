@@ -15,6 +15,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include "softbody/mesh/mesh.h"
+
 namespace softbody {
 
 /// Reads a whole file. Throws SceneError if it cannot be read, is larger than max_toml_file_size, or is no TOML.
@@ -39,7 +41,8 @@ class Table {
   bool boolean(const std::string& key, bool fallback);
   std::string text(const std::string& key, std::string fallback);
   glm::dvec3 vector(const std::string& key, glm::dvec3 fallback, double lo, double hi);
-  glm::dmat3 matrix(const std::string& key);  // written by columns; the key must exist
+  glm::dmat3 matrix(const std::string& key);           // written by columns; the key must exist
+  std::vector<Index> indices(const std::string& key);  // at least one
   glm::dvec3 whole_vector(const std::string& key, glm::dvec3 fallback, double lo, double hi);
 
   /// Returns the folder of the file.

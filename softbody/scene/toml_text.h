@@ -25,6 +25,13 @@ std::string toml_value(const glm::vec3& value);
 std::string toml_value(const glm::dmat3& value);  // by columns
 inline std::string toml_value(const char* value) { return toml_value(std::string_view(value)); }
 
+template <class Value>
+std::string toml_value(const std::vector<Value>& values) {
+  std::string text;
+  for (const Value& value : values) text.append(text.empty() ? "" : ", ").append(toml_value(value));
+  return "[" + text + "]";
+}
+
 /// Builds the inside of an inline table: {a = 1, b = 2}. add() returns the object, so that calls can be chained.
 class TomlInline {
  public:
@@ -37,12 +44,6 @@ class TomlInline {
  private:
   std::string text_;
 };
-
-inline std::string toml_value(const std::vector<TomlInline>& tables) {
-  std::string text;
-  for (const TomlInline& table : tables) text.append(text.empty() ? "" : ", ").append(toml_value(table));
-  return "[" + text + "]";
-}
 
 /// Builds the lines of a file. add() and heading() return the object, so that calls can be chained.
 class TomlLines {

@@ -1,5 +1,6 @@
 #include "softbody/state/held_particles.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "softbody/state/rigid_motion.h"
@@ -23,7 +24,7 @@ const float* HeldParticles::free(const Batch& b) const { return any(b) ? of_batc
 void HeldParticles::begin_frame(State& state) {
   *this = {};
   for (BodyId id = 0; id < state.body_count(); ++id) {
-    if (state.memory(id).holds.empty() || !state.body(id).moves()) continue;
+    if (std::ranges::none_of(state.memory(id).holds, &HeldVertices::on) || !state.body(id).moves()) continue;
     of_batch_.resize(state.batches().size());
     of_body_.resize(state.body_count());
     const Batch& b = state.batch_of(id);
@@ -32,13 +33,13 @@ void HeldParticles::begin_frame(State& state) {
     of_body_[id].resize(b.particles());
     for (std::uint32_t hold = 0; const HeldVertices& h : state.memory(id).holds) {
       for (const Index vertex : h.vertices) {
-        if (std::exchange(of_body_[id][vertex], 1)) continue;
+        if (!h.on || std::exchange(of_body_[id][vertex], 1)) continue;
         const auto slot = std::uint32_t(state.slot(id, vertex));
         own.particles.push_back({slot, id, hold});
         own.free[slot - b.base] = 0;
       }
-      own.moves = own.moves || (h.moves() && !h.vertices.empty());
-      if (h.moves()) state.memory(id).calm_frames = 0;  // it is not to fall asleep
+      own.moves = own.moves || (h.on && h.moves());
+      if (h.on && h.moves()) state.memory(id).calm_frames = 0;  // it is not to fall asleep
       ++hold;
     }
     moves_ = moves_ || own.moves;

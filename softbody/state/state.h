@@ -58,12 +58,14 @@ struct HeldVertices {
   glm::dvec3 velocity{0.0};  // m/s ...
   glm::dvec3 spin{0.0};      // ... and rad/s, about an axis through a place that moves at this velocity, too:
   glm::dvec3 through{0.0};   // m
-  int until = 0;             // the frame in which they are let go; 0: never
+  int from = 0, until = 0;   // the frames in which they are taken and let go; 0: never
+  bool on = false;           // in the frame at hand
   bool moves() const { return velocity != glm::dvec3(0.0) || spin != glm::dvec3(0.0); }
 };
 
 /// What World, sleep and Resistance remember of a body from one frame to the next.
 struct BodyMemory {
+  int source = -1;                    // the index among the scene's bodies; -1: it is not from the scene
   int release = 0;                    // the frame until which it is pinned
   int calm_frames = 0;                // for how many frames it has been slow enough to sleep
   bool may_lie_in_solid = true;       // it has been placed there, or solids have been moved, and not come out since

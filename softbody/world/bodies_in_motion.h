@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "collide/methods.h"
 #include "softbody/scene/scene.h"
@@ -53,7 +54,7 @@ class BodiesInMotion {
   virtual int frame() const = 0;  // from 0
   virtual double frame_time() const = 0;
   virtual const StepReport& last_step() const = 0;
-  virtual bool all_at_rest() const = 0;  // no step moves a body: all are asleep, and none is still to come
+  virtual bool all_at_rest() const = 0;  // no step moves a body: all are asleep, and none is to come or be let go
 
   // The current state, of the meshes that are shown (BodyModel::shown()).
   virtual const collide::Bodies& bodies() const = 0;
@@ -61,6 +62,8 @@ class BodiesInMotion {
   virtual SimulatedMeshes simulated() const = 0;
   virtual BodyState body(BodyId body) const = 0;
   virtual const BodyModel& model(BodyId body) const = 0;
+  /// Returns the particles of a body that are held, of the mesh that is simulated.
+  virtual std::vector<Index> held(BodyId) const { return {}; }
   virtual const collide::Result& detection() const = 0;   // at positions()
   virtual const collide::Detector& detector() const = 0;  // for its debug()
 };

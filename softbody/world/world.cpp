@@ -80,20 +80,32 @@ std::vector<HeldVertices> World::Parts::held_vertices(const BodySource& source) 
   if (source.holds.empty()) return list;
   const BodyModel& model = *models.of(source);
   const std::vector<glm::dvec3> places = turned(model.shown_at_rest(), source.axes);
+  const auto fail = [&](const std::string& what) {
+    std::string at;
+    for (int k = 0; k < 3; ++k) at += (k > 0 ? ", " : "") + shortest_text(source.position[k]);
+    throw SceneError("scene '" + scene.key + "': hold[" + std::to_string(list.size()) + "] of the body at [" + at +
+                     "] holds " + what);
+  };
   for (const Hold& h : source.holds) {
-    std::set<Index> found;
-    for (Index vertex = 0; vertex < places.size(); ++vertex) {
+    std::set<Index> found(h.vertices.begin(), h.vertices.end());
+    const std::size_t count = model.mesh.vertices.size();
+    if (!found.empty() && *found.rbegin() >= count)
+      fail("vertex " + std::to_string(*found.rbegin()) + "; the last one is " + std::to_string(count - 1));
+    for (Index vertex = 0; h.vertices.empty() && vertex < places.size(); ++vertex) {
       if (surface_at(Solid{h.where}, source.position + places[vertex]).distance > rounding) continue;
       if (!model.fine) found.insert(vertex);
       for (std::size_t k = 0; model.fine && k < 3; ++k) found.insert(model.fine->embedding()[vertex].corner[k]);
     }
-    if (found.empty()) {
-      std::string at;
-      for (int k = 0; k < 3; ++k) at += (k > 0 ? ", " : "") + shortest_text(source.position[k]);
-      throw SceneError("scene '" + scene.key + "': hold[" + std::to_string(list.size()) + "] of the body at [" + at +
-                       "] holds no vertex; put it where the body has some when it appears, in the world's coordinates");
-    }
-    list.push_back({{found.begin(), found.end()}, h.velocity, h.turn.vector(), h.through, h.until});
+    if (found.empty())
+      fail(
+          "no vertex; put it where the body, and each copy of a lattice, has some when it appears, in the world's "
+          "coordinates");
+    list.push_back({{found.begin(), found.end()},
+                    h.velocity,
+                    h.turn.vector(),
+                    h.through,
+                    std::max(h.from, source.appear),
+                    h.until});
   }
   return list;
 }
@@ -103,6 +115,7 @@ BodyId World::Parts::add(const BodySource& source, const glm::dvec3& position) {
   std::vector<HeldVertices> holds = held_vertices(source);
   const BodyId id = solver.state().add(model, position, source.velocity, source.axes, source.spin.vector());
   solver.state().memory(id).holds = std::move(holds);
+  switch_holds(id);
   if (model->fine && !fine) {
     count_vertices();  // the first one: the bodies before it are shown as they are
   } else {
@@ -119,16 +132,24 @@ void World::Parts::arrive() {
     const BodySource& source = scene.bodies[i];
     if (arrived[i] || source.appear > frame) continue;
     arrived[i] = true;
-    add(source, source.position);
+    const BodyId id = add(source, source.position);
+    solver.state().memory(id).source = int(i);
     if (source.release <= frame) continue;
-    solver.state().set_pinned(particles.bodies.count() - 1, true);
-    solver.state().memory(particles.bodies.count() - 1).release = source.release;
+    solver.state().set_pinned(id, true);
+    solver.state().memory(id).release = source.release;
   }
   for (BodyId b = 0; b < particles.bodies.count(); ++b) {
     const Body& body = solver.state().body(b);
     if (body.pinned && body.memory.release <= frame) solver.state().set_pinned(b, false);
-    const auto ends = [&](const HeldVertices& h) { return h.until > 0 && h.until <= frame; };
-    if (std::erase_if(solver.state().memory(b).holds, ends) > 0) solver.state().set_asleep(b, false);
+    switch_holds(b);
+  }
+}
+
+/// Lets the holds of a body begin and end in this frame.
+void World::Parts::switch_holds(BodyId body) {
+  for (HeldVertices& h : solver.state().memory(body).holds) {
+    const bool on = h.from <= frame && (h.until == 0 || h.until > frame);
+    if (std::exchange(h.on, on) != on) solver.state().set_asleep(body, false);
   }
 }
 
@@ -307,8 +328,11 @@ std::vector<SurfaceContactPoint> World::surface_contacts() const {
 bool World::all_at_rest() const {
   const Parts& s = *parts_;
   if (std::find(s.arrived.begin(), s.arrived.end(), char(false)) != s.arrived.end()) return false;
-  for (BodyId b = 0; b < s.particles.bodies.count(); ++b)
-    if (!s.solver.state().body(b).asleep) return false;
+  const auto changes = [&](const HeldVertices& h) { return std::max(h.from, h.until) > s.frame; };
+  for (BodyId b = 0; b < s.particles.bodies.count(); ++b) {
+    const Body& body = s.solver.state().body(b);
+    if (!body.asleep || std::ranges::any_of(body.memory.holds, changes)) return false;
+  }
   return true;
 }
 

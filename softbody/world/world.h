@@ -69,14 +69,17 @@ class World : public BodiesInMotion {
   std::optional<BodyId> throw_body(const glm::dvec3& from, const glm::dvec3& velocity);
   /// Returns the bodies of drop(), add() and throw_body() that were not removed, in the order in which they came.
   const std::vector<AddedBody>& added() const;
+  /// Returns the scene's bodies and the added ones, with what switch_hold() did. A world of a scene with these bodies
+  /// moves the same way, to the bit, if nothing else was changed by hand and if adding bodies did not change the plan.
+  std::vector<BodySource> body_sources() const;
   /// Removes a body and wakes its neighbours. The ids of later bodies, and their vertices, move up.
   void remove(BodyId body);
   /// Lets the hand grab a body, or changes its point or target; there is one hand. nullopt: the hand lets go. A grabbed
   /// body wakes up, stays awake, and is no longer held in place.
   void grab(const std::optional<Grab>& grab);
   const std::optional<Grab>& grabbed() const;
-  /// Lets go of the held particles near a particle, up to a fifth of the body's radius away; if there are none, holds
-  /// it where it is. Returns true if it is held now.
+  /// Lets go of the held particles near a particle, up to a fifth of the body's radius away at rest; if there are none,
+  /// holds it where it is. Returns true if it is held now.
   bool switch_hold(BodyId body, Index particle);
   /// Holds of each body what `other` holds, a world of the same bodies.
   void copy_holds(const World& other);
@@ -106,6 +109,7 @@ class World : public BodiesInMotion {
   SimulatedMeshes simulated() const override;
   BodyState body(BodyId body) const override;
   const BodyModel& model(BodyId body) const override;
+  std::vector<Index> held(BodyId body) const override;
   const collide::Result& detection() const override;
   const collide::Detector& detector() const override;
   Particle particle(BodyId body, Index vertex) const;
@@ -121,9 +125,5 @@ class World : public BodiesInMotion {
   };
   std::unique_ptr<Parts, DeleteParts> parts_;
 };
-
-/// Returns the scene's bodies and the added ones. A world of a scene with these bodies moves the same way, to the bit,
-/// if nothing else was changed by hand and if adding bodies did not change the plan.
-std::vector<BodySource> body_sources(const World& world);
 
 }  // namespace softbody

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -115,15 +117,17 @@ std::optional<BodyId> World::throw_body(const glm::dvec3& from, const glm::dvec3
 
 const std::vector<AddedBody>& World::added() const { return parts_->added; }
 
-std::vector<BodySource> body_sources(const World& world) {
-  const std::vector<AddedBody>& added = world.added();
+std::vector<BodySource> World::body_sources() const {
+  const std::vector<AddedBody>& added = this->added();
   const auto first_late = std::ranges::find_if(added, [](const AddedBody& one) { return one.source.appear > 0; });
   std::vector<BodySource> all;
   auto late = first_late;
-  for (const BodySource& body : world.scene().bodies) {
+  for (int i = 0; const BodySource& body : scene().bodies) {
     // A body added between two steps comes before those that the scene brings in the next one.
     for (; late != added.end() && late->source.appear <= body.appear; ++late) all.push_back(late->source);
     all.push_back(body);
+    const auto changed = parts_->changed_holds.find(i++);
+    if (changed != parts_->changed_holds.end()) all.back().holds = changed->second;
   }
   for (auto one = added.begin(); one != first_late; ++one) all.push_back(one->source);
   for (; late != added.end(); ++late) all.push_back(late->source);
@@ -200,28 +204,66 @@ void World::grab(const std::optional<Grab>& grab) {
 
 const std::optional<Grab>& World::grabbed() const { return parts_->solver.hand().grab(); }
 
+/// Returns what the scene, or the source of an added body, says of its holds, to be changed.
+std::vector<Hold>& World::Parts::source_holds(BodyId body) {
+  const auto own = std::ranges::find(added, body, &AddedBody::body);
+  if (own != added.end()) return own->source.holds;
+  const int index = std::as_const(solver).state().body(body).memory.source;
+  return changed_holds.try_emplace(index, scene.bodies[std::size_t(index)].holds).first->second;
+}
+
 bool World::switch_hold(BodyId body, Index particle) {
   assert(particle < parts_->particles.bodies.size(body));
-  std::vector<HeldVertices> holds = state().body(body).memory.holds;
-  const auto place = [&](Index i) { return this->particle(body, i).position; };
-  const auto is_near = [&](Index i) { return glm::distance(place(i), place(particle)) <= 0.2 * model(body).radius; };
-  std::size_t let_go = 0;
-  for (HeldVertices& h : holds) let_go += std::erase_if(h.vertices, is_near);
-  if (let_go == 0) holds.push_back({.vertices = {particle}});
+  const int frame = parts_->frame;
+  std::vector<Hold>& told = parts_->source_holds(body);
+  std::vector<HeldVertices> holds = state().body(body).memory.holds;  // one for each of them
+  const std::vector<glm::dvec3>& at_rest = model(body).mesh.vertices;
+  const auto is_near = [&](Index i) {
+    return glm::distance(at_rest[i], at_rest[particle]) <= 0.2 * model(body).radius;
+  };
+  bool lets_go = false;
+  for (std::ptrdiff_t i = 0; i < std::ssize(holds); ++i) {
+    auto hold = holds.begin() + i;
+    auto source = told.begin() + i;
+    if (!hold->on || std::ranges::none_of(hold->vertices, is_near)) continue;
+    lets_go = true;
+    if (hold->from < frame) {  // another one goes on with the others
+      ++i;
+      hold = holds.insert(hold + 1, *hold), source = told.insert(source + 1, *source);
+      (hold - 1)->until = (source - 1)->until = frame;
+    }
+    std::erase_if(hold->vertices, is_near);
+    hold->from = source->from = frame;
+    source->where = SolidBox{}, source->vertices = hold->vertices, source->through = hold->through;
+    if (hold->vertices.empty()) holds.erase(hold), told.erase(source), --i;
+  }
+  if (!lets_go) {
+    holds.push_back({.vertices = {particle}, .from = frame});
+    told.push_back({.vertices = {particle}, .from = frame});
+  }
   parts_->hold(body, std::move(holds));
-  return let_go == 0;
+  return !lets_go;
+}
+
+std::vector<Index> World::held(BodyId body) const {
+  std::vector<Index> all;
+  for (const HeldVertices& h : state().body(body).memory.holds)
+    if (h.on) all.insert(all.end(), h.vertices.begin(), h.vertices.end());
+  return all;
 }
 
 void World::copy_holds(const World& other) {
+  const auto facts = [](const HeldVertices& h) { return std::tie(h.vertices, h.from, h.until); };
   for (BodyId b = 0; b < parts_->particles.bodies.count(); ++b) {
     const std::vector<HeldVertices>&own = state().body(b).memory.holds, &others = other.state().body(b).memory.holds;
-    if (!std::ranges::equal(own, others, {}, &HeldVertices::vertices, &HeldVertices::vertices)) parts_->hold(b, others);
+    if (!std::ranges::equal(own, others, {}, facts, facts)) parts_->hold(b, others);
   }
 }
 
 void World::Parts::hold(BodyId body, std::vector<HeldVertices> holds) {
   solver.state().memory(body).holds = std::move(holds);
   solver.state().set_asleep(body, false);
+  switch_holds(body);
   added_bodies.holds = true;
   update_plan();
 }

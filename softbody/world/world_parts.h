@@ -1,6 +1,8 @@
 #pragma once
 // Parts of a world. Only the files that implement World and tests of the solver include this.
 
+#include <map>
+
 #include "softbody/integrate/solver.h"
 #include "softbody/mesh/points.h"
 #include "softbody/world/body_model_set.h"
@@ -46,6 +48,7 @@ struct WorldValues {
   std::vector<char> arrived;  // for each body source of the scene
   AddedBodies added_bodies;
   std::vector<AddedBody> added;
+  std::map<int, std::vector<Hold>> changed_holds;  // by hand, of the scene's body of this index
   int drops = 0;
   std::array<double, 2> drop_direction{1, 0};  // x and z
   int frame = 0;
@@ -65,6 +68,8 @@ struct World::Parts : WorldValues {
   double energy() const;  // J, of all bodies
   BodyId add(const BodySource& source, const glm::dvec3& position);
   std::vector<HeldVertices> held_vertices(const BodySource& source) const;
+  std::vector<Hold>& source_holds(BodyId body);
+  void switch_holds(BodyId body);
   void hold(BodyId body, std::vector<HeldVertices> holds);
   void arrive();
   void count_vertices();

@@ -11,7 +11,7 @@ namespace THIS_FILE {
 /// The hash after so many frames of a world whose scene brings what was added to this one.
 std::uint64_t hash_of_scene(const World& world) {
   Scene scene = world.scene();
-  scene.bodies = body_sources(world);
+  scene.bodies = world.body_sources();
   World again(std::move(scene), {.threads = 2});
   EXPECT_TRUE(again.added().empty());
   test::run(again, world.frame());
@@ -27,7 +27,7 @@ TEST(AddedBodies, BroughtByTheSceneItselfGoTheSameWayToTheBit) {
     world.drop();
     ASSERT_TRUE(world.throw_body({6, 2, 0}, {-5, 1, 0}));
     test::run(world, 60);
-    BodySource source = body_sources(world).front();
+    BodySource source = world.body_sources().front();
     source.position = {4, 6, 1};
     world.add(source);
     test::run(world, 10);
@@ -47,6 +47,50 @@ TEST(AddedBodies, ComeBeforeThoseThatTheSceneBringsInTheNextStep) {
   world.step();
   ASSERT_EQ(world.bodies().count(), before + 3);
   EXPECT_EQ(hash_of_scene(world), world.state_hash());
+}
+
+/// By hand held and let go: a vertex that falls, some of those that a scene's hold turns, and all of an added body.
+TEST(ChangedHolds, GoTheSameWayToTheBitFromTheSceneThatIsSaved) {
+  const test::TemporaryFolder folder;
+  for (const char* integrator : {"auto", "xpbd", "implicit"}) {
+    SCOPED_TRACE(integrator);
+    const World::Options options{.integrator = {.key = integrator}};
+    Scene scene;
+    scene.materials.resize(1);
+    Hold side{.where = SolidBox{.centre = {-0.5, 2, 0}, .half_size = {0.01, 0.01, 1}}};
+    side.velocity = {0.1, 0, 0};
+    side.turn = {.axis = {1, 0, 0}, .degrees_per_second = 90};
+    side.through = {0, 2, 0};
+    scene.bodies = {{.mesh = {.kind = "grid", .columns = 6, .rows = 6, .width = 1, .depth = 1},
+                     .position = {0, 2, 0},
+                     .holds = {side}},
+                    {.mesh = {.subdivisions = 1}, .position = {3, 2, 0}, .appear = 4, .release = 4}};
+    World world(scene, options);
+    world.switch_hold(0, 0);  // at one end of the side
+    test::run(world, 10);
+    const BodyId added = world.add({.mesh = {.subdivisions = 1},
+                                    .position = {-3, 2, 0},
+                                    .holds = {{.where = SolidSphere{.centre = {-3, 2, 0}, .radius = 1}}}});
+    EXPECT_TRUE(world.switch_hold(1, 5));
+    test::run(world, 10);
+    EXPECT_EQ(world.particle(1, 5).velocity, glm::dvec3(0.0));
+    EXPECT_FALSE(world.switch_hold(added, 7));
+    EXPECT_FALSE(world.switch_hold(0, 42));  // the other end
+    test::run(world, 10);
+    EXPECT_FALSE(world.switch_hold(1, 5));
+    EXPECT_TRUE(world.switch_hold(1, 5));
+    EXPECT_FALSE(world.switch_hold(1, 5));
+    EXPECT_NE(world.particle(0, 42).velocity, world.particle(0, 0).velocity);
+    test::run(world, 5);
+    EXPECT_TRUE(world.scene() == scene) << "what a restart takes";
+    scene.bodies = world.body_sources();
+    EXPECT_EQ(scene.bodies[1].holds.size(), 1u) << "nobody saw the others";
+    const Scene saved = load_scene(folder.write("saved.toml", scene_toml(scene, folder.path())));
+    EXPECT_EQ(saved.bodies, scene.bodies);
+    World again(saved, options);
+    test::run(again, world.frame());
+    EXPECT_EQ(again.state_hash(), world.state_hash());
+  }
 }
 
 TEST(AddedBodies, LeaveWithTheirBodiesAndComeBackWithTheirSnapshot) {

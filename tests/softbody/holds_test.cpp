@@ -245,6 +245,8 @@ TEST(HoldsOfAScene, ThatHoldNothingAreNamed) {
   expect_error("hold[1]", [&] { World(s, {}); });
   World w(sheet({}), {});
   expect_error("hold[0]", [&] { w.add({.mesh = {}, .holds = {edge(5)}}); });
+  s.bodies[0].holds[1] = {.vertices = {80, 81}};
+  expect_error("hold[1] of the body at [0, 0, 0] holds vertex 81; the last one is 80", [&] { World(s, {}); });
   EXPECT_EQ(w.bodies().count(), 1u);
   EXPECT_EQ(w.state().body_count(), 1u);
 }
@@ -256,9 +258,9 @@ TEST(HoldsOfAScene, OfABodyThatIsAddedLastAsLongAsTheySay) {
   const BodyId added = w.add({.mesh = {}, .position = {0, 5, 0}, .holds = {all}});
   run(w, 5);
   EXPECT_NEAR(motion(w, added).centre.y, 5 + 5.0 / 60, 1e-5);
-  EXPECT_EQ(w.state().body(added).memory.holds.size(), 1u);
+  EXPECT_TRUE(w.state().body(added).memory.holds[0].on);
   run(w, 1);
-  EXPECT_TRUE(w.state().body(added).memory.holds.empty());
+  EXPECT_FALSE(w.state().body(added).memory.holds[0].on);
 }
 
 TEST(HoldsOfAScene, KeepTheBodyAwakeWhereTheyMoveIt) {
@@ -272,6 +274,16 @@ TEST(HoldsOfAScene, KeepTheBodyAwakeWhereTheyMoveIt) {
     EXPECT_EQ(w.body(0).asleep, speed == 0);
     EXPECT_NEAR(motion(w, 0).centre.x, speed, 1e-5);
   }
+}
+
+TEST(HoldsOfAScene, ThatAreStillToEndLeaveNothingAtRest) {
+  Scene s = sheet({{.where = SolidSphere{.radius = 2}, .until = 40}});
+  s.gravity = down;
+  s.sleep = {.speed = 0.03, .frames = 5};
+  World w(s, {});
+  run(w, 30);
+  EXPECT_TRUE(w.body(0).asleep);
+  EXPECT_FALSE(w.all_at_rest());
 }
 
 TEST(SwitchHold, HoldsAParticleAndLetsGoOfIt) {

@@ -58,7 +58,7 @@ class Filler {
     set_body(v);
     set_all(v.appear, v.release, v.holds);
     v.release += v.appear;
-    for (Hold& hold : v.holds) hold.until += v.appear;
+    for (Hold& hold : v.holds) hold.until += v.appear + hold.from;
   }
   void set(Spin& v) {
     auto& [axis, degrees_per_second] = v;
@@ -66,12 +66,16 @@ class Filler {
     axis = glm::normalize(axis);
   }
   void set(Hold& v) {
-    auto& [where, until, velocity, turn, through] = v;
+    auto& [where, vertices, from, until, velocity, turn, through] = v;
+    set_all(from, until, velocity, turn, through);
+    if (random_() % 3 == 0) {
+      for (int i = 0; i < 3; ++i) vertices.push_back(static_cast<Index>(random_() % 1000));
+      return;
+    }
     if (random_() % 2 == 0) where = SolidSphere();
     Solid shape{where};
     shape.values([this](const char*, auto value) { set_value(value); });
     where = shape.shape;
-    set_all(until, velocity, turn, through);
   }
   void set(Dropper& v) {
     auto& [body, spread] = v;
