@@ -55,20 +55,23 @@ void Rebounds::add(const Pair& done) {
 
 double Rebounds::give_back(State& state, double seconds) {
   const auto inverse_mass = [&](BodyId id) {
-    return state.body(id).moves() ? 1 / state.model(id).material[Material::mass] : 0;
+    return state.body(id).moves() && state.held.of(id).empty() ? 1 / state.model(id).material[Material::mass] : 0;
   };
-  const auto velocity = [&](BodyId id) {
+  const auto velocity = [&](BodyId id) {  // of a body that is held somewhere: of what is held
     const BodyField v = state.field_of(id, state.v);
-    const std::size_t count = state.batch_of(id).particles();
+    const std::span<const char> held = state.held.of(id);
+    const std::size_t all = state.batch_of(id).particles();
+    const auto count = double(held.empty() ? all : std::size_t(std::ranges::count(held, 1)));
     glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i < count && state.body(id).moves(); ++i) sum += v(i) / double(count);
+    for (std::size_t i = 0; i < all && state.body(id).moves(); ++i)
+      if (held.empty() || held[i]) sum += v(i) / count;
     return sum;
   };
   double given = 0;
   for (Pair& p : pairs_) {
     const double a = inverse_mass(p.a), b = inverse_mass(p.b);
     if (a + b <= 0) {
-      p.impact = {};  // they sleep
+      p.impact = {};  // they sleep, or are held
       continue;
     }
     const double mass = 1 / (a + b);
@@ -77,6 +80,8 @@ double Rebounds::give_back(State& state, double seconds) {
         rebound(p.impact, impulse, std::exchange(p.returned, 0.0), after - impulse / mass, after, mass, seconds);
     given += double(std::exchange(p.impact.given, 0.0f));
     if (change == glm::dvec3(0.0)) continue;
+    // Who pushes off what is held and moves gets work from it.
+    if (a <= 0 || b <= 0) given += mass * (b <= 0 ? glm::dot(change, velocity(p.b)) : -glm::dot(change, velocity(p.a)));
     for (const auto& [id, share] : {std::pair(p.a, mass * a), std::pair(p.b, -mass * b)})
       for (std::size_t i = 0; i < state.batch_of(id).particles(); ++i)
         state.field_of(id, state.v).add(i, share * change);

@@ -30,7 +30,7 @@ class Rebounds {
   /// Adds what contact has done to two bodies in a part of a frame.
   void add(const Pair& done);
   /// Ends a frame of `seconds`: gives back what is due, to both bodies as wholes and with opposite impulses. Returns
-  /// the energy (J).
+  /// the energy (J). A body that is held somewhere has an infinite mass.
   double give_back(State& state, double seconds);
   /// Forgets the impacts of a body.
   void forget(BodyId body);
