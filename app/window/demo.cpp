@@ -366,14 +366,18 @@ class Demo {
 
   void throw_body(glm::ivec2 size) {
     const engine::Ray ray = mouse_.ray(camera_, size);
-    const float distance = render::distance_to_scene(ray, session_.world(), positions_under_mouse(session_))
-                               .value_or(camera_.orbit().distance);
+    const session::Half half = mouse_.half();
+    const float distance =
+        render::distance_to_scene(ray, session_.simulation.world(half), positions_under_mouse(session_, half))
+            .value_or(camera_.orbit().distance);
     session_.bodies.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.origin + distance * ray.direction));
   }
 
   /// Holds, or lets go of, the vertex nearest to the point under the mouse, if that is the selected body's.
   void switch_hold(glm::ivec2 size) {
-    const auto under = render::pick(mouse_.ray(camera_, size), session_.world(), positions_under_mouse(session_));
+    const session::Half half = mouse_.half();
+    const auto under =
+        render::pick(mouse_.ray(camera_, size), session_.simulation.world(half), positions_under_mouse(session_, half));
     if (!under || under->body != session_.bodies.selected())
       return session_.simulation.notice.set("click a body first, then point at one of its vertices");
     const glm::vec3& w = under->weights;

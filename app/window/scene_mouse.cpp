@@ -89,6 +89,7 @@ ui::Requests SceneMouse::update(const MouseInput& in, const Session& session, co
   ui::Requests requests;
   under_.reset();
   if (in.over_scene) under_ = aim.ray;
+  half_ = in.over_scene ? aim.half : session::Half::first;
   drag(in, aim, session, camera, size, requests);
   const auto before = std::exchange(down_, in.down);
   if (in.down[0] && !before[0] && in.over_scene) press(in, aim, session, requests);

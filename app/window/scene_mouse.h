@@ -46,6 +46,8 @@ class SceneMouse {
   bool can_drag() const { return can_drag_; }
   /// Returns the ray from the eye through the mouse, or through the middle if the mouse is not over the scene.
   engine::Ray ray(const engine::Camera& camera, glm::ivec2 size) const;
+  /// Returns the half into whose world that ray goes.
+  session::Half half() const { return half_; }
 
  private:
   /// What the mouse points at: a ray from a camera into the world of a half.
@@ -74,6 +76,7 @@ class SceneMouse {
   float drag_length_ = 0;                 // pixels, since the left button went down
   std::optional<session::Half> held_in_;  // the half in which the left button went down, until it goes up
   std::optional<engine::Ray> under_;
+  session::Half half_ = session::Half::first;
   glm::vec2 last_at_{0.0f}, orbited_{0.0f};  // pixels; the second is the way of orbit_between_pictures() since update()
 };
 

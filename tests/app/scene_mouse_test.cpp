@@ -431,5 +431,16 @@ TEST_F(SceneMouseTest, AimsAtTheMouseOrAtTheMiddle) {
   EXPECT_EQ(mouse.ray(camera, size).direction, camera.pick_ray({400, 300}, size).direction);
 }
 
+TEST_F(SceneMouseTest, NamesTheHalfThatItAimsInto) {
+  session.simulation.set_beside(compare::usual_second(session.world(), {}));
+  move({600, 300});
+  EXPECT_EQ(mouse.half(), session::Half::second);
+  move({200, 300});
+  EXPECT_EQ(mouse.half(), session::Half::first);
+  ui.beside_as_ghost = true;
+  move({600, 300});
+  EXPECT_EQ(mouse.half(), session::Half::first);
+}
+
 }  // namespace THIS_FILE
 }  // namespace app
