@@ -367,6 +367,16 @@ void add_outlines(const OverlayInput& from, engine::FrameData& frame) {
   frame.lines.push_back(std::move(bold));
 }
 
+/// Adds a point at each particle that is held.
+void add_held(const OverlayInput& from, engine::FrameData& frame) {
+  engine::PointSet held{.points = {}, .diameter = 6.0f, .occluded_alpha = half_hidden};
+  const collide::Bodies& bodies = *from.world.simulated().positions.bodies;
+  for (collide::Index b = 0; b < bodies.count(); ++b)
+    for (const collide::Index i : from.world.held(b))
+      held.points.push_back({from.simulated[bodies.first[b] + i], glm::vec4(hand_colour, 1.0f)});
+  if (!held.points.empty()) frame.points.push_back(std::move(held));
+}
+
 /// Adds the spring of the mouse: from the point that it holds to its target.
 void add_grab(const OverlayInput& from, engine::FrameData& frame) {
   if (!from.request.grab || from.request.grab->body >= from.world.bodies().count()) return;
@@ -438,6 +448,7 @@ void add_overlays(const OverlayInput& from, engine::FrameData& frame) {
     if (layer == 1) add_bucket(from, frame);
   }
   add_outlines(from, frame);
+  add_held(from, frame);
   add_grab(from, frame);
 }
 

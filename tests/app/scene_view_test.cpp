@@ -190,6 +190,18 @@ TEST_F(AddOverlaysTest, MarkOnlyTheDeepestVertexOfAPairByALine) {
   EXPECT_EQ(lines[0].b, positions_[8] + glm::vec3(0.2f, 0, 0));
 }
 
+TEST_F(AddOverlaysTest, MarkWhatIsHeldAsLongAsItIs) {
+  for (const std::size_t marks : {1u, 0u}) {
+    world_.switch_hold(1, 5);
+    frame_.points.clear();
+    add({});
+    ASSERT_EQ(frame_.points.size(), marks);
+    if (marks == 1) {
+      EXPECT_EQ(frame_.points[0].points[0].position, positions_[world_.bodies().first[1] + 5]);
+    }
+  }
+}
+
 TEST_F(AddOverlaysTest, DrawContactsSmallerThanTheDistanceBetweenVertices) {
   request_.shown = {.contacts = true};
   const auto diameter = [&](float pixels_at_one_metre) {
