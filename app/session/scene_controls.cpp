@@ -1,6 +1,7 @@
 #include "app/session/scene_controls.h"
 
 #include "app/files/inputs.h"
+#include "app/session/system_files.h"
 
 namespace app::session {
 namespace {
@@ -80,7 +81,7 @@ std::string SceneControls::save(const std::filesystem::path& file, const softbod
   } catch (const std::exception& error) {
     return error.what();
   }
-  simulation_.notice.tell("Scene saved: " + simulation_.loaded.file.name());
+  simulation_.notice.tell("Scene saved: " + hand_over(simulation_.loaded.file.name()));
   return {};
 }
 

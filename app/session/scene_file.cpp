@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
+#include "app/base/text.h"
 #include "app/files/output_file.h"
 #include "softbody/scene/scene.h"
 #include "softbody/scene/scene_keys.h"
@@ -24,37 +26,47 @@ std::string view_text(const softbody::View& v) {
   return text;
 }
 
-/// Returns an option with its value, with a space before each.
-std::string option(const char* name, const std::string& value) {
-  return std::string(" ").append(name).append(1, ' ').append(shell_word(value));
-}
+struct Option {
+  std::string name, value;
+  bool operator==(const Option&) const = default;
+};
 
-/// Returns the options for the view of `used`, and for how contacts are found.
-std::string detection_options(const softbody::Scene& used) {
+/// Returns the options for how contacts are found.
+std::vector<Option> detection_options(const softbody::Scene& used) {
   const collide::Settings& c = used.collision;
-  std::string text = option("--method", used.method) + option("--levels", std::to_string(c.levels)) +
-                     option("--buckets", std::to_string(c.buckets)) +
-                     option("--cell-size", c.cell_size ? three(*c.cell_size) : "auto");
-  if (c.primes != collide::default_primes) text += option("--primes", three(c.primes));
-  text += option("--tolerance", softbody::toml_value(c.tolerance)) + (c.self_collision ? " --self" : " --no-self");
-  return text + option("--view", view_text(used.view));
+  return {{"method", used.method},
+          {"levels", std::to_string(c.levels)},
+          {"buckets", std::to_string(c.buckets)},
+          {"cell-size", c.cell_size ? three(*c.cell_size) : "auto"},
+          {"tolerance", softbody::toml_value(c.tolerance)}};
 }
 
-/// Returns the options that make the scene `used`, for which `name` stands.
-std::string scene_options(const std::string& name, const softbody::Scene& used,
-                          const softbody::IntegratorChoice& integrator) {
-  std::string text = option("--scene", name) + detection_options(used);
-  for (const softbody::ContactSurfaceInfo& info : softbody::contact_surfaces)
-    if (info.value == used.contact_surface) text += option("--contact-surface", std::string(info.key));
-  if (integrator.key != softbody::default_integrator) text += option("--integrator", integrator.key);
-  if (integrator.substeps) text += option("--substeps", std::to_string(*integrator.substeps));
-  return text;
+/// Returns the options in which a second world may differ.
+std::vector<Option> world_options(const compare::HowSimulated& how) {
+  std::vector<Option> options = detection_options(how.scene);
+  const auto surface =
+      std::ranges::find(softbody::contact_surfaces, how.scene.contact_surface, &softbody::ContactSurfaceInfo::value);
+  options.push_back({"contact-surface", std::string(surface->key)});
+  options.push_back({"integrator", how.integrator.key});
+  return options;
 }
 
-std::string this_program() {
-  std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-  return shell_word(failed ? "sbcollide" : program.string());
+/// Returns the words for these options, for the view of `used`, and for what only one world can have.
+std::vector<std::string> words_of(const std::vector<Option>& options, const softbody::Scene& used) {
+  std::vector<std::string> words;
+  for (const auto& [name, value] : options) words.insert(words.end(), {"--" + name, value});
+  if (const auto& primes = used.collision.primes; primes != collide::default_primes)
+    words.insert(words.end(), {"--primes", three(primes)});
+  words.insert(words.end(), {used.collision.self_collision ? "--self" : "--no-self", "--view", view_text(used.view)});
+  return words;
+}
+
+/// Returns the value of --beside; empty if the second world is as the first.
+std::string beside_text(const std::vector<Option>& first, const std::vector<Option>& second) {
+  std::vector<std::string> differences;
+  for (std::size_t i = 0; i < first.size(); ++i)
+    if (first[i] != second[i]) differences.push_back(second[i].name + "=" + second[i].value);
+  return joined(differences, ",");
 }
 
 }  // namespace
@@ -92,30 +104,30 @@ bool options_make(const softbody::Scene& used, const softbody::Scene& named) {
   return made == used;
 }
 
-std::string shell_word(const std::string& text) {
-  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./,:=+@%";
-  if (!text.empty() && text.find_first_not_of(plain) == text.npos) return text;
-  std::string word = "'";
-  for (const char c : text) c == '\'' ? word.append("'\\''") : word.append(1, c);
-  return word + "'";
+std::vector<std::string> demo_words(const std::string& name, const compare::HowSimulated& used,
+                                    const std::optional<compare::HowSimulated>& beside) {
+  const std::vector<Option> options = world_options(used);
+  std::vector<std::string> words{"--scene", name};
+  std::ranges::move(words_of(options, used.scene), std::back_inserter(words));
+  if (const auto substeps = used.integrator.substeps)
+    words.insert(words.end(), {"--substeps", std::to_string(*substeps)});
+  if (const std::string differs = beside ? beside_text(options, world_options(*beside)) : ""; !differs.empty())
+    words.insert(words.end(), {"--beside", differs});
+  return words;
 }
 
-std::string demo_command(const std::string& name, const softbody::Scene& used,
-                         const softbody::IntegratorChoice& integrator) {
-  return this_program() + scene_options(name, used, integrator);
+std::vector<std::string> play_words(const files::Playback& recording, const softbody::Scene& used) {
+  std::vector<std::string> words = recording.command_words();
+  std::ranges::move(words_of(detection_options(used), used), std::back_inserter(words));
+  return words;
 }
 
-std::string play_command(const files::Playback& recording, const softbody::Scene& used) {
-  std::string text = this_program();
-  for (const std::string& word : recording.command_words()) text.append(1, ' ').append(shell_word(word));
-  return text + detection_options(used);
-}
-
-std::string simulate_command(const std::string& name, const softbody::Scene& used,
-                             const softbody::IntegratorChoice& integrator, int frame) {
+std::vector<std::string> simulate_words(const std::vector<std::string>& demo, int frame) {
+  std::vector<std::string> words{"simulate"};
+  std::ranges::copy(demo, std::back_inserter(words));
   const std::string number = std::to_string(std::max(frame, 1));  // frame 0 has no picture
-  return this_program() + " simulate" + scene_options(name, used, integrator) + " --frames " + number + " --capture " +
-         number;
+  words.insert(words.end(), {"--frames", number, "--capture", number});
+  return words;
 }
 
 }  // namespace app::session

@@ -2,11 +2,13 @@
 // The name of a scene on the command line, and the scene that it stands for.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "app/compare/difference.h"
 #include "app/files/playback.h"
-#include "softbody/integrate/integrators.h"
 #include "softbody/scene/scene.h"
 
 namespace app::session {
@@ -39,16 +41,13 @@ class SceneFile {
 /// Returns true if command-line options make the scene `used` of `named`.
 bool options_make(const softbody::Scene& used, const softbody::Scene& named);
 
-/// Returns `text` as one word of a POSIX shell, quoted only if needed.
-std::string shell_word(const std::string& text);
-
-/// Return commands for a POSIX shell, with this executable and the settings of `used`: the first opens the demo with
-/// the scene of that name, the second with the recording; the third takes a picture of the scene's frame without a
-/// window.
-std::string demo_command(const std::string& name, const softbody::Scene& used,
-                         const softbody::IntegratorChoice& integrator);
-std::string play_command(const files::Playback& recording, const softbody::Scene& used);
-std::string simulate_command(const std::string& name, const softbody::Scene& used,
-                             const softbody::IntegratorChoice& integrator, int frame);
+// Return words of the command line, see system().start_text:
+/// To open the demo with the scene of that name and the settings in use, and with the second world beside it, if any.
+std::vector<std::string> demo_words(const std::string& name, const compare::HowSimulated& used,
+                                    const std::optional<compare::HowSimulated>& beside = {});
+/// To open the demo with a recording and the settings of `used`.
+std::vector<std::string> play_words(const files::Playback& recording, const softbody::Scene& used);
+/// To take a picture of the scene's frame without a window. demo: the demo_words().
+std::vector<std::string> simulate_words(const std::vector<std::string>& demo, int frame);
 
 }  // namespace app::session

@@ -22,7 +22,34 @@ fs::path folder_in(const char* variable) {
   return folder.is_absolute() ? folder : fs::path();
 }
 
+/// Returns `text` as one word of a POSIX shell, quoted only if needed.
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./,:=+@%";
+  if (!text.empty() && text.find_first_not_of(plain) == text.npos) return text;
+  std::string word = "'";
+  for (const char c : text) c == '\'' ? word.append("'\\''") : word.append(1, c);
+  return word + "'";
+}
+
+/// Returns a command for a POSIX shell, with this executable.
+std::string command(const std::vector<std::string>& words) {
+  std::error_code failed;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  std::string text = shell_word(failed ? "sbcollide" : program.string());
+  for (const std::string& word : words) text.append(1, ' ').append(shell_word(word));
+  return text;
+}
+
+constexpr System desktop{.start = "Command",
+                         .no_start = "The scene was changed: save it, so that a command can name it.",
+                         .start_text = &command,
+                         .choose_files = nullptr};
+
 }  // namespace
+
+const System& this_system() { return desktop; }
+
+std::string hand_over(const fs::path& file) { return file.string(); }
 
 std::span<const RecordingKind> recording_kinds() { return kinds; }
 

@@ -169,7 +169,8 @@ void SceneMouse::drag(const MouseInput& in, const Aim& aim, const Session& sessi
   }
   if (drag_ == Drag::orbit) camera.rotate(in.moved - orbited_, size);
   if (!in.over_scene) return;
-  if (down_[1] || down_[2]) camera.pan(in.moved, size);
+  if (down_[1]) camera.pan(in.moved, size);
+  if (down_[2]) camera.rotate(in.moved, size);  // also over bodies
   if (in.wheel != 0) camera.zoom(in.wheel);
 }
 

@@ -7,6 +7,7 @@
 #include "app/cli/options.h"
 #include "app/files/inputs.h"
 #include "app/session/session.h"
+#include "app/session/system_files.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 
@@ -30,8 +31,9 @@ std::vector<std::string> words_of(const std::string& command) {
   return words;
 }
 
-cli::Options parse(const std::string& command) {
-  const std::vector<std::string> words = words_of(command);
+/// Returns what the program reads when a shell runs the command with these words.
+cli::Options parse(const std::vector<std::string>& command) {
+  const std::vector<std::string> words = words_of(session::this_system().start_text(command));
   std::vector<const char*> argv;
   for (const std::string& word : words) argv.push_back(word.c_str());
   return cli::parse_options(static_cast<int>(argv.size()), argv.data()).value();
@@ -56,14 +58,14 @@ TEST(SceneCommands, ReproduceTheRunningScene) {
     SCOPED_TRACE(key);
     const softbody::Scene scene = softbody::find_scene(key, files::scene_folder());
     for (const softbody::Scene& used : {scene, changed(scene)}) {
-      const cli::Options demo = parse(session::demo_command(key, used, {}));
+      const cli::Options demo = parse(session::demo_words(key, {used, {}}));
       EXPECT_EQ(demo.command, cli::Command::demo);
       softbody::Scene made = cli::open(demo).scene;
       ASSERT_EQ(made.bodies.size(), used.bodies.size());
       made.bodies = used.bodies;  // meshes from files are read anew
       made.dropper = used.dropper;
       EXPECT_TRUE(made == used);
-      const cli::Options simulate = parse(session::simulate_command(key, used, {"xpbd", 7}, 17));
+      const cli::Options simulate = parse(session::simulate_words(session::demo_words(key, {used, {"xpbd", 7}}), 17));
       EXPECT_EQ(simulate.command, cli::Command::simulate);
       EXPECT_EQ(simulate.frames, 17);
       EXPECT_EQ(simulate.integrator, (softbody::IntegratorChoice{"xpbd", 7}));
@@ -73,12 +75,29 @@ TEST(SceneCommands, ReproduceTheRunningScene) {
   }
 }
 
+TEST(SceneCommands, ReproduceTheSecondWorld) {
+  const compare::HowSimulated first{softbody::find_scene("D", files::scene_folder()), {}};
+  compare::HowSimulated second = first;
+  EXPECT_TRUE(parse(session::demo_words("D", first, second)).beside.empty()) << "no difference";
+  second.scene.method = "multi-level-sb";
+  second.scene.collision.cell_size = glm::vec3{0.3f, 0.4f, 0.5f};
+  second.scene.collision.tolerance = 0.07f;
+  second.scene.contact_surface = softbody::ContactSurface::surfaces;
+  second.integrator.key = "xpbd";
+  const std::vector<std::string> words = session::demo_words("D", first, second);
+  const cli::Options options = parse(words);
+  const auto made = cli::second_world(options, cli::open(options).scene);
+  ASSERT_TRUE(made);
+  EXPECT_EQ(compare::Difference(first, second).text(*made), compare::Difference(first, second).text(second));
+  EXPECT_EQ(compare::Difference(second, *made).text(second), "the same settings");
+  EXPECT_EQ(parse(session::simulate_words(words, 3)).beside.size(), 1u);
+}
+
 TEST(SceneCommands, QuoteNamesForAShell) {
   for (const std::string name :
        {"it's a \"scene\" $HOME `id`\\.toml", "a b.toml", "-x.toml", "D", "é\n*?[a].toml", "~"})
-    EXPECT_EQ(parse(session::demo_command(name, touching_pair(), {})).scene, name);
-  EXPECT_EQ(session::shell_word("D"), "D");
-  EXPECT_EQ(session::shell_word(""), "''");
+    EXPECT_EQ(parse(session::demo_words(name, {touching_pair(), {}})).scene, name);
+  EXPECT_TRUE(session::this_system().start_text({"D", ""}).ends_with(" D ''"));
 }
 
 TEST(SceneCommands, ReproduceASceneSavedWithTheSettingsInUse) {
@@ -96,7 +115,7 @@ TEST(SceneCommands, ReproduceASceneSavedWithTheSettingsInUse) {
   softbody::Scene used = session.world().scene();
   used.view = view;
   EXPECT_TRUE(session::options_make(used, session.simulation.loaded.scene));
-  softbody::Scene made = cli::open(parse(session::demo_command(session.simulation.loaded.file.name(), used, {}))).scene;
+  softbody::Scene made = cli::open(parse(session::demo_words(session.simulation.loaded.file.name(), {used, {}}))).scene;
   made.key = used.key;
   EXPECT_TRUE(made == used);
   EXPECT_EQ(made.method, changed({}).method);

@@ -408,11 +408,16 @@ TEST_F(SceneMouseTest, FocusesOnADoubleClickedBody) {
   EXPECT_FALSE(session.simulated()->grabbed());
 }
 
-TEST_F(SceneMouseTest, PansByTheOtherButtonsAndIgnoresThePanelsMouse) {
+TEST_F(SceneMouseTest, PansAndOrbitsByTheOtherButtonsAndIgnoresThePanelsMouse) {
   move(body_pixel(0));
-  const glm::vec3 target = camera.orbit().target;
+  const engine::Orbit first = camera.orbit();
   drag({50, 0}, 1);
-  EXPECT_GT(glm::distance(camera.orbit().target, target), 0.05f);
+  EXPECT_GT(glm::distance(camera.orbit().target, first.target), 0.05f);
+  EXPECT_EQ(camera.orbit().azimuth, first.azimuth);
+  move(body_pixel(0));
+  drag({50, 0}, 2);
+  EXPECT_NE(camera.orbit().azimuth, first.azimuth);
+  EXPECT_FALSE(session.bodies.selected()) << "the middle button leaves bodies alone";
   const engine::Orbit before = camera.orbit();
   input.over_scene = false;
   input.wheel = 3;

@@ -85,7 +85,7 @@ void Exporter::write_curves() {
     files::prepare_folder(absolute_folder(folder), "");
     const fs::path file = files::next_free_path(absolute_folder(folder), "curves", ".csv");
     files::write_file(file, curves_csv(simulation_, comparison_));
-    return "Curves saved: " + file.string();
+    return "Curves saved: " + hand_over(file);
   });
   show_message();
 }
@@ -119,7 +119,7 @@ void Exporter::frame(const Picture& picture) {
       const fs::path file = files::next_free_path(absolute_folder(folder), "picture", ".png");
       const engine::Image image = picture(with_panel, picture_size());
       files::write_file(file, engine::encode_png(image));
-      return fmt::format("Picture saved: {} ({} x {})", file.string(), image.width, image.height);
+      return fmt::format("Picture saved: {} ({} x {})", hand_over(file), image.width, image.height);
     });
     show_message();
   }

@@ -32,14 +32,18 @@ void draw_problem(Widgets& w, const char* label, const std::string& problem) {
 
 void draw_open(Widgets& w, const session::Import& import) {
   w.row_label("Open", w.px(narrow_column));
-  ImGui::BeginDisabled(import.busy());
+  const Disabled off(import.busy());
+  if (!session::this_system().has_folders()) {
+    if (w.button("Choose files", "Meshes (OBJ, PLY) or a scene. You can also drop files on the window.", -FLT_MIN))
+      session::this_system().choose_files();
+    return;
+  }
   if (field_with_button(
           w, "File to open", import.path, "mesh.obj or scene.toml",
           "An OBJ or PLY file, which opens alone as a soft body, or a scene file. You can also drop files on the "
           "window.",
           [](Session& s, UiState&) -> std::string& { return s.import.path; }, "Load", "Reads the file."))
     w.ask([](Session& s) { s.import.load(); });
-  ImGui::EndDisabled();
   draw_problem(w, "Load problem", import.problem());
 }
 
@@ -118,33 +122,35 @@ void draw_save(Widgets& w, const Session& session, const UiState& ui, bool saved
   draw_save_question(w, ui);
 }
 
-void draw_command(Widgets& w, const Session& session, const softbody::Scene& used, bool saved) {
-  w.row_label("Command", w.px(narrow_column));
-  const Disabled off(!saved);
+/// Draws buttons that copy to the clipboard what starts the program so.
+void draw_start(Widgets& w, const Session& session, const softbody::Scene& used, bool saved) {
+  const session::System& system = session::this_system();
+  w.row_label(system.start, w.px(narrow_column));
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-  // Draws a button that copies a command to the clipboard. `purpose`: what the command does.
-  const auto draw_copy = [&](const char* name, const std::string& command, const char* purpose) {
-    constexpr const char* unsaved = "The scene was changed: save it, so that a command can name it.";
+  const auto draw_copy = [&](const char* name, const std::vector<std::string>& words, const char* does) {
+    const std::string text = saved ? system.start_text(words) : "";
     constexpr std::size_t max_shown = 600;  // each frame that is played has a name
-    const std::string shown = command.size() > max_shown ? command.substr(0, max_shown) + " ..." : command;
-    if (!w.button(name, saved ? shown : unsaved, width)) return;
-    ImGui::SetClipboardText(command.c_str());
-    w.ask([purpose](Session& s) { s.simulation.notice.tell(std::string("Copied: the command that ") + purpose); });
+    const std::string shown = text.size() > max_shown ? text.substr(0, max_shown) + " ..." : text;
+    if (!w.button(name, text.empty() ? system.no_start : shown, width, !text.empty())) return;
+    ImGui::SetClipboardText(text.c_str());
+    w.ask([does](Session& s) { s.simulation.notice.tell(std::string("Copied: what ") + does); });
   };
-  if (const session::Player* player = session.simulation.player()) {
-    draw_copy("Copy", session::play_command(*player->recording(), used), "opens this scene");
-  } else {
-    const softbody::World& world = *session.simulated();
-    const std::string& name = session.simulation.loaded.file.name();
-    // A body added since the last step shows here at once; `simulate` shows it only after the next step.
-    const bool just_added = std::ranges::any_of(
-        world.added(), [&](const auto& one) { return world.frame() > 0 && one.source.appear == world.frame(); });
-    draw_copy("Copy", session::demo_command(name, used, world.integrator_choice()), "opens this scene");
-    ImGui::SameLine();
-    draw_copy("Copy simulate",
-              session::simulate_command(name, used, world.integrator_choice(), world.frame() + (just_added ? 1 : 0)),
-              "makes this picture");
-  }
+  if (const session::Player* player = session.simulation.player())
+    return draw_copy("Copy", session::play_words(*player->recording(), used), "opens this scene");
+  const softbody::World& world = *session.simulated();
+  std::optional<compare::HowSimulated> beside;
+  if (const session::Beside* second = session.simulation.beside())
+    beside = {second->world().scene(), second->world().integrator_choice()};
+  const std::vector<std::string> words =
+      session::demo_words(session.simulation.loaded.file.name(), {used, world.integrator_choice()}, beside);
+  draw_copy("Copy", words, "opens this scene");
+  if (!system.has_folders()) return;
+  // A body added since the last step shows here at once; `simulate` shows it only after the next step.
+  const bool just_added = std::ranges::any_of(
+      world.added(), [&](const auto& one) { return world.frame() > 0 && one.source.appear == world.frame(); });
+  ImGui::SameLine();
+  draw_copy("Copy simulate", session::simulate_words(words, world.frame() + (just_added ? 1 : 0)),
+            "makes this picture");
 }
 
 /// Draws the choice of the pictures' size.
@@ -208,15 +214,17 @@ void draw_files(Widgets& w, const Session& session, const UiState& ui) {
   const session::LoadedScene& loaded = session.simulation.loaded;
   const bool saved = (!has_solver || !loaded.file.name().empty()) && session::options_make(used, loaded.scene);
   if (has_solver) draw_save(w, session, ui, saved);
-  draw_command(w, session, used, saved);
+  draw_start(w, session, used, saved);
 }
 
 void draw_export(Widgets& w, const Session& session, const UiState&) {
   const session::Exporter& exporter = session.exporter;
-  w.row_label("Folder", w.px(narrow_column));
-  w.text_field("Output folder", exporter.folder, "the current one",
-               "Where all of this goes. Names end in the next free number; nothing is overwritten.",
-               [](Session& s, UiState&) -> std::string& { return s.exporter.folder; });
+  if (session::this_system().has_folders()) {
+    w.row_label("Folder", w.px(narrow_column));
+    w.text_field("Output folder", exporter.folder, "the current one",
+                 "Where all of this goes. Names end in the next free number; nothing is overwritten.",
+                 [](Session& s, UiState&) -> std::string& { return s.exporter.folder; });
+  }
   w.row_label("Take", w.px(narrow_column));
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
   if (w.button("Picture", "A PNG file of the scene as it shows, in the size below (P).", width))
@@ -224,7 +232,7 @@ void draw_export(Widgets& w, const Session& session, const UiState&) {
   ImGui::SameLine();
   if (w.button("Curves", "The values of the panel's curves, as a CSV file.", width))
     w.ask([](Session& s) { s.exporter.write_curves(); });
-  draw_recording(w, exporter);
+  if (!session::recording_kinds().empty()) draw_recording(w, exporter);
   draw_picture_size(w, exporter);
   w.row_label("", w.px(narrow_column));
   if (w.checkbox("With the panel", exporter.with_panel,

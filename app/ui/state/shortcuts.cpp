@@ -6,6 +6,8 @@
 #include <array>
 #include <utility>
 
+#include "app/session/system_files.h"
+
 namespace app::ui {
 namespace {
 
@@ -117,6 +119,7 @@ constexpr std::array mouse_table{
     HelpLine{"", "Double-click: look at it"},
     HelpLine{"On a solid", "Drag: move it"},
     HelpLine{"Background", "Drag: orbit"},
+    HelpLine{"Middle drag", "Orbit, also from a body"},
     HelpLine{"Right drag", "Pan"},
     HelpLine{"Wheel", "Zoom"},
     HelpLine{"Drop files", "Mesh: a body. TOML: a scene"},
@@ -132,7 +135,10 @@ Request with_solver(const Session& session, bool needs_solver, std::string_view 
 
 }  // namespace
 
-std::span<const Shortcut> shortcuts() { return shortcut_table; }
+std::span<const Shortcut> shortcuts() {
+  static_assert(shortcut_table.back().key == GLFW_KEY_Q);  // a page cannot quit
+  return std::span(shortcut_table).first(shortcut_table.size() - (session::this_system().has_folders() ? 0 : 1));
+}
 std::span<const HelpLine> mouse_actions() { return mouse_table; }
 
 std::optional<Request> request_by_key(const Session& session, int key, bool repeat, int mods) {
@@ -143,7 +149,7 @@ std::optional<Request> request_by_key(const Session& session, int key, bool repe
     return with_solver(session, row.needs_solver, row.label,
                        [shown = row.shown](Session&, UiState& ui) { ui.overlays.*shown = !(ui.overlays.*shown); });
   }
-  for (const Shortcut& shortcut : shortcut_table) {
+  for (const Shortcut& shortcut : shortcuts()) {
     if (key != shortcut.key && (shortcut.other_key == 0 || key != shortcut.other_key)) continue;
     if ((mods & shortcut.mods) != shortcut.mods || (mods & ~shortcut.mods) & other_mods) continue;
     if (repeat && !shortcut.repeats) return std::nullopt;
