@@ -2,9 +2,11 @@
 // Work beside the window: on a thread of its own, or in slices between two pictures where there are no threads, as in a
 // browser.
 
+#include <algorithm>
 #include <cassert>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <exception>
 #include <functional>
@@ -21,6 +23,12 @@ inline constexpr Runs usual_runs = Runs::in_slices;
 #else
 inline constexpr Runs usual_runs = Runs::on_thread;
 #endif
+
+/// Returns the most work (compare::WorkEstimate::cost()) of one part of what may take `work` on a thread. In slices it
+/// is some 50 ms, in which nothing is drawn.
+constexpr std::uint64_t work_of_part(std::uint64_t work) {
+  return usual_runs == Runs::in_slices ? std::min<std::uint64_t>(work, 50'000'000) : work;
+}
 
 /// Has one Task answer questions, one after another. Whoever asks does not wait for the answer.
 /// Task: has the types Question and Answer, and a member

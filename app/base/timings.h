@@ -31,12 +31,40 @@ struct TimedParts {
   }
 };
 
+/// Returns the time (ms) that has passed.
+inline double ms_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 /// Runs an action and returns its duration (ms).
 template <class Action>
 double time_ms(const Action& action) {
   const auto start = std::chrono::steady_clock::now();
   action();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return ms_since(start);
+}
+
+/// Returns the least time (ms) that the clock sees: 0.1 ms and more in a browser.
+inline double clock_tick_ms() {
+  static const double tick = [] {
+    double ms = 0;
+    for (const auto start = std::chrono::steady_clock::now(); ms <= 0;) ms = ms_since(start);
+    return ms;
+  }();
+  return tick;
+}
+
+/// Runs an action after `prepare` and returns its duration (ms). If that is few ticks of the clock, it returns the mean
+/// of as many of both as the clock needs.
+template <class Prepare, class Action>
+double mean_ms(const Prepare& prepare, const Action& action) {
+  const double enough = 20 * clock_tick_ms();
+  prepare();
+  if (const double ms = time_ms(action); ms >= enough) return ms;
+  int runs = 0;
+  const auto start = std::chrono::steady_clock::now();
+  for (; ms_since(start) < enough; ++runs) prepare(), action();
+  return ms_since(start) / runs;
 }
 
 /// Durations of one action, in milliseconds. min() and median() require at least one.

@@ -92,8 +92,7 @@ void Comparison::detect(std::size_t method, const FrameSnapshot& snapshot) {
   Entry& entry = entries_[method];
   entry.error.clear();
   try {
-    entry.detector->forget();  // all methods search from scratch
-    entry.ms = timed_search(*entry.detector, snapshot.view(), snapshot.settings, alone_, entry.result);
+    entry.ms = timed_fresh_search(*entry.detector, snapshot.view(), snapshot.settings, alone_, entry.result);
     cost_model_.learn(method, entry.result.counters);
   } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report
     entry.error = "not run: " + failure_text(error);

@@ -67,7 +67,7 @@ class Comparison {
   using Question = FrameSnapshot;
   using Answer = CompareReport;
   /// The pair tests that one method may take on one frame: about a second on one core.
-  static constexpr std::uint64_t default_budget = 1'000'000'000;
+  static constexpr std::uint64_t default_budget = work_of_part(1'000'000'000);
 
   explicit Comparison(std::uint32_t seed, std::uint64_t budget = default_budget) : budget_(budget), random_(seed) {}
 

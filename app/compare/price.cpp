@@ -17,18 +17,17 @@ void PriceTrial::begin(HowSimulated how) {
 }
 
 std::optional<Price> PriceTrial::advance(const HowSimulated& how, const Background<PriceTrial>& background) {
-  constexpr int part = 10;  // frames; the oracle looks at the last one
+  constexpr int stride = 10;  // the oracle looks at each frame of this number
   Price price;
   try {
     if (trials_.empty()) begin(how);
-    for (Trial& trial : trials_) {
-      for (int i = 0; i < part; ++i) {
-        if (background.cancelled()) break;
-        trial.world.step();
-        trial.figures.add(trial.world);
-      }
-      trial.figures.add(
-          collide::oracle::figures_of(trial.world.simulated().positions, trial.oracle.overlaps(trial.world)));
+    if (!background.cancelled()) {
+      auto& [world, figures, oracle] =
+          *std::ranges::min_element(trials_, {}, [](const Trial& trial) { return trial.world.frame(); });
+      world.step();
+      figures.add(world);
+      if (world.frame() % stride == 0)
+        figures.add(collide::oracle::figures_of(world.simulated().positions, oracle.overlaps(world)));
     }
     if (!background.cancelled() && trials_.back().world.frame() < Price::frames) return std::nullopt;
     assert(trials_.size() == price.runs.size());

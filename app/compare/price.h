@@ -27,7 +27,7 @@ struct Price {
   std::string failure;            // why there are no figures, else empty
 };
 
-/// Makes the runs, a few frames a part, as a task for Background.
+/// Makes the runs, a frame a part, as a task for Background.
 class PriceTrial {
  public:
   using Question = HowSimulated;
@@ -46,7 +46,7 @@ class PriceTrial {
   };
   void begin(HowSimulated how);
 
-  std::deque<Trial> trials_;  // by Price::Run, a part each in turn, so that their times can be compared
+  std::deque<Trial> trials_;  // by Price::Run, a frame each in turn, so that their times can be compared
 };
 
 }  // namespace app::compare

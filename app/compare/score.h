@@ -28,6 +28,14 @@ inline double timed_search(collide::Detector& detector, const collide::Frame& fr
   return result.own_ms.value_or(ms);
 }
 
+/// Does the same from scratch, as often as the clock needs. Returns the mean time (ms).
+inline double timed_fresh_search(collide::Detector& detector, const collide::Frame& frame,
+                                 const collide::Settings& settings, collide::Workers& workers,
+                                 collide::Result& result) {
+  const double ms = mean_ms([&] { detector.forget(); }, [&] { detector.detect(frame, settings, workers, result); });
+  return result.own_ms.value_or(ms);
+}
+
 /// Returns part / whole; 1 if there is nothing.
 inline double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 1.0 : static_cast<double>(part) / static_cast<double>(whole);

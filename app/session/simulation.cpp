@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/base/background.h"
 #include "app/base/text.h"
 #include "app/base/usage_error.h"
 #include "app/session/window_work.h"
@@ -14,6 +15,10 @@ namespace app::session {
 using softbody::World;
 
 namespace {
+
+/// In slices the page stands still during a step: 25 ms on a usual machine.
+constexpr softbody::WorkBudget work_budget =
+    usual_runs == Runs::in_slices ? softbody::WorkBudget{.least = 2.5e6, .per_particle = 0} : softbody::window_budget;
 
 /// Returns what was kept, as it was. Throws if there is too little memory.
 ShownWorld bring_back(const decltype(KeptWorld::world)& kept, int threads) {
@@ -373,10 +378,10 @@ ShownWorld show_in_window(const files::Opened& opened, int threads) {
 
 std::unique_ptr<World> make_window_world(const softbody::Scene& scene, const softbody::IntegratorChoice& integrator,
                                          int threads) {
-  return std::make_unique<World>(scene, World::Options{.threads = threads,
-                                                       .integrator = integrator,
-                                                       .budget = softbody::window_budget,
-                                                       .check_work = require_affordable});
+  return std::make_unique<World>(
+      scene,
+      World::Options{
+          .threads = threads, .integrator = integrator, .budget = work_budget, .check_work = require_affordable});
 }
 
 }  // namespace app::session

@@ -7,7 +7,7 @@
 
 namespace app::session {
 
-inline constexpr std::uint64_t max_window_work = 1'000'000'000;  // WorkEstimate::cost() of a frame: about half a second
+inline constexpr std::uint64_t max_window_work = work_of_part(1'000'000'000);  // of a frame: about half a second
 
 /// Returns the work of a method that knows nothing from earlier frames, on the current positions.
 inline compare::WorkEstimate window_work(const softbody::BodiesInMotion& world, const collide::Method& method,

@@ -16,9 +16,12 @@ function refuse(text) {
   plain.href = location.pathname;
 }
 
+const place = element('scene');  // of the canvas
+
 /// Returns the words of the command line: ?scene=D&self is --scene=D --self.
 function words() {
-  return location.search.slice(1).split('&').filter(part => part).map(part => '--' + decodeURIComponent(part));
+  const given = location.search.slice(1).split('&').filter(part => part).map(part => '--' + decodeURIComponent(part));
+  return [`--size=${place.clientWidth}x${place.clientHeight}`, ...given];
 }
 
 // Where storage is forbidden, nothing is remembered.
@@ -31,7 +34,7 @@ function restorePreferences() {
 
 /// Makes the canvas as large as its place, in pixels of the screen.
 function resize() {
-  Module.setCanvasSize(element('scene').clientWidth, element('scene').clientHeight);
+  Module.setCanvasSize(place.clientWidth, place.clientHeight);
 }
 
 globalThis.Module = {
@@ -41,14 +44,11 @@ globalThis.Module = {
     console.error(line);
     if (line.startsWith('sbcollide: ')) refuse(line.slice('sbcollide: '.length));
   },
-  preRun: [() => {
-    ENV.SBCOLLIDE_DATA = '/data';
-    restorePreferences();
-  }],
+  preRun: [restorePreferences],
   postRun: [() => {
     if (printed) refuse(printed);
     if (!bar.isConnected) return;
-    new ResizeObserver(resize).observe(element('scene'));
+    new ResizeObserver(resize).observe(place);
     setInterval(keepPreferences, 1000);
     cover.hidden = true;
   }],
@@ -134,7 +134,7 @@ function mouse(kind, at, button = 0) {
 function turnWheel(steps) {
   canvas.dispatchEvent(new WheelEvent('wheel', {deltaY: -100 * steps, bubbles: true, cancelable: true}));
 }
-canvas.addEventListener('contextmenu', event => event.preventDefault());
+for (const kind of ['contextmenu', 'webglcontextlost']) canvas.addEventListener(kind, event => event.preventDefault());
 canvas.addEventListener('mouseenter', () => Module.hovered = true);
 canvas.addEventListener('mouseleave', () => Module.hovered = false);
 // A drag may end beside the canvas.
@@ -150,7 +150,7 @@ const left = 0, middle = 1, right = 2;
 const slop = 8, scrollStep = 75, hold = 350, zoomStep = 0.9;  // CSS pixels; ms; of Camera::zoom()
 let timer, start = null, last, button, scrolls;
 const overInterface = at => Module._page_over_interface(at.x, at.y);
-function place(touches) {
+function middleOf(touches) {
   const [a, b = a] = touches;
   return {x: (a.clientX + b.clientX) / 2, y: (a.clientY + b.clientY) / 2,
           width: Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY)};
@@ -168,7 +168,7 @@ function lift() {
 }
 function begin(touches) {
   lift();
-  start = last = place(touches);
+  start = last = middleOf(touches);
   scrolls = touches.length > 1 && overInterface(start);
   mouse('mouseenter', start);
   mouse('mousemove', start);
@@ -176,7 +176,7 @@ function begin(touches) {
   else if (!scrolls) press(right);
 }
 function move(touches) {
-  const at = place(touches), across = Math.abs(at.x - start.x), along = Math.abs(at.y - start.y);
+  const at = middleOf(touches), across = Math.abs(at.x - start.x), along = Math.abs(at.y - start.y);
   if (timer) {
     if (Math.max(across, along) < slop) return;
     scrolls = overInterface(start) && along > across;

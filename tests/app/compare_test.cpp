@@ -188,5 +188,13 @@ TEST(Comparison, TimesOneMethodAPart) {
   EXPECT_EQ(parts, report->order.size() + 1) << "the last part scores";
 }
 
+TEST(MeanMs, PreparesEachRunAndRepeatsWhatTheClockCannotSee) {
+  int prepared = 0, runs = 0;
+  const double ms = mean_ms([&] { ++prepared; }, [&] { ++runs; });
+  EXPECT_EQ(prepared, runs);
+  EXPECT_GE(runs, 1);
+  EXPECT_GT(ms, 0);
+}
+
 }  // namespace THIS_FILE
 }  // namespace app

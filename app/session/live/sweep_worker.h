@@ -41,7 +41,7 @@ class SweepWorker {
  public:
   /// Limits each step to a predicted few tenths of a second, so that a cancelled sweep ends soon and the window closes
   /// quickly. In the largest scene some steps take a few seconds nevertheless.
-  static constexpr compare::SweepLimits live_limits{.budget = 200'000'000, .repeat_ms = 250};
+  static constexpr compare::SweepLimits live_limits{.budget = work_of_part(200'000'000), .repeat_ms = 250};
 
   explicit SweepWorker(const compare::SweepLimits& limits = live_limits, Runs runs = usual_runs)
       : sweep_(runs, limits) {}
