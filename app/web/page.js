@@ -188,8 +188,7 @@ function move(touches) {
   if (button === right && last.width && at.width) turnWheel(Math.log(last.width / at.width) / Math.log(zoomStep));
   last = at;
 }
-function end(touches) {
-  if (touches.length) return begin(touches);
+function end() {  // of two fingers, the other one does nothing more
   if (timer) press(left);  // a tap
   lift();
   mouse('mouseleave', last);
@@ -202,4 +201,4 @@ for (const [kind, act] of Object.entries({touchstart: begin, touchmove: move, to
     if (start || kind === 'touchstart') act(event.targetTouches);
   }, {capture: true, passive: false});
 
-load().catch(error => refuse(error.message));
+load().catch(error => refuse(error instanceof URIError ? 'The address is not well formed: write %25 for %.' : error.message));
