@@ -47,7 +47,7 @@ void run(const app::cli::Options& options) {
                          .scene_folder = app::files::scene_folder(),
                          .meshes = options.meshes,
                          .guests = guests,
-                         .apply = [&](softbody::Scene& scene) { app::cli::apply(options, scene); },
+                         .apply = [options](softbody::Scene& scene) { app::cli::apply(options, scene); },
                          .integrator = options.integrator,
                          .beside = beside,
                          .threads = options.threads,

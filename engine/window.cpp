@@ -49,6 +49,7 @@ void set_hints() {
 #endif
   glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);  // reports driver resets, if supported
   glfwWindowHint(GLFW_DEPTH_BITS, 24);
+  glfwWindowHint(GLFW_ALPHA_BITS, 0);  // a page would show through
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "sbcollide");
 }
@@ -94,6 +95,9 @@ bool Window::is_open() const { return !glfwWindowShouldClose(window_); }
 
 bool Window::poll(double seconds) {
   if (minimised()) seconds = 0.25;
+#ifdef __EMSCRIPTEN__
+  seconds = 0;  // the browser waits
+#endif
   const double end = glfwGetTime() + seconds;
   if (seconds > 0) {
     glfwWaitEventsTimeout(seconds);
@@ -127,8 +131,10 @@ bool Window::context_lost() const {
 }
 
 void Window::wait_for_context_reset() const {
+#ifndef __EMSCRIPTEN__  // there run_loop() has waited
   constexpr int max_waits = 100;
   for (int i = 0; i < max_waits && context_lost(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+#endif
 }
 
 float Window::content_scale() const {

@@ -20,9 +20,11 @@
 #   package-13 the same
 #   bundle     one tar.gz for any Linux, made in an empty system of Debian 12; used in empty ones of Debian 12 and 13 and of
 #              Ubuntu 22.04; as root
+#   web        the page, made into build/web in a system of Debian 13 below build/, which is kept; tried there in Chromium
+#              and compared with the release; as root
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
-all=(debug ci-clang headless asan tsan coverage soak fuzz debian-12 debian-13 install package-12 package-13 bundle)
+all=(debug ci-clang headless asan tsan coverage soak fuzz debian-12 debian-13 install package-12 package-13 bundle web)
 
 usage() { fail "Usage: tests/checks.sh NAME...   with names of: ${all[*]}, or all"; }
 
@@ -93,7 +95,13 @@ make_root() {
   unshare --mount debootstrap --variant=minbase "${@:4}" "$1" "$2" ${mirror:+"$mirror"} >"$2.log" ||
     fail "debootstrap failed; the whole log is $2.log"
   apt-config dump | grep '^Acquire::' >"$2/etc/apt/apt.conf.d/90host"
-  tar -C "$root" --exclude=./build --exclude=./out --exclude=./.git -c . | tar -C "$2/sbcollide" -x
+  copy_sources "$2"
+}
+
+# copy_sources FOLDER: into a root folder, in place of those there; what is built there stays.
+copy_sources() {
+  find "$1/sbcollide" -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
+  tar -C "$root" --exclude=./build --exclude=./out --exclude=./.git -c . | tar -C "$1/sbcollide" -x
 }
 
 # in_root FOLDER COMMAND...: with its own processes, which end with it, and of the environment only the way to packages:
@@ -185,6 +193,42 @@ bundle() {
   fi
 }
 
+# make_web_root FOLDER: with the libraries of the page, and with what tries it. It is kept as long as the script is the
+# same.
+make_web_root() {
+  local script=$root/app/web/libraries.sh
+  cmp -s "$script" "$1/libraries/made-by" && return
+  make_root trixie "$1"
+  in_root "$1" /sbcollide/app/web/libraries.sh >>"$1.log" 2>&1 || fail "libraries.sh failed; the whole log is $1.log"
+  cp "$script" "$1/libraries/made-by"
+}
+
+make_page() {
+  copy_sources "$1"
+  in_root "$1" bash -c '. /sbcollide/app/setup.sh && build web sbcollide'
+  rm -rf "$root/build/web"
+  mkdir "$root/build/web"
+  find "$1/sbcollide/build/web/bin" -maxdepth 1 -type f -exec cp -t "$root/build/web" {} +
+}
+
+# try_page FOLDER: against what the release writes.
+try_page() {
+  local there=$1/desktop program=$root/build/release/bin/sbcollide
+  rm -rf "$there" && mkdir "$there"
+  "$program" simulate --scene drop --frames 310 --capture 290,300,310 --size 1280x720 --obj-every 300 --out "$there"
+  "$program" simulate --scene drop --frames 300 --oracle --json >"$there/simulate.json"
+  "$program" detect --method all --json "$there/frame_0300.obj" >"$there/detect.json"
+  in_root "$1" /sbcollide/tests/web/page.py /sbcollide/build/web/bin /desktop
+}
+
+web() {
+  local folder=$root/build/web-root
+  [ "$(id -u)" -eq 0 ] || { leave_out "web" "only root can make a root folder" && return; }
+  step "web: root" make_web_root "$folder" && step "web: build" make_page "$folder" &&
+    step "web: hashes" in_root "$folder" /sbcollide/tests/web/hashes.sh /sbcollide/build/web/bin/sbcollide.js
+  step "web: release" build release sbcollide && step "web: page" try_page "$folder"
+}
+
 # pass_registers PRESET: no file that was compiled has a function that passes registers as if its target had none. What
 # is not forced inline shows it, with g++, which tells of the first function of a file only.
 pass_registers() { ! grep -B 2 'note: the ABI for passing parameters' "$root/build/$1/build.log"; }
@@ -218,7 +262,7 @@ check() {
     install) install_all ;;
     package-12) package "$1" bookworm ;;
     package-13) package "$1" trixie ;;
-    bundle) bundle ;;
+    bundle | web) "$1" ;;
     *) usage ;;
   esac
 }

@@ -49,6 +49,7 @@ app/ui/views: app/base app/compare app/session app/render app/ui/state app/ui/wi
 app/ui/panel: app/base app/session app/render app/ui/state app/ui/widgets app/ui/views collide softbody
 app/ui: app/session app/ui/state app/ui/widgets app/ui/views app/ui/panel
 app/window: app/base app/files app/compare app/guest app/session app/render app/ui softbody engine
+app/web: app/base app/render app/session engine
 app: app/base app/files app/guest app/cli app/report app/window
 "
 

@@ -24,6 +24,7 @@
 #include "app/window/scene_picture.h"
 #include "engine/context.h"
 #include "engine/gl.h"
+#include "engine/run_loop.h"
 
 namespace app::window {
 namespace {
@@ -77,25 +78,32 @@ class Demo {
       session_.import.drop({mesh}, options.scene_given);
   }
 
-  void run() {
-    while (graphics_->window.is_open() && !quits_) {
-      const double wait = schedule_.wait(now(), session_.awaits_answer());
-      if (graphics_->window.poll(wait)) schedule_.input(now());
-      const double elapsed = timer_.tick();
-      const bool was_hidden = std::exchange(hidden_, graphics_->window.minimised());
-      if (hidden_) continue;  // poll() has slept; the world waits until the window is shown
-      if (was_hidden) schedule_.input(now());
-      const bool interrupted = was_hidden || wait > PictureSchedule::max_running_wait;
-      waited_ = interrupted || wait > 0;
-      draw_or_wait(elapsed, interrupted);
+  /// Handles what has happened, and draws a picture if something has changed. Returns false after the last time.
+  bool turn() {
+    if (!graphics_->window.is_open() || quits_) {
+      finish();
+      return false;
     }
+    const double wait = schedule_.wait(now(), session_.awaits_answer());
+    if (graphics_->window.poll(wait)) schedule_.input(now());
+    const double elapsed = timer_.tick();
+    const bool was_hidden = std::exchange(hidden_, graphics_->window.minimised());
+    if (hidden_) return true;  // poll() has slept; the world waits until the window is shown
+    if (was_hidden) schedule_.input(now());
+    const bool interrupted = was_hidden || wait > PictureSchedule::max_running_wait;
+    waited_ = interrupted || wait > 0;
+    draw_or_wait(elapsed, interrupted);
+    return true;
+  }
+
+ private:
+  void finish() {
     store_preferences(true);
     // A search for a mesh's equilibrium could keep the program running for minutes after its window is closed.
     const session::Exporter& exporter = session_.exporter;
     if (session_.import.busy() && !exporter.recording() && !exporter.finishing()) std::quick_exit(EXIT_SUCCESS);
   }
 
- private:
   /// Draws a picture if something has changed. After an interruption the world, the camera and the tooltips go on as if
   /// no time had passed; hints and notices age.
   void draw_or_wait(double elapsed, bool interrupted) {
@@ -196,7 +204,6 @@ class Demo {
     const Activity next = activity(moving, has_news);
     ui_.picture_interval = seconds_to_next_picture(next);
     schedule_.drawn(now(), next);
-    timer_.limit_rate();
   }
 
   /// Returns what goes on after the picture that was just drawn. has_news: of the interface, whose windows take another
@@ -434,6 +441,8 @@ class Demo {
 
 }  // namespace
 
-void run_demo(const DemoOptions& options) { Demo(options).run(); }
+void run_demo(const DemoOptions& options) {
+  engine::run_loop([demo = std::make_shared<Demo>(options)] { return demo->turn(); });
+}
 
 }  // namespace app::window

@@ -1,12 +1,10 @@
 #pragma once
-// When pictures of the window are drawn. Where nothing changes, the window waits for events; where no monitor sets the
-// pace, it is limited.
+// When pictures of the window are drawn. Where nothing changes, the window waits for events.
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <thread>
 
 namespace app::window {
 
@@ -72,13 +70,6 @@ class PictureTimer {
     last_ = time;
     const double periods = std::round(elapsed * 60);
     return periods >= 1 && std::abs(elapsed * 60 - periods) < 0.2 ? periods / 60 : elapsed;
-  }
-  /// Sleeps so that there are at most 125 pictures a second. Without a monitor to wait for, pictures would follow each
-  /// other at once and load the machine for nothing.
-  void limit_rate() const {
-    constexpr double min_interval = 1.0 / 125;
-    const double left = min_interval - (now() - last_);
-    if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
   }
 
  private:

@@ -1,0 +1,7 @@
+#include "app/base/signals.h"
+
+namespace app {
+
+void handle_signals(void (*)()) {}
+
+}  // namespace app
