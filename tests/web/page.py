@@ -211,8 +211,8 @@ def inputs(browser):
             const files = new DataTransfer();
             files.items.add(new File([arguments[0]], 'star.obj'));
             document.querySelector('#canvas').dispatchEvent(new DragEvent('drop', {dataTransfer: files}));""", file.read())
-    browser.keys(" ")
-    time.sleep(5)
+    browser.until("the file is there", "return FS.analyzePath('/.glfw_dropped_files/star.obj').exists")
+    browser.pictures(10)
     moves(browser, "dropped", before)
 
 
@@ -224,7 +224,8 @@ try:
     frames(browser)
     inputs(browser)
     commands(browser)
-    start(browser, address + "?scene=nothing")
+    browser.open(address + "?scene=nothing")
+    browser.until("it says what is wrong", "return document.querySelector('#text').textContent.includes('nothing')")
 finally:
     browser.close()
 print("page: all is well")
