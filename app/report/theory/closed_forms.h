@@ -71,7 +71,8 @@ inline double flip_time(const glm::dvec3& I, const glm::dvec3& omega) {
   for (int i = 0; i < 3; ++i) energy2 += I[i] * omega[i] * omega[i], square += std::pow(I[i] * omega[i], 2);
   double a = (I.z - I.y) * (square - energy2 * I.x), b = (I.y - I.x) * (energy2 * I.z - square);
   if (a < b) std::swap(a, b);  // it turns about the first axis, not about the third
-  // The complete elliptic integral of the first kind, by the arithmetic-geometric mean: not every standard library has it.
+  // The complete elliptic integral of the first kind, by the arithmetic-geometric mean: not every standard library has
+  // it.
   double high = 1, low = std::sqrt(1 - b / a);
   for (int i = 0; i < 60; ++i) low = std::sqrt(low * std::exchange(high, (high + low) / 2));
   return pi / high * std::sqrt(I.x * I.y * I.z / a);
