@@ -11,7 +11,7 @@ collide/core: collide/api/sbcollide
 collide/trees: collide/core
 collide/methods: collide/core collide/trees
 collide/exact: collide/core collide/trees
-collide/surface: collide/core
+collide/surface: collide/core collide/trees
 collide/oracle: collide/core collide/surface
 collide: collide/core collide/methods collide/exact
 collide/api: collide/api/sbcollide collide

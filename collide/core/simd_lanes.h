@@ -112,6 +112,28 @@ class ListWriter {
   Index size_ = 0;
 };
 
+/// A box whose corners are moved by some vectors. Rounding is monotonic, so that it never hides a box that the moved
+/// one overlaps.
+class Reach {
+ public:
+  HWY_INLINE Reach(const BoxColumns& boxes, Index box, const glm::vec3& move_lo, const glm::vec3& move_hi) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lo_[axis] = all(boxes.lo[axis][box] + move_lo[static_cast<int>(axis)]);
+      hi_[axis] = all(boxes.hi[axis][box] + move_hi[static_cast<int>(axis)]);
+    }
+  }
+  /// The boxes from `first` on, one in each lane.
+  HWY_INLINE M meets(const BoxColumns& boxes, Index first) const {
+    const auto on = [&](std::size_t axis) HWY_ATTR {
+      return hn::And(hn::Le(load(&boxes.lo[axis][first]), hi_[axis]), hn::Le(lo_[axis], load(&boxes.hi[axis][first])));
+    };
+    return hn::And(hn::And(on(0), on(1)), on(2));
+  }
+
+ private:
+  V lo_[3], hi_[3];
+};
+
 HWY_INLINE float least(V v) { return hn::GetLane(hn::MinOfLanes(Floats(), v)); }
 HWY_INLINE float most(V v) { return hn::GetLane(hn::MaxOfLanes(Floats(), v)); }
 HWY_INLINE float sum(V v) { return hn::GetLane(hn::SumOfLanes(Floats(), v)); }

@@ -22,4 +22,13 @@ inline VertexRun vertices_of(const Frame& frame, Index body) {
 /// The most values that one vector instruction takes. Arrays that vectorised loops read are padded by this many.
 inline constexpr Index max_lanes = 16;
 
+/// Boxes in columns (m). One that is NaN overlaps nothing.
+struct BoxColumns {
+  std::array<std::vector<float>, 3> lo, hi;
+  void resize(std::size_t boxes) {
+    for (auto* bounds : {&lo, &hi})
+      for (std::vector<float>& values : *bounds) values.resize(boxes + max_lanes);
+  }
+};
+
 }  // namespace collide

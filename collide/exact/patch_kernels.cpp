@@ -83,32 +83,11 @@ void FillGroups(const VertexRun& body, const Index* vertex, Range groups, Index 
   for (Index group = groups.begin; group < groups.end; ++group) fill_group(body, vertex, group, offset, unit, patches);
 }
 
-/// A box enlarged by the cutoff. Rounding is monotonic, so that it never hides a box whose gap is at most the cutoff.
-class Reach {
- public:
-  HWY_INLINE Reach(const Patches::Boxes& boxes, Index box, float cutoff) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      lo_[axis] = all(boxes.lo[axis][box] - cutoff);
-      hi_[axis] = all(boxes.hi[axis][box] + cutoff);
-    }
-  }
-  /// The boxes from `first` on, one in each lane.
-  HWY_INLINE M meets(const Patches::Boxes& boxes, Index first) const {
-    const auto on = [&](std::size_t axis) HWY_ATTR {
-      return hn::And(hn::Le(load(&boxes.lo[axis][first]), hi_[axis]), hn::Le(lo_[axis], load(&boxes.hi[axis][first])));
-    };
-    return hn::And(hn::And(on(0), on(1)), on(2));
-  }
-
- private:
-  V lo_[3], hi_[3];
-};
-
 void ListNearGroups(const Patches& patches, Index group, Range others, const KnownPairs* known, Index offset,
                     float cutoff, GroupHits& out) {
   static constexpr KnownPairs::Rows none{};
   if (out.list.size() < others.size() + lanes) out.list.resize(others.size() + lanes);
-  const Reach reach(patches.group, group, cutoff);
+  const Reach reach(patches.group, group, glm::vec3(-cutoff), glm::vec3(cutoff));
   ListWriter list(out.list.data());
   for (Index first = others.begin; first < others.end; first += lanes) {
     const M inside = hn::FirstN(Floats(), std::min(lanes, others.end - first));
@@ -126,7 +105,7 @@ void ListNearGroups(const Patches& patches, Index group, Range others, const Kno
 
 HWY_INLINE Index ListNearPatches(const Patches& patches, Index patch, float cutoff, GroupHits& out) {
   if (out.list.size() < (out.near.size() + 1) * size) out.list.resize((out.near.size() + 1) * size);
-  const Reach reach(patches.patch, patch, cutoff);
+  const Reach reach(patches.patch, patch, glm::vec3(-cutoff), glm::vec3(cutoff));
   Index count = 0;
   for (std::size_t begin = 0; begin < out.near.size(); begin += 4) {
     std::uint64_t near = 0;  // of four groups: few bits are set
@@ -308,11 +287,6 @@ void find_group_hits(const Patches& patches, Index group, const KnownPairs* know
 
 KnownPairs::Mask close_pairs(const std::array<std::vector<float>, 3>& at, Index a, Index b, float tolerance2) {
   return HWY_DYNAMIC_DISPATCH(ClosePairs)(at, a, b, tolerance2);
-}
-
-void Patches::Boxes::resize(std::size_t boxes) {
-  for (auto* bounds : {&lo, &hi})
-    for (std::vector<float>& values : *bounds) values.resize(boxes + max_lanes);
 }
 
 void Patches::resize(std::size_t groups) {

@@ -8,6 +8,7 @@
 
 #include "collide/core/points.h"
 #include "collide/core/vertex_run.h"
+#include "collide/trees/patch_cut.h"
 
 namespace collide::exact {
 
@@ -27,15 +28,11 @@ struct ByteUnit {
 /// Patches of up to `size` vertices, in groups of up to `size` patches. A vertex has a lane of its patch: its place is
 /// patch * size + lane. A patch that is not there is near nothing.
 struct Patches {
-  static constexpr Index size = 16, group_size = size * size;
-  struct Boxes {
-    std::array<std::vector<float>, 3> lo, hi;  // m
-    void resize(std::size_t boxes);
-  };
+  static constexpr Index size = trees::patch_size, group_size = size * size;
 
   std::array<std::vector<float>, 3> at;            // m, by place; NaN where there is no vertex
   std::array<std::vector<std::uint8_t>, 3> bytes;  // by place
-  Boxes patch, group;
+  BoxColumns patch, group;
   std::vector<Index> count;     // by group: its patches
   std::vector<Index> vertices;  // by patch
 

@@ -6,7 +6,7 @@
 
 #include <glm/common.hpp>
 
-#include "collide/trees/tree_search.h"
+#include "collide/trees/patch_cut.h"
 
 namespace collide::exact {
 
@@ -14,56 +14,9 @@ namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-/// Brings the items below the one that belongs to the place `middle` along the axis before it, and the others behind.
-/// As std::nth_element(), but with a pivot from a sample, and without a branch that nobody can predict.
-void split_at(std::span<trees::Item> items, std::size_t middle, std::size_t axis) {
-  constexpr std::size_t few = 14;
-  for (int left = 40; items.size() > few && left > 0; --left) {  // so that bad samples cost no square
-    const auto sample = [&](std::size_t k) { return items[items.size() * k / 6].at[axis]; };
-    const auto [low_pair, high_pair] = std::pair(std::min(sample(1), sample(3)), std::max(sample(1), sample(3)));
-    const std::array sorted{std::min(low_pair, sample(5)), std::max(low_pair, std::min(high_pair, sample(5))),
-                            std::max(high_pair, sample(5))};
-    const float pivot = sorted[middle * sorted.size() / items.size()];
-    const auto part = [&](const auto& is_low) {
-      trees::Item* low = items.data();
-      for (trees::Item& item : items) {
-        const trees::Item moved = item;
-        item = *low;
-        *low = moved;
-        low += is_low(moved.at[axis]);
-      }
-      return static_cast<std::size_t>(low - items.data());
-    };
-    std::size_t low = part([pivot](float at) { return at < pivot; });
-    if (low == 0) {  // the pivot is the least: bring all that are equal before the others
-      low = part([pivot](float at) { return at <= pivot; });
-      if (middle < low) return;
-    }
-    if (middle < low) {
-      items = items.first(low);
-    } else {
-      items = items.subspan(low);
-      middle -= low;
-    }
-  }
-  trees::part_at(items, middle, axis);
-}
-
-/// Brings items into the order of their patches: cuts across the longest side, near the median, so that all patches and
-/// groups but the last are full.
-void cut_items(std::span<trees::Item> items) {
-  if (items.size() <= Patches::size) return;
-  const std::size_t unit = items.size() > Patches::group_size ? Patches::group_size : Patches::size;
-  const std::size_t low = (items.size() / 2 + unit - 1) / unit * unit;
-  const Aabb box = trees::bounds_of(items);
-  split_at(items, low, static_cast<std::size_t>(longest_axis(box.hi * 0.5f - box.lo * 0.5f)));
-  cut_items(items.first(low));
-  cut_items(items.subspan(low));
-}
-
 }  // namespace
 
-double spread_of(const Patches::Boxes& boxes, Range patches) {
+double spread_of(const BoxColumns& boxes, Range patches) {
   double sum = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (Index patch = patches.begin; patch < patches.end; ++patch)
@@ -88,7 +41,7 @@ void PatchedShape::cut(const VertexRun& body) {
   std::vector<trees::Item> items;
   items.reserve(body.size);
   for (Index v = 0; v < body.size; ++v) items.push_back({{body.x[v], body.y[v], body.z[v]}, v});
-  cut_items(items);
+  trees::cut_into_patches(items);
   const Index groups = (body.size + Patches::group_size - 1) / Patches::group_size;
   vertex_.assign(std::size_t{groups} * Patches::group_size, items.back().number);
   slot_.resize(body.size);

@@ -43,6 +43,6 @@ class PatchedShape {
 };
 
 /// Returns how large the patches are together (m): the sum of the sides of their boxes.
-double spread_of(const Patches::Boxes& boxes, Range patches);
+double spread_of(const BoxColumns& boxes, Range patches);
 
 }  // namespace collide::exact

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "collide/trees/patch_cut.h"
+
 namespace collide::surface {
 
 namespace {
@@ -47,6 +49,40 @@ Surface::Surface(Index vertex_count, std::vector<Triangle> triangles)
   for (Index t = 0; t < triangles_.size(); ++t) {
     for (const Index vertex : triangles_[t]) triangles_at_[next[vertex]++] = t;
   }
+}
+
+const SurfacePatches& Surface::patches(const VertexRun& at) const {
+  const auto cut = [&](std::size_t count, const auto& corners_of, FeaturePatches& patches) {
+    std::vector<trees::Item> items;
+    for (Index i = 0; i < count; ++i) {
+      const Triangle c = corners_of(i);
+      const glm::vec3 middle = at[c[0]] / 3.0f + at[c[1]] / 3.0f + at[c[2]] / 3.0f;
+      items.push_back({{middle.x, middle.y, middle.z}, i});
+    }
+    trees::cut_into_patches(items);
+    for (const trees::Item& item : items) {
+      patches.feature.push_back(item.number);
+      patches.corners.push_back(corners_of(item.number));
+    }
+  };
+  std::call_once(cut_->once, [&] {
+    auto& [vertices, faces, edges] = cut_->patches;
+    cut(
+        vertex_count_,
+        [](Index v) {
+          return Triangle{v, v, v};
+        },
+        vertices);
+    cut(
+        triangles_.size(), [&](Index t) { return triangles_[t]; }, faces);
+    cut(
+        edges_.size(),
+        [&](Index e) {
+          return Triangle{edges_[e][0], edges_[e][1], edges_[e][1]};
+        },
+        edges);
+  });
+  return cut_->patches;
 }
 
 }  // namespace collide::surface

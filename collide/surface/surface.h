@@ -2,13 +2,25 @@
 // Triangle meshes as surfaces, for contact and for the oracle, which need faces and not only vertices.
 
 #include <cassert>
+#include <mutex>
 
-#include "collide/core/frame.h"
+#include "collide/core/vertex_run.h"
 
 namespace collide::surface {
 
 using Triangle = std::array<Index, 3>;  // local vertices, counter-clockwise seen from outside
 using Edge = std::array<Index, 2>;      // local vertices, the smaller one first
+
+/// The features of one kind in the order of their patches: see trees/patch_cut.h.
+struct FeaturePatches {
+  std::vector<Index> feature;                 // by place
+  std::vector<std::array<Index, 3>> corners;  // by place: its vertices, of which some may be the same
+
+  Index size() const { return static_cast<Index>(feature.size()); }
+};
+struct SurfacePatches {
+  FeaturePatches vertices, faces, edges;
+};
 
 /// The triangles of a mesh. All bodies that are copies of one mesh share it. Immutable.
 class Surface {
@@ -32,6 +44,8 @@ class Surface {
   /// Returns true if the mesh has triangles, and they run along every side equally often in both directions. Only then
   /// is each point of space clearly inside or outside, however the mesh is deformed.
   bool closed() const { return closed_; }
+  /// Returns the patches, which are cut where the vertices are when this is called first. Several threads may call it.
+  const SurfacePatches& patches(const VertexRun& at) const;
 
  private:
   Index vertex_count_;
@@ -40,6 +54,11 @@ class Surface {
   std::vector<std::array<Index, 2>> edge_triangles_;
   std::vector<Index> first_, triangles_at_;  // vertex_count + 1 offsets into triangles_at_
   bool closed_;
+  struct Cut {
+    std::once_flag once;
+    SurfacePatches patches;
+  };
+  std::shared_ptr<Cut> cut_ = std::make_shared<Cut>();
 };
 
 /// The surface of each body of a frame. Null if a body has none: then only its vertices take part.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -14,18 +15,9 @@
 namespace collide::surface {
 namespace {
 
-/// Adds `lo` to the minimum corner and `hi` to the maximum corner of every box.
-void grow(BoxList& list, const glm::vec3& lo, const glm::vec3& hi) {
-  for (int axis = 0; axis < 3; ++axis)
-    for (Index k = 0; k < list.size; ++k) {
-      list.lo[static_cast<std::size_t>(axis)][k] += lo[axis];
-      list.hi[static_cast<std::size_t>(axis)][k] += hi[axis];
-    }
-}
-
 // Of the mean edge:
-constexpr float self_margin = 0.1f;                          // see SelfNeighbours::cover()
-constexpr float max_self_deformation = 0.25f;                // of a body that may touch itself, within one prediction
+constexpr float max_self_deformation = 0.25f;  // of a body that may touch itself, within one prediction
+constexpr float rounding_share = 16 * std::numeric_limits<float>::epsilon();
 constexpr std::size_t max_box_pairs = std::size_t{1} << 26;  // of two bodies: 512 MiB for each thread
 
 [[maybe_unused]] bool has_all_vertices(const Motion& motion) {
@@ -89,7 +81,6 @@ void SurfaceSearch::find(const Motion& motion, std::span<const SurfaceBody> bodi
   query_ = query;
   time_ = 0, end_ = query.seconds;
   swept_.resize(bodies.size());
-  near_itself_.resize(bodies.size());
   predicted_anew_.assign(bodies.size(), true);
   may_touch_itself_.assign(bodies.size(), false);
   has_boxes_.assign(bodies.size(), false);
@@ -110,7 +101,7 @@ void SurfaceSearch::update(const Motion& motion, std::span<const SurfaceBody> bo
 
 void SurfaceSearch::search(const Motion& motion, float min_seconds, Workers& workers) {
   threads_.resize(static_cast<std::size_t>(workers.threads()));
-  for (Thread& t : threads_) t.features.clear(), t.found.clear(), t.work = 0;
+  for (Thread& t : threads_) t.features.clear(), t.work = 0;
   constexpr double vertex_ns = 20, task_ns = 500;  // of work
   const auto share = [&](double work, std::size_t count, const auto& task) {
     workers.share(workers.threads_for(work), count,
@@ -131,7 +122,9 @@ void SurfaceSearch::search(const Motion& motion, float min_seconds, Workers& wor
     SweptBody& body = swept_[b];
     body.predict(motion, b, bodies_[b], time_, end, min_seconds);
     may_touch_itself_[b] = query_.self && body.live() && body.moves() && !body.stays_star_shaped();
-    if (may_touch_itself_[b]) cover_itself(own, b, min_seconds);
+    if (!may_touch_itself_[b]) return;
+    body.limit_deformation(max_self_deformation * bodies_[b].mean_edge, min_seconds);
+    own.work += body.surface().feature_count();
   });
   find_tasks();
   std::swap(current_, previous_);
@@ -180,12 +173,6 @@ void SurfaceSearch::find_candidates(Thread& own, Task& task) {
   }
   task.in = &own.features;
   task.begin = own.features.size();
-  if (task.a != task.b)
-    find_between(own, task);
-  else if (task.kind == Task::Kind::edge_edge)
-    near_itself_[task.a].add_edges(max_box_pairs, own);
-  else
-    near_itself_[task.a].add_vertex_faces(max_box_pairs, own);
   switch (task.kind) {
     case Task::Kind::vertex_face:
       add_reachable<PairKind::vertex_face>(own, task.a, task.b);
@@ -197,7 +184,6 @@ void SurfaceSearch::find_candidates(Thread& own, Task& task) {
       add_reachable<PairKind::edge_edge>(own, task.a, task.b);
   }
   task.end = own.features.size();
-  own.found.clear();
 }
 
 void SurfaceSearch::reuse_previous(Task& task) const {
@@ -233,106 +219,107 @@ void SurfaceSearch::merge_tasks() {
   }
 }
 
-void SurfaceSearch::find_between(Thread& own, const Task& task) const {
-  const SweptBody &a = swept_[task.a], &b = swept_[task.b];
+/// Finds the pairs of features of two bodies that may meet before one of their predictions ends. In the frame of the
+/// later body, the boxes of the first one grow by the relative drift.
+void SurfaceSearch::find_between(Thread& own, Index first, const PatchBoxes& boxes, Index later,
+                                 const PatchBoxes& others) const {
+  const SweptBody &a = swept_[first], &b = swept_[later];
   const float end = std::min(a.end(), b.end());
-  const glm::vec3 first = a.drift(time_) - b.drift(time_), last = a.drift(end) - b.drift(end);
-  const glm::vec3 lo = glm::min(first, last), hi = glm::max(first, last);
-  // In the frame of b, the boxes of a grow by the relative drift. To select the boxes of a before they are grown, the
-  // box that they are compared with grows the opposite way.
-  const auto take_a = [&](const BoxList& boxes, const Aabb& near) {
-    own.search.pick(boxes, {near.lo - hi, near.hi - lo}, own.boxes_a);
-    grow(own.boxes_a, lo, hi);
-  };
-  const auto take_b = [&](const BoxList& boxes, const Aabb& near) { own.search.pick(boxes, near, own.boxes_b); };
-  take_a(a.face_boxes(), b.local_box());
-  if (own.boxes_a.size == 0) return;
-  const Aabb near_a = own.boxes_a.bounds();
-  take_b(b.face_boxes(), near_a);
-  if (own.boxes_b.size == 0) return;
-  const Aabb near_b = own.boxes_b.bounds();
-  switch (task.kind) {
-    case Task::Kind::vertex_face:
-      take_a(a.vertex_boxes(), near_b);
-      own.search.between(own.boxes_a, own.boxes_b, own.found, max_box_pairs);
-      break;
-    case Task::Kind::face_vertex:
-      take_b(b.vertex_boxes(), near_a);
-      own.search.between(own.boxes_b, own.boxes_a, own.found, max_box_pairs);
-      break;
-    case Task::Kind::edge_edge:
-      take_a(a.edge_boxes(), near_b);
-      take_b(b.edge_boxes(), near_a);
-      own.search.between(own.boxes_a, own.boxes_b, own.found, max_box_pairs);
-  }
-  own.work += own.found.size();
+  const glm::vec3 now = a.drift(time_) - b.drift(time_), then = a.drift(end) - b.drift(end);
+  own.search.find(boxes, glm::min(now, then), glm::max(now, then), others, max_box_pairs);
+  own.work += own.search.size();
 }
 
-/// Asks for the pairs of features of a body that may meet before its prediction ends, which is no longer than they
-/// serve.
-void SurfaceSearch::cover_itself(Thread& own, Index b, float min_seconds) {
-  SweptBody& body = swept_[b];
-  body.limit_deformation(max_self_deformation * bodies_[b].mean_edge, min_seconds);
-  own.ways.clear();
+/// Finds the pairs of features of a body that may meet before its prediction ends.
+void SurfaceSearch::find_within(Thread& own, Index index, const FeaturePatches& ones,
+                                const FeaturePatches& twos) const {
+  const SweptBody& body = swept_[index];
+  assert(body.begin() == time_);
+  const glm::vec3 far = glm::max(glm::abs(body.local_box().lo), glm::abs(body.local_box().hi));
+  const float half = 0.5f * reach(index, index) + rounding_share * (far.x + far.y + far.z);
+  own.rooms.clear();
   for (const MovingPoint& p : body.deforming_points())
-    own.ways.push_back((body.end() - time_) * glm::length(p.velocity));
-  near_itself_[b].cover(body.surface(), body.run(), reach(b, b, 0), own.ways, self_margin * bodies_[b].mean_edge, own);
-  // As if all were searched anew: the work must not depend on how long pairs were kept.
-  own.work += body.surface().feature_count();
+    own.rooms.push_back(half + (body.end() - time_) * glm::length(p.velocity));
+  own.ones.fill(ones, body.start(), body.start(), own.rooms);
+  if (&ones != &twos) own.twos.fill(twos, body.start(), body.start(), own.rooms);
+  own.search.find(own.ones, glm::vec3(0.0f), glm::vec3(0.0f), &ones == &twos ? own.ones : own.twos, max_box_pairs);
 }
 
-/// Returns the distance (m) from which features that move at `speed` relative to each other can come within 1.1 times
-/// their contact distance before the prediction ends.
-float SurfaceSearch::reach(Index body_a, Index body_b, float speed) const {
+/// Returns the distance (m) within which features may be within 1.1 times their contact distance, as predicted.
+float SurfaceSearch::reach(Index body_a, Index body_b) const {
   const SurfaceBody &a = bodies_[body_a], &b = bodies_[body_b];
-  const float near = 1.1f * (a.skin - a.slack + b.skin - b.slack) + a.slack + b.slack;
-  return near + (std::min(swept_[body_a].end(), swept_[body_b].end()) - time_) * speed;
+  return 1.1f * (a.skin - a.slack + b.skin - b.slack) + a.slack + b.slack;
 }
 
-/// Adds the pairs found that can come within reach of each other before the prediction ends, in order. Their distance
-/// and relative speed bound the earliest time of that, as in conservative advancement.
+/// Adds the pairs of a feature of each body, or of one body, that can come within reach of each other before the
+/// prediction ends, in order. Their distance and relative speed bound the earliest time of that, as in conservative
+/// advancement. Without branches that nobody can predict.
 template <PairKind kind>
 void SurfaceSearch::add_reachable(Thread& own, Index a, Index b) const {
-  assert(a != b || swept_[a].begin() == time_);
-  const Surface &one = swept_[a].surface(), &two = swept_[b].surface();
+  const SweptBody &one = swept_[a], &two = swept_[b];
   constexpr bool edges = kind == PairKind::edge_edge;
-  constexpr std::size_t ones = corners_of_first(kind);
-  const auto end_a = static_cast<Index>(edges ? one.edges().size() : one.vertex_count());
-  const auto end_b = static_cast<Index>(edges ? two.edges().size() : two.triangles().size());
+  constexpr std::size_t corners_of_one = corners_of_first(kind), corners_of_two = 4 - corners_of_one;
+  const SurfacePatches &patches = one.surface().patches(one.run()), &others = two.surface().patches(two.run());
+  const FeaturePatches &ones = edges ? patches.edges : patches.vertices, &twos = edges ? others.edges : others.faces;
+  const PatchBoxes &boxes_a = edges ? one.edge_boxes() : one.vertex_boxes(),
+                   &boxes_b = edges ? two.edge_boxes() : two.face_boxes();
+  if (a == b)
+    find_within(own, a, ones, twos);
+  else if (a < b)
+    find_between(own, a, boxes_a, b, boxes_b);
+  else
+    find_between(own, b, boxes_b, a, boxes_a);
+
   const auto& points = a == b ? &SweptBody::deforming_points : &SweptBody::points;
-  const std::vector<MovingPoint>&p = (swept_[a].*points)(), &q = (swept_[b].*points)();
-  const auto corners = [&](const ItemPair& f) {
-    const std::array<Index, 4> c = corners_of<kind>(one, f.a, two, f.b);
-    return std::array{&p[c[0]], &(edges ? p : q)[c[1]], &q[c[2]], &q[c[3]]};
-  };
-  const float near = reach(a, b, 0), max_distance = reach(a, b, max_relative_speed(a, b)),
-              max_distance2 = max_distance * max_distance;
-  own.sort.sort(own.found, end_a, end_b);
-  for (std::size_t i = 0; i < own.found.size();) {
-    own.batch.clear();
-    for (; i < own.found.size() && !own.batch.full(); ++i) {
-      const std::array<const MovingPoint*, 4> c = corners(own.found[i]);
-      own.batch.add({c[0]->at, c[1]->at, c[2]->at, c[3]->at}, static_cast<Index>(i));
-    }
+  const std::vector<MovingPoint>&p = (one.*points)(), &q = (two.*points)();
+  const float near = reach(a, b), seconds = std::min(one.end(), two.end()) - time_,
+              max_distance = near + seconds * max_relative_speed(a, b), max_distance2 = max_distance * max_distance;
+  const std::size_t begin = own.features.size();
+  std::array<ItemPair, FeatureBatch::capacity> places;  // of the batch
+  const auto add_batch = [&] {
     own.batch.find_closest<kind>();
+    std::array<Index, FeatureBatch::capacity> near_ones;
+    std::size_t count = 0, size = own.features.size();
     for (Index k = 0; k < own.batch.size(); ++k) {
-      const float distance2 = own.batch.distance2(k);
-      if (distance2 > max_distance2) continue;
-      const ItemPair& f = own.found[own.batch.tag(k)];
-      const std::array<const MovingPoint*, 4> c = corners(f);
+      near_ones[count] = k;
+      count += own.batch.distance2(k) <= max_distance2;
+    }
+    own.features.resize(size + count);
+    for (const Index k : std::span(near_ones).first(count)) {
+      const auto& [i, j] = places[k];
       float speed2 = 0;
-      for (std::size_t u = 0; u < ones; ++u)
-        for (std::size_t v = ones; v < 4; ++v) {
-          const glm::vec3 relative = c[u]->velocity - c[v]->velocity;
+      for (std::size_t u = 0; u < corners_of_one; ++u)
+        for (std::size_t v = 0; v < corners_of_two; ++v) {
+          const glm::vec3 relative = p[ones.corners[i][u]].velocity - q[twos.corners[j][v]].velocity;
           speed2 = std::max(speed2, glm::dot(relative, relative));
         }
-      const float speed = std::sqrt(speed2), cutoff = reach(a, b, speed);
-      if (distance2 > cutoff * cutoff) continue;
-      const float travel = std::sqrt(distance2) - near;
-      own.features.push_back({f.a, f.b, time_ + (travel > 0 ? travel / speed : 0.0f)});
+      const float distance2 = own.batch.distance2(k), travel = std::sqrt(distance2) - near;
+      const float speed = std::sqrt(speed2), cutoff = near + seconds * speed;
+      own.features[size] = {ones.feature[i], twos.feature[j], time_ + (travel > 0 ? travel / speed : 0.0f)};
+      size += distance2 <= cutoff * cutoff;
     }
-    check_feature_limit(own.features.size());
-  }
+    own.features.resize(size);
+    check_feature_limit(size);
+    own.batch.clear();
+  };
+  own.batch.clear();
+  own.search.for_each([&](Index first, Index second) {
+    const bool turn = a == b ? edges && twos.feature[second] < ones.feature[first] : b < a;
+    const Index turned = (first ^ second) & (Index{0} - Index{turn}), i = first ^ turned, j = second ^ turned;
+    const std::array<Index, 3>&c = ones.corners[i], &d = twos.corners[j];
+    bool apart = true;
+    std::array<glm::vec3, 4> at;
+    for (std::size_t u = 0; u < corners_of_one; ++u) {
+      at[u] = p[c[u]].at;
+      for (std::size_t v = 0; v < corners_of_two; ++v) apart &= c[u] != d[v];
+    }
+    for (std::size_t v = 0; v < corners_of_two; ++v) at[corners_of_one + v] = q[d[v]].at;
+    places[own.batch.size()] = {i, j};
+    own.batch.add(at, 0, apart | (a != b));
+    if (own.batch.full()) add_batch();
+  });
+  add_batch();
+  own.sort.sort(std::span(own.features).subspan(begin), ones.size(), twos.size());
 }
 
 }  // namespace collide::surface

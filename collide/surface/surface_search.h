@@ -4,10 +4,9 @@
 // the sum of the contact offsets of their bodies, see SurfaceBody.
 //
 // The stages are those of the exact detector: a box for each body, a broad phase that finds the bodies whose boxes
-// overlap, and midpoint cuts of the area where two boxes overlap (§2.1, §5). But here the boxes enclose features and
-// are swept over their motion (continuous collision detection), so that no fast feature passes through another
-// unnoticed. If a body leaves its predicted path, only this body is predicted again, and only its pairs are searched
-// again. All other pairs keep their candidates.
+// overlap, and patches of 16 features. But here the boxes enclose features and are swept over their motion (continuous
+// collision detection), so that no fast feature passes through another unnoticed. If a body leaves its predicted path,
+// only this body is predicted again, and only its pairs are searched again. All other pairs keep their candidates.
 //
 // Proof that no candidate is missing, as long as every vertex stays within its body's slack of its predicted path
 // x + v t (see check_valid()). Time t runs from 0 to T.
@@ -23,16 +22,17 @@
 //   (x_i + v_i t) - (x_j + v_j t) = A (r_i - r_j) + t (s_i - s_j),
 // and the length of this is at least |A (r_i - r_j)| - t |s_i - s_j|. Since w x r is normal to r, |A r| >= |r| for all
 // r: rotation brings no two points closer. All this holds for points of features, which are means of their corners. So
-// features come closer by at most t times the largest |s_i - s_j| of their corners, and by the slack of each; the
-// search tests the pairs that are near each other in the shape of the body: see self_neighbours.h.
+// features come closer by at most t times the largest |s_i - s_j| of their corners, and by the slack of each. The
+// search grows the box of each feature by half of the contact distance, its slack, the way |s_i| T of its fastest
+// corner, and what rounding may take.
 
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "collide/core/workers.h"
+#include "collide/surface/feature_batch.h"
 #include "collide/surface/pair_sort.h"
-#include "collide/surface/self_neighbours.h"
 #include "collide/surface/swept_body.h"
 
 namespace collide::surface {
@@ -114,10 +114,12 @@ class SurfaceSearch {
     std::vector<SurfacePair> pairs;
     std::vector<FeaturePair> features;
   };
-  struct alignas(64) Thread : SelfNeighbours::Scratch {
-    BoxList boxes_a, boxes_b;
-    std::vector<float> ways;  // see SelfNeighbours::cover()
-    PairSort sort;
+  struct alignas(64) Thread {
+    PatchBoxes ones, twos;     // of the features of a body
+    std::vector<float> rooms;  // m, of its vertices
+    OverlapSearch search;
+    FeatureBatch batch;
+    PairSort<FeaturePair> sort;
     std::vector<FeaturePair> features;
     std::size_t work = 0;
   };
@@ -132,14 +134,14 @@ class SurfaceSearch {
     auto key() const { return std::tuple(a, b, kind); }
   };
   void search(const Motion& motion, float min_seconds, Workers& workers);
-  void cover_itself(Thread& own, Index body, float min_seconds);
   void check_feature_limit(std::size_t features) const;
   void find_tasks();
   void find_candidates(Thread& own, Task& task);
-  void find_between(Thread& own, const Task& task) const;
+  void find_between(Thread& own, Index first, const PatchBoxes& boxes, Index later, const PatchBoxes& others) const;
+  void find_within(Thread& own, Index body, const FeaturePatches& ones, const FeaturePatches& twos) const;
   void reuse_previous(Task& task) const;
   void merge_tasks();
-  float reach(Index a, Index b, float speed) const;
+  float reach(Index a, Index b) const;
   template <PairKind kind>
   void add_reachable(Thread& own, Index a, Index b) const;
 
@@ -147,7 +149,6 @@ class SurfaceSearch {
   SurfaceQuery query_;
   float time_ = 0, end_ = 0, predicted_until_ = 0;  // s after find()
   std::vector<SweptBody> swept_;
-  std::vector<SelfNeighbours> near_itself_;  // of each body, kept from find() to find()
   // One value for each body:
   std::vector<char> predicted_anew_;    // it was predicted again in this search
   std::vector<char> may_touch_itself_;  // as it is predicted

@@ -10,30 +10,6 @@
 
 namespace collide::surface {
 
-template <std::size_t corners>
-void join(const BoxList& vertices, const std::vector<std::array<Index, corners>>& features, BoxList& boxes) {
-  boxes.clear();
-  boxes.reserve(static_cast<Index>(features.size()));
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto &lo = vertices.lo[axis], &hi = vertices.hi[axis];
-    for (std::size_t i = 0; i < features.size(); ++i) {
-      float min = lo[features[i][0]], max = hi[features[i][0]];
-      for (std::size_t k = 1; k < corners; ++k) {
-        min = std::min(min, lo[features[i][k]]);
-        max = std::max(max, hi[features[i][k]]);
-      }
-      boxes.lo[axis][i] = min;
-      boxes.hi[axis][i] = max;
-    }
-  }
-  for (Index i = 0; i < features.size(); ++i) boxes.item[i] = i;
-  boxes.size = static_cast<Index>(features.size());
-  boxes.end();
-}
-
-template void join(const BoxList& vertices, const std::vector<Edge>& features, BoxList& boxes);
-template void join(const BoxList& vertices, const std::vector<Triangle>& features, BoxList& boxes);
-
 void SweptBody::predict(const Motion& now, Index body, const SurfaceBody& traits, float begin, float end,
                         float min_seconds) {
   traits_ = traits;
@@ -116,15 +92,18 @@ void SweptBody::bound_path() {
 void SweptBody::build_feature_boxes() {
   assert(live_);
   const float seconds = end_ - begin_;
-  vertex_boxes_.clear();
-  vertex_boxes_.reserve(count_);
-  for (Index v = 0; v < count_; ++v) {
-    const glm::vec3 x = at(v), y = x + seconds * (velocity(v) - mean_velocity_);
-    vertex_boxes_.add({glm::min(x, y) - traits_.skin, glm::max(x, y) + traits_.skin}, v);
-  }
-  vertex_boxes_.end();
-  join(vertex_boxes_, surface().triangles(), face_boxes_);
-  join(vertex_boxes_, surface().edges(), edge_boxes_);
+  BoxColumns path;
+  path.resize(count_);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (Index v = 0; v < count_; ++v) {
+      const float x = start_[axis][v], y = x + seconds * (velocity_[axis][v] - mean_velocity_[static_cast<int>(axis)]);
+      path.lo[axis][v] = std::min(x, y) - traits_.skin;
+      path.hi[axis][v] = std::max(x, y) + traits_.skin;
+    }
+  const SurfacePatches& patches = surface().patches(run());
+  vertex_boxes_.fill(patches.vertices, path.lo, path.hi);
+  face_boxes_.fill(patches.faces, path.lo, path.hi);
+  edge_boxes_.fill(patches.edges, path.lo, path.hi);
 }
 
 void SweptBody::place_points(float time) {

@@ -9,9 +9,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "collide/core/vertex_run.h"
-#include "collide/surface/box_pairs.h"
-#include "collide/surface/surface.h"
+#include "collide/core/aabb.h"
+#include "collide/surface/patch_boxes.h"
 
 namespace collide::surface {
 
@@ -64,9 +63,9 @@ class SweptBody {
   void build_feature_boxes();
   /// Computes where the vertices are at `time`.
   void place_points(float time);
-  const BoxList& vertex_boxes() const { return vertex_boxes_; }
-  const BoxList& face_boxes() const { return face_boxes_; }
-  const BoxList& edge_boxes() const { return edge_boxes_; }
+  const PatchBoxes& vertex_boxes() const { return vertex_boxes_; }
+  const PatchBoxes& face_boxes() const { return face_boxes_; }
+  const PatchBoxes& edge_boxes() const { return edge_boxes_; }
   /// Returns the vertices as the last place_points() placed them.
   const std::vector<MovingPoint>& points() const { return points_; }
   /// Returns how far (m) the mean velocity has carried the body from begin() to `time`.
@@ -74,6 +73,7 @@ class SweptBody {
   glm::vec3 mean_velocity() const { return mean_velocity_; }
   float velocity_spread() const { return velocity_spread_; }              // m/s: largest |v - mean velocity|
   float max_deformation_speed() const { return max_deformation_speed_; }  // m/s: largest of deforming_points()
+  const PatchBoxes::Columns& start() const { return start_; }             // m, where the vertices are at begin()
   VertexRun run() const { return {start_[0].data(), start_[1].data(), start_[2].data(), count_}; }
   glm::vec3 at(Index v) const { return {start_[0][v], start_[1][v], start_[2][v]}; }
   glm::vec3 velocity(Index v) const { return {velocity_[0][v], velocity_[1][v], velocity_[2][v]}; }
@@ -112,12 +112,8 @@ class SweptBody {
   float deviation_ = 0;                                    // m
   float holds_until_ = std::numeric_limits<float>::infinity();
   Aabb local_box_{}, world_box_{};
-  BoxList vertex_boxes_, face_boxes_, edge_boxes_;
+  PatchBoxes vertex_boxes_, face_boxes_, edge_boxes_;
   std::vector<MovingPoint> points_, deforming_points_;
 };
-
-/// Computes the boxes of faces or edges from the boxes of their vertices.
-template <std::size_t corners>
-void join(const BoxList& vertices, const std::vector<std::array<Index, corners>>& features, BoxList& boxes);
 
 }  // namespace collide::surface

@@ -10,8 +10,6 @@ namespace collide::trees {
 
 class BodyTrees {
  public:
-  static constexpr Index patch_size = 16;  // vertices, at most
-
   /// Takes the positions of a frame. Makes the trees of the bodies `which`, unless they are those of the last frame,
   /// and refits all boxes. A mesh is cut by the positions of its first body in the frame that it first appears in, and
   /// cut anew once the patches of a body have spread to twice their share of it. Returns true if the slots and nodes

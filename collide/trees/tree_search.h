@@ -9,6 +9,8 @@
 
 namespace collide::trees {
 
+inline constexpr Index patch_size = 16;  // items, at most
+
 /// A vertex on its way into the leaves of a tree.
 struct Item {
   std::array<float, 3> at;  // m
