@@ -243,11 +243,8 @@ void SolidContact::add_particle_rows(BodyId body, float travel, std::vector<Cont
 void SolidContact::book(BodyId body, std::span<const ContactRow> rows) {
   const Batch& b = state_.batch_of(body);
   const auto lane = std::size_t(state_.body(body).lane);
-  OfBatch& own = of_batch_[b.index];
-  for (const ContactRow& row : rows) {
-    if (row.normal_impulse <= 0) continue;
-    own.book(row, lane);
-  }
+  for (const ContactRow& row : rows)
+    if (row.normal_impulse > 0) of_batch_[b.index].book(row, lane);
 }
 
 }  // namespace softbody

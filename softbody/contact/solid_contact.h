@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "collide/surface/feature_batch.h"
 #include "softbody/contact/contact_row.h"
 #include "softbody/contact/kernels.h"
 #include "softbody/contact/solid_surface.h"
@@ -20,16 +21,21 @@ struct SolidPush {
   double returned = 0;      // J, that restitution gives back when the body leaves them
 };
 
-/// A face or edge of a body that may meet a core of a solid in the coming frame.
+/// A core of a solid, with the faces or edges of one body that may meet it in the coming frame.
+struct NearCore {
+  int lane;                 // of the body in its batch
+  std::size_t solid;        // among those near the batch
+  glm::vec3 from, to, out;  // of the core, from the body's origin
+  float distance;           // m, from it to where the body is kept
+  float speed;              // m/s, with which the body may come
+  std::size_t begin, end;   // the features' places
+
+  std::size_t corners() const { return from == to ? 3 : 2; }  // of its features
+};
+
 struct SolidFeature {
-  int lane;                               // of the body in its batch
-  std::size_t solid;                      // among those near the batch
-  std::array<std::uint32_t, 3> vertices;  // an edge's last one is no_vertex
-  glm::vec3 from, to, out;                // the core, from the body's origin
-  float distance;                         // m, from it to where the body is kept
-  float speed;                            // m/s, with which the body may come
-  float free_travel = 0;                  // m, that it may go at least before the two can meet
-  static constexpr std::uint32_t no_vertex = ~std::uint32_t{0};
+  std::array<std::uint32_t, 3> vertices{};
+  float free_until = 0;  // m, that its body goes in this frame at least before the two can meet
 };
 
 class SolidContact {
@@ -63,9 +69,10 @@ class SolidContact {
   bool meets_features(const Batch& batch) const {
     return batch.index < of_batch_.size() && !of_batch_[batch.index].features.empty();
   }
-  /// Finds which of these faces and edges are near a solid in a substep of h (s) from here on. Returns a row for each,
-  /// with slots that count from the batch's first one; valid until the next call or apply() for this batch.
-  std::span<ContactRow> find_feature_rows(const Batch& batch, float h);
+  /// Finds which of these faces and edges may meet a solid in a substep of h (s) from here on. speeds: m/s, that no
+  /// particle of a lane exceeds; empty: what was foreseen. Returns a row for each, with slots that count from the
+  /// batch's first one; valid until the next call or apply() for this batch.
+  std::span<ContactRow> find_feature_rows(const Batch& batch, float h, std::span<const double> speeds = {});
   /// Adds a row for each particle of a body that a solid may stop in this substep if it comes `travel` (m) nearer.
   void add_particle_rows(BodyId body, float travel, std::vector<ContactRow>& rows) const;
   /// Books the impulses of these rows as those of the solids. Threads may call it at once for different bodies.
@@ -99,13 +106,15 @@ class SolidContact {
  private:
   struct OfBatch {
     std::vector<SolidArguments> near;
-    std::vector<SolidFeature> features;   // of the bodies, that may meet the solids between vertices
-    std::vector<ContactRow> rows;         // of these, in the substep at hand
-    LaneVector impulse{};                 // N s, along the normals
-    std::array<float, lanes> returned{};  // J, that restitution gives back
-    std::array<float, lanes> energy{};    // J, given by pushing out
-    std::array<bool, lanes> booked{};     // no bits: threads write to several at once
-    unsigned pushed = 0, eased = 0;       // bits: lanes
+    std::vector<NearCore> cores;
+    std::vector<SolidFeature> features;    // of the bodies, that may meet the solids between vertices
+    std::vector<ContactRow> rows;          // of these, in the substep at hand; each is of a core
+    std::array<float, lanes> travelled{};  // m, that a body has gone at most in this frame, up to the substep's end
+    LaneVector impulse{};                  // N s, along the normals
+    std::array<float, lanes> returned{};   // J, that restitution gives back
+    std::array<float, lanes> energy{};     // J, given by pushing out
+    std::array<bool, lanes> booked{};      // no bits: threads write to several at once
+    unsigned pushed = 0, eased = 0;        // bits: lanes
 
     void book(const ContactRow& row, std::size_t lane) {
       softbody::add(field(impulse), lane, row.normal_impulse * row.normal);
@@ -122,7 +131,7 @@ class SolidContact {
   void find_features(const Batch& batch, const Extent& extent, int lane, const SolidInterior& interior, double travel,
                      double seconds);
   void apply_to_features(const Batch& batch, float h);
-  void add_row(const Batch& batch, SolidFeature& feature, float h);
+  void add_rows(const Batch& batch, const NearCore& core, collide::surface::FeatureBatch& meeting, float h, float way);
 
   State& state_;
   bool has_features_ = false, has_restitution_ = false;

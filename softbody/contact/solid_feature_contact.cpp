@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "collide/surface/closest_features.h"
 #include "softbody/contact/solid_contact.h"
 #include "softbody/contact/solid_law.h"
 #include "softbody/contact/solid_shapes.h"
@@ -34,22 +33,26 @@ struct ClosestPoints {
   bool inner;                     // on the border of neither
 };
 
-ClosestPoints closest_points(const SolidFeature& f, std::span<const glm::vec3> x) {
+/// Returns those of pair i of `meeting`.
+ClosestPoints closest_points(const NearCore& core, const collide::surface::FeatureBatch& meeting, Index i) {
   ClosestPoints m;
-  const bool face = x.size() == 3;
-  const collide::surface::Closest c = face ? collide::surface::closest_vertex_face(f.from, x[0], x[1], x[2])
-                                           : collide::surface::closest_edges(x[0], x[1], f.from, f.to);
-  std::copy_n(face ? c.weight + 1 : c.weight, x.size(), m.weight.begin());
-  for (std::size_t k = 0; k < x.size(); ++k) m.point += m.weight[k] * x[k];
+  const bool face = core.corners() == 3;
+  const collide::surface::Closest c = face ? meeting.closest_vertex_face(i) : meeting.closest_edges(i);
+  std::array<glm::vec3, 3> x{};
+  for (std::size_t k = 0; k < core.corners(); ++k) {
+    x[k] = meeting.corner(face ? k + 1 : k, i);
+    m.weight[k] = c.weight[face ? k + 1 : k];
+    m.point += m.weight[k] * x[k];
+  }
   m.apart = face ? -c.separation : c.separation;
-  m.across = face ? normal_of(x[0], x[1], x[2]) : glm::cross(x[1] - x[0], f.to - f.from);
+  m.across = face ? normal_of(x[0], x[1], x[2]) : glm::cross(x[1] - x[0], core.to - core.from);
   m.inner = c.inner;
   return m;
 }
 
 /// Returns the unit normal of both, if it points away from all of a box's sides that meet in the core: else other
 /// features tell which side the body is on.
-std::optional<glm::vec3> outward_normal(const SolidFeature& f, const ClosestPoints& m, const BoxShape<float>& box) {
+std::optional<glm::vec3> outward_normal(const NearCore& f, const ClosestPoints& m, const BoxShape<float>& box) {
   const float length = glm::length(m.across);
   if (!m.inner || !(length > 0)) return std::nullopt;
   const glm::vec3 n = (glm::dot(m.across, f.out) < 0 ? -1 / length : 1 / length) * m.across;
@@ -62,7 +65,7 @@ std::optional<glm::vec3> outward_normal(const SolidFeature& f, const ClosestPoin
 /// on its surface: a point inside the box has crossed along the normal of both, and leaves on the near side. All others
 /// are outside, as far away as the core is, also those beyond the far side of a thin box. Returns nothing where it
 /// cannot be told.
-std::optional<SurfaceAt<float>> gap_of(const SolidFeature& f, const ClosestPoints& m, const SolidShape<float>& shape,
+std::optional<SurfaceAt<float>> gap_of(const NearCore& f, const ClosestPoints& m, const SolidShape<float>& shape,
                                        const glm::vec3& place) {
   const glm::vec3 at = m.point - place;
   const simd::Vec<float> d{at.x, at.y, at.z};
@@ -97,14 +100,15 @@ void SolidContact::find_features(const Batch& b, const Extent& e, int lane, cons
   const std::array box{e.lo[std::size_t(lane)], e.hi[std::size_t(lane)]};
   const double distance = interior.core_radius + b.model->material[Material::thickness];
   for (const SolidCore& core : interior.cores) {
-    SolidFeature found{.lane = lane,
-                       .solid = own.near.size() - 1,
-                       .vertices = {},
-                       .from = glm::vec3(core.from - origin),
-                       .to = glm::vec3(core.to - origin),
-                       .out = glm::vec3(core.out),
-                       .distance = float(distance),
-                       .speed = float(travel / seconds)};
+    NearCore found{.lane = lane,
+                   .solid = own.near.size() - 1,
+                   .from = glm::vec3(core.from - origin),
+                   .to = glm::vec3(core.to - origin),
+                   .out = glm::vec3(core.out),
+                   .distance = float(distance),
+                   .speed = float(travel / seconds),
+                   .begin = own.features.size(),
+                   .end = 0};
     if (!may_meet(box, found.from, found.to, float(distance + travel))) continue;
     const auto add = [&](const auto& features) {
       for (const auto& feature : features) {
@@ -112,22 +116,40 @@ void SolidContact::find_features(const Batch& b, const Extent& e, int lane, cons
         std::transform(feature.begin(), feature.end(), corners.begin(), position);
         if (!may_meet(std::span(corners).first(feature.size()), found.from, found.to, float(distance + travel)))
           continue;
-        found.vertices.fill(SolidFeature::no_vertex);
-        std::copy(feature.begin(), feature.end(), found.vertices.begin());
-        own.features.push_back(found);
+        std::copy(feature.begin(), feature.end(), own.features.emplace_back().vertices.begin());
       }
     };
     core.point() ? add(surface.triangles()) : add(surface.edges());
+    found.end = own.features.size();
+    own.cores.push_back(found);
   }
 }
 
-std::span<ContactRow> SolidContact::find_feature_rows(const Batch& b, float h) {
+std::span<ContactRow> SolidContact::find_feature_rows(const Batch& b, float h, std::span<const double> speeds) {
   if (!meets_features(b)) return {};
   OfBatch& own = of_batch_[b.index];
   own.rows.clear();
-  for (SolidFeature& f : own.features) {
-    f.free_travel -= f.speed * h;
-    if (f.free_travel <= 0) add_row(b, f, h);
+  std::array<float, lanes> way{};
+  for (const NearCore& core : own.cores) {
+    const auto lane = std::size_t(core.lane);
+    way[lane] = 2 * h * (speeds.empty() ? core.speed : float(speeds[lane]));  // contacts may push one particle further
+  }
+  for (std::size_t l = 0; l < lanes; ++l) own.travelled[l] += way[l];
+  const Field<const float> x = field(std::as_const(state_.x), b.base);
+  collide::surface::FeatureBatch meeting;
+  for (const NearCore& core : own.cores) {
+    const auto lane = std::size_t(core.lane);
+    const auto at = [&](std::uint32_t v) { return read(x, v * std::size_t(b.width) + lane); };
+    for (std::size_t i = core.begin; i < core.end; ++i) {
+      const auto& [p, q, r] = own.features[i].vertices;
+      if (own.features[i].free_until > own.travelled[lane]) continue;
+      if (core.corners() == 3)
+        meeting.add({core.from, at(p), at(q), at(r)}, Index(i));
+      else
+        meeting.add({at(p), at(q), core.from, core.to}, Index(i));
+      if (meeting.full()) add_rows(b, core, meeting, h, way[lane]);
+    }
+    add_rows(b, core, meeting, h, way[lane]);
   }
   return own.rows;
 }
@@ -137,7 +159,10 @@ std::span<ContactRow> SolidContact::find_feature_rows(const Batch& b, float h) {
 void SolidContact::apply_to_features(const Batch& b, float h) {
   constexpr int passes = 3;
   OfBatch& own = of_batch_[b.index];
-  const std::span<ContactRow> rows = find_feature_rows(b, h);
+  if (!meets_features(b)) return;
+  std::array<double, lanes> speeds = state_.max_particle_speeds(b);
+  for (double& speed : speeds) speed += law::max_separation_speed;
+  const std::span<ContactRow> rows = find_feature_rows(b, h, speeds);
   const Field<float> v = field(state_.v, b.base);
   const auto acted = [](const ContactRow& row) { return row.normal_impulse > 0; };
   for (int pass = 0; pass < passes; ++pass) {
@@ -148,49 +173,51 @@ void SolidContact::apply_to_features(const Batch& b, float h) {
   }
   for (const ContactRow& row : rows) {
     if (!acted(row)) continue;
-    const auto lane = std::size_t(own.features[row.feature].lane);
+    const auto lane = std::size_t(own.cores[row.feature].lane);
     own.book(row, lane);
     own.energy[lane] += work_of_holders(row, v);
   }
 }
 
-/// Adds the row of a feature: by the law of the particles' contacts, for the closest point, whose corners share an
-/// impulse by their weights.
-void SolidContact::add_row(const Batch& b, SolidFeature& f, float h) {
+/// Adds the rows of features: by the law of the particles' contacts, for the closest points, whose corners share an
+/// impulse by their weights. Empties `meeting`. way: m, that the body goes in the substep at most.
+void SolidContact::add_rows(const Batch& b, const NearCore& core, collide::surface::FeatureBatch& meeting, float h,
+                            float way) {
   OfBatch& own = of_batch_[b.index];
   constexpr float on_vertex = 0.999f;  // a weight from which on the vertex itself keeps off
-  const std::size_t corners = f.vertices[2] == SolidFeature::no_vertex ? 2 : 3, lane = std::size_t(f.lane);
-  ContactRow row{};
-  std::array<glm::vec3, 3> x{};
-  for (std::size_t k = 0; k < corners; ++k) {
-    row.slot[k] = std::uint32_t(f.vertices[k] * std::size_t(b.width) + lane);
-    x[k] = read(field(std::as_const(state_.x), b.base), row.slot[k]);
-  }
-  const ClosestPoints m = closest_points(f, std::span(x).first(corners));
-  f.free_travel = 0.5f * (glm::length(m.apart) - f.distance);  // half: single particles may be faster than was foreseen
-  if (f.free_travel > f.speed * h || *std::max_element(m.weight.begin(), m.weight.end()) > on_vertex) return;
-  const SolidArguments& s = own.near[f.solid];
-  const auto surface = gap_of(f, m, s.shape, s.place[lane]);
-  if (!surface) return;
-
+  const auto lane = std::size_t(core.lane);
+  const SolidArguments& s = own.near[core.solid];
   const std::span<const char> held = state_.held.of(b.body[lane]);
-  float mobility = 0;
-  for (std::size_t k = 0; k < corners; ++k) {
-    row.weight[k] = m.weight[k];
-    row.mobility[k] = !held.empty() && held[f.vertices[k]] ? held_mobility : m.weight[k] / s.mass;
-    mobility += row.weight[k] * row.mobility[k];
+  core.corners() == 3 ? meeting.find_closest_vertex_faces() : meeting.find_closest_edges();
+  for (Index i = 0; i < meeting.size(); ++i) {
+    SolidFeature& f = own.features[meeting.tag(i)];
+    const ClosestPoints m = closest_points(core, meeting, i);
+    f.free_until = own.travelled[lane] - way + (glm::length(m.apart) - core.distance);
+    if (f.free_until > own.travelled[lane] || *std::ranges::max_element(m.weight) > on_vertex) continue;
+    const auto surface = gap_of(core, m, s.shape, s.place[lane]);
+    if (!surface) continue;
+
+    ContactRow row{};
+    float mobility = 0;
+    for (std::size_t k = 0; k < core.corners(); ++k) {
+      row.slot[k] = std::uint32_t(f.vertices[k] * std::size_t(b.width) + lane);
+      row.weight[k] = m.weight[k];
+      row.mobility[k] = !held.empty() && held[f.vertices[k]] ? held_mobility : m.weight[k] / s.mass;
+      mobility += row.weight[k] * row.mobility[k];
+    }
+    if (mobility <= least_mobility) continue;
+    row.mass = 1 / mobility;
+    row.normal = {surface->normal.x, surface->normal.y, surface->normal.z};
+    row.friction = s.friction;
+    row.target = law::min_speed(surface->distance, 1 / h);
+    row.push = std::max(0.0f, row.target);
+    row.before =
+        s.restitution > 0 ? glm::dot(relative_velocity(row, field(std::as_const(before_), b.base)), row.normal) : 0;
+    row.restitution = s.restitution;
+    row.feature = std::uint32_t(&core - own.cores.data());
+    own.rows.push_back(row);
   }
-  if (mobility <= least_mobility) return;
-  row.mass = 1 / mobility;
-  row.normal = {surface->normal.x, surface->normal.y, surface->normal.z};
-  row.friction = s.friction;
-  row.target = law::min_speed(surface->distance, 1 / h);
-  row.push = std::max(0.0f, row.target);
-  row.before =
-      s.restitution > 0 ? glm::dot(relative_velocity(row, field(std::as_const(before_), b.base)), row.normal) : 0;
-  row.restitution = s.restitution;
-  row.feature = std::uint32_t(&f - own.features.data());
-  own.rows.push_back(row);
+  meeting.clear();
 }
 
 }  // namespace softbody
