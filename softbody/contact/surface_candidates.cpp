@@ -171,6 +171,12 @@ void SurfaceCandidates::carry_over() {
   auto old = pairs_before_.begin();
   const std::vector<FeaturePair>& old_features = search_.previous_features();
   const auto hand_on = [&](std::uint32_t from, std::uint32_t from_end, std::uint32_t to, std::uint32_t to_end) {
+    if (std::equal(old_features.begin() + from, old_features.begin() + from_end, search_.features().begin() + to,
+                   search_.features().begin() + to_end,
+                   [](const auto& a, const auto& b) { return a.key() == b.key(); })) {
+      std::copy(cached_before_.begin() + from, cached_before_.begin() + from_end, cached_.begin() + to);
+      return;
+    }
     for (; to < to_end; ++to) {
       while (from < from_end && old_features[from].key() < search_.features()[to].key()) ++from;
       if (from == from_end) return;

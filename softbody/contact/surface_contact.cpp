@@ -18,11 +18,14 @@ void SurfaceContact::make_rows(int thread, int threads, Field<const float> x, Fi
   OfThread& own = of_thread_[std::size_t(thread)];
   own.rows.clear();
   SurfaceRowMaker maker(candidates_, {x, before, h, elapsed + h, last_h_ > 0 ? h / last_h_ : 0}, own.scratch, own.rows);
-  const collide::Part part = collide::part_of(candidates_.pairs().size(), thread, threads);
-  for (std::size_t i = part.begin; i < part.end; ++i) {
-    candidates_.pairs()[i].thread = thread;
-    candidates_.pairs()[i].closes = candidates_.pairs()[i].joins = false;
-    maker.add_rows(candidates_.pairs()[i]);
+  // As many candidates each: few pairs may have most of them.
+  const collide::Part part = collide::part_of(candidates_.search().features().size() + 1, thread, threads);
+  for (Pair& p : candidates_.pairs()) {
+    const std::size_t middle = (std::size_t(p.range.vertex_face) + p.range.end) / 2;
+    if (middle < part.begin || middle >= part.end) continue;
+    p.thread = thread;
+    p.closes = p.joins = false;
+    maker.add_rows(p);
   }
 }
 
@@ -81,11 +84,11 @@ void SurfaceContact::restore(const State& state) {
 void solve_row(ContactRow& row, Field<float> v) {
   glm::vec3 velocity = relative_velocity(row, v);
   const float speed = glm::dot(velocity, row.normal);
+  row.energy = row.returned = 0;
+  if (row.normal_impulse == 0 && speed >= row.target && (speed >= row.bias || row.relative_stiffness == 0)) return;
   const float held =
       row.relative_stiffness / (1 + row.relative_stiffness) * (row.normal_impulse + row.mass * (row.bias - speed));
   const float normal_impulse = std::max({0.0f, held, row.normal_impulse + row.mass * (row.target - speed)});
-  row.energy = row.returned = 0;
-  if (normal_impulse == 0 && row.normal_impulse == 0) return;
   const float push = normal_impulse - row.normal_impulse;
   row.normal_impulse = normal_impulse;
   velocity += (push / row.mass) * row.normal;
