@@ -92,11 +92,7 @@ void ContactPass::keep_overlapping_awake() {
 }
 
 void ContactPass::apply(const BatchShare& share, float h, float since_start) {
-  constexpr int max_passes = 4;
-  const auto solids = [&] {
-    for (const Batch* batch : share.batches) solids_.apply(*batch, h);
-  };
-  if (!meets_others(share)) return solids();
+  if (!meets_others(share)) return apply_solids(share, h);
   const Field<const float> x = field(std::as_const(state_.x));
   const auto barrier = [&] { share.barrier(); };
   barrier();  // the velocities of all bodies are there
@@ -104,7 +100,17 @@ void ContactPass::apply(const BatchShare& share, float h, float since_start) {
                       since_found_[std::size_t(share.thread)] + since_start, h);
   barrier();
   surfaces_.solve(share.thread, shares_.active(), x, field(state_.v), h, barrier);
-  solids();
+  apply_after_surfaces(share, h);
+}
+
+void ContactPass::apply_solids(const BatchShare& share, float h) {
+  for (const Batch* batch : share.batches) solids_.apply(*batch, h);
+}
+
+void ContactPass::apply_after_surfaces(const BatchShare& share, float h) {
+  constexpr int max_passes = 4;
+  const auto barrier = [&] { share.barrier(); };
+  apply_solids(share, h);
   for (int pass = 0; pass < max_passes; ++pass) {
     barrier();
     if (!surfaces_.find_islands(share.thread, shares_.active(), field(std::as_const(state_.v)), barrier)) break;
@@ -112,7 +118,7 @@ void ContactPass::apply(const BatchShare& share, float h, float since_start) {
     for (auto i = std::size_t(share.thread); i < islands.size(); i += std::size_t(shares_.active()))
       if (islands[i].closes) solve_island(share.thread, islands[i], h);
     barrier();
-    solids();
+    apply_solids(share, h);
   }
   if (state_.held.moves()) barrier();  // their velocities are read
   surfaces_.add_row_work(share.thread, shares_.active(), field(std::as_const(state_.v)));

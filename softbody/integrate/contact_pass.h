@@ -50,6 +50,8 @@ class ContactPass {
   /// into solids. The velocities of all batches must be there. Needs a barrier after it.
   /// since_start: s, of the substep that has brought the positions here.
   void apply(const BatchShare& share, float h, float since_start = 0);
+  /// Does the part of apply() that follows the solve of surfaces.
+  void apply_after_surfaces(const BatchShare& share, float h);
   /// Counts a substep that this thread has done.
   void advance(const BatchShare& share, float h);
 
@@ -58,6 +60,7 @@ class ContactPass {
   SurfaceContact& surfaces() { return surfaces_; }
 
  private:
+  void apply_solids(const BatchShare& share, float h);
   void keep_overlapping_awake();
   void solve_island(int thread, const SurfaceContact::Island& island, float h);
   collide::Frame world_positions();

@@ -48,8 +48,23 @@ struct WorldTestAccess {
 /// The parts of a solver with which a benchmark takes a frame by itself, stage by stage.
 struct SolverTestAccess {
   explicit SolverTestAccess(Solver& s)
-      : solver(s), shares(s.shares_), motion(s.motion_), penalty(s.penalty_), solids(s.solids_), bounds(s.bounds_) {}
-  void begin_frame(double seconds) { solver.begin_frame(seconds); }
+      : solver(s),
+        shares(s.shares_),
+        motion(s.motion_),
+        penalty(s.penalty_),
+        solids(s.solids_),
+        contacts(s.contacts_),
+        bounds(s.bounds_) {}
+  StepBound begin_frame(double seconds) { return solver.begin_frame(seconds); }
+  struct Series {
+    int count;  // of substeps, that may be taken
+    double h;   // s
+  };
+  /// Plans the rest of a frame (s), and finds the candidates of surface contact for it.
+  Series plan_series(double left, StepBound bound) {
+    const auto series = solver.plan_series(left, bound);
+    return {series.trusted, series.h()};
+  }
   void share_batches() { solver.share_batches(false); }
   double penalty_energy() { return solver.penalty_energy(); }
 
@@ -58,6 +73,7 @@ struct SolverTestAccess {
   Motion& motion;
   PenaltyContact& penalty;
   SolidContact& solids;
+  ContactPass& contacts;
   StepBounds& bounds;
 };
 
