@@ -39,12 +39,9 @@ void sweep(SceneResult& scene, const compare::SweepLimits& limits, TimedParts& t
 /// number.
 std::vector<compare::Configuration> study_configurations(std::vector<compare::Configuration> all) {
   std::erase_if(all, [](const compare::Configuration& c) {
-    const collide::Method& method = method_of(c);
-    const bool level = !method.uses_levels || c.settings.levels == paper_level;
-    const bool hash =
-        !method.uses_hash ||
-        (c.cell == 1 && (c.settings.buckets == 1001 || c.settings.buckets == compare::sweep_buckets.back()));
-    return !(level && hash);
+    const std::uint32_t buckets = c.settings.buckets;
+    return !is_plain(c, paper_level) ||
+           (method_of(c).uses_hash && buckets != 1001 && buckets != compare::sweep_buckets.back());
   });
   return all;
 }

@@ -33,7 +33,7 @@ const Mean* find(const std::vector<Mean>& means, std::string_view key, int level
   const auto found = std::ranges::find_if(means, [&](const Mean& m) {
     const compare::Configuration& c = m.configuration;
     const collide::Method& method = method_of(c);
-    return method.key == key && c.cell == 1 && (!method.uses_levels || c.settings.levels == level) &&
+    return method.key == key && is_plain(c, level) &&
            (!method.uses_hash || !buckets || c.settings.buckets == *buckets) && m.ran;
   });
   return found == means.end() ? nullptr : &*found;

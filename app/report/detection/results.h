@@ -106,6 +106,10 @@ inline constexpr std::array<std::string_view, 4> paper_scenes{"A", "B", "C", "D"
 inline constexpr int paper_level = 3;
 
 inline const collide::Method& method_of(const compare::Configuration& c) { return collide::method_table()[c.method]; }
+/// True of the automatic cell and that level, as far as the method uses them.
+inline bool is_plain(const compare::Configuration& c, int level) {
+  return c.cell == 1 && (!method_of(c).uses_levels || c.settings.levels == level);
+}
 
 /// Returns detection.csv: every row of every state. What a method does not use, and what was not measured, is empty.
 Table detection_table(const DetectionResults& results);

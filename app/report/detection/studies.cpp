@@ -29,8 +29,7 @@ MeasuredState bodies_of(const MeasuredState& state, const std::vector<Index>& bo
 }
 
 /// Returns the numbers of all bodies, ascending in a key.
-template <class Key>
-std::vector<Index> sorted_by(const std::vector<Key>& keys) {
+std::vector<Index> sorted_by(const std::vector<double>& keys) {
   std::vector<Index> order(keys.size());
   std::iota(order.begin(), order.end(), Index{0});
   std::ranges::stable_sort(order, {}, [&](Index b) { return keys[b]; });
@@ -76,23 +75,15 @@ MeasuredState of_unlike_sizes(MeasuredState state, double ratio) {
   return placed(std::move(state), mean, sizes, fmt::format("1 to {:g}", ratio));
 }
 
-/// Returns the number along a curve in z-order of the cell of 0.1 m in which a point is: most cells follow a near one.
-std::uint64_t z_order(const dvec3& at) {
-  std::uint64_t number = 0;
-  for (int bit = 0; bit < 60; ++bit)
-    number |= (std::uint64_t(std::max(at[bit % 3] + 5e4, 0.0) * 10) >> (bit / 3) & 1) << bit;
-  return number;
-}
-
-enum Order { as_in_the_scene, by_place, shuffled };
+enum Order { as_in_the_scene, along_x, shuffled };
 
 MeasuredState in_order(const MeasuredState& state, double value) {
-  constexpr std::array names{"as in the scene", "by place", "shuffled"};
+  constexpr std::array names{"as in the scene", "along x", "shuffled"};
   const int order = int(value);
   std::mt19937 random(1);
-  std::vector<std::uint64_t> keys(state.bodies.count());
+  std::vector<double> keys(state.bodies.count());
   for (Index b = 0; b < keys.size(); ++b)
-    keys[b] = order == by_place ? z_order(middle_of(state.view(), b)) : order == shuffled ? random() : b;
+    keys[b] = order == along_x ? middle_of(state.view(), b).x : order == shuffled ? random() : b;
   return bodies_of(state, sorted_by(keys), names[std::size_t(order)]);
 }
 
@@ -113,7 +104,7 @@ std::vector<CostStudy> cost_studies() {
   return {{"growth", {3, 16, 47, 200, 800, HUGE_VAL}, middle_bodies},
           {"density", {0.7, 0.85, 1, 1.5, 3}, drawn_apart},
           {"sizes", {1, 2, 5, 10, 20}, [](const auto& state, double ratio) { return of_unlike_sizes(state, ratio); }},
-          {"order", {as_in_the_scene, by_place, shuffled}, in_order}};
+          {"order", {as_in_the_scene, along_x, shuffled}, in_order}};
 }
 
 }  // namespace app::report
