@@ -112,16 +112,9 @@ SolverReference body_reference(const World& world, double bound, std::uint64_t s
 /// Returns the scale (J) of a body's error in energy: the larger of its energy above balance and m g R.
 double energy_scale(const World& world, BodyId id) {
   const softbody::BodyModel& model = world.model(id);
-  const reference::ReferenceBody body(model, world.scene());
-  reference::BodyState now = reference::state_of(world, id);
-  const reference::RigidMotion motion = reference::rigid_motion(now);
-  const double energy = body.energy(now);
-  now.x = model.start;  // in balance, where it is
-  for (std::size_t i = 0; i < now.x.size(); ++i) {
-    now.x[i] += motion.centre;
-    now.v[i] = glm::dvec3(0.0);
-  }
-  return std::max(energy - body.energy(now), model.material[softbody::Material::mass] * 9.81 * model.radius);
+  const softbody::Energy now = softbody::measure(world, id).energy;
+  const double above_balance = now.total() - now.gravity - model.start_energy.total();
+  return std::max(above_balance, model.material[softbody::Material::mass] * 9.81 * model.radius);
 }
 
 /// Returns the distance as a share of the length of `b`.

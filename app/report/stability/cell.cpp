@@ -7,7 +7,6 @@
 #include "app/report/solid_passages.h"
 #include "app/report/sums.h"
 #include "collide/surface/box_tree.h"
-#include "softbody/forces/gas.h"
 #include "softbody/world/energy_watch.h"
 
 namespace app::report {
@@ -55,7 +54,7 @@ class Run {
                                  .excess = excess_ / scale,
                                  .depth = m.deepest_penetration,
                                  .passed_through = passages_.count()};
-    if (m.finite) add_reach(world, m.max_speed, scale, s);
+    if (m.finite) add_reach(world, m, scale, s);
     figures_.add(s, start_.limits);
   }
 
@@ -71,29 +70,21 @@ class Run {
     excess_ = excess < 0 ? 0 : excess;  // what is not a number stays
   }
 
-  void add_reach(const World& world, double max_speed, double scale, reference::StabilitySample& s) {
+  void add_reach(const World& world, const softbody::Measures& m, double scale, reference::StabilitySample& s) {
     assert(bodies_ > 0);
-    double available = available_ + reference::stability_bounds.energy * scale;  // J, for all but gravity and gas
-    double gas = 0;
-    std::vector<double> extents;
-    for (BodyId b = 0; b < world.bodies().count(); ++b) {
-      const std::vector<dvec3> x = reference::state_of(world, b).x;
-      available -= height_energy(world, x, b);
-      if (const softbody::Gas* own = softbody::gas_of(world.model(b)))
-        gas += own->stored(reference::volume_of(x, world.model(b).mesh.triangles));
-      collide::surface::Box box;
-      for (const dvec3& p : x) box.add(p);
-      extents.push_back(std::max({box.extent(0), box.extent(1), box.extent(2)}));
-    }
+    // J, for all but gravity
+    const double available = available_ + reference::stability_bounds.energy * scale - m.energies.gravity;
     const double min_energy = 1e-9 * scale;  // what has flown away has lost all to gravity
-    const auto particle_mass = [](const StabilityStart::Member& m) { return m.model->particle_mass; };
+    const auto particle_mass = [](const StabilityStart::Member& of) { return of.model->particle_mass; };
     const double balance = sum_of(present(), &StabilityStart::Member::balance);             // J
     const double lightest = particle_mass(std::ranges::min(present(), {}, particle_mass));  // kg
-    s.speed = max_speed / std::sqrt(2 * std::max(available - balance, min_energy) / lightest);
-    for (std::size_t b = 0; b < extents.size(); ++b) {
+    s.speed = m.max_speed / std::sqrt(2 * std::max(available - balance, min_energy) / lightest);
+    for (BodyId b = 0; b < world.bodies().count(); ++b) {
+      collide::surface::Box box;
+      for (const dvec3& p : reference::state_of(world, b).x) box.add(p);
       const auto& [length, stiffness] = start_.members[b].chain;
-      const double reach = length + std::sqrt(2 * std::max(available - gas, min_energy) / stiffness);
-      s.extent = std::max(s.extent, extents[b] / reach);
+      const double reach = length + std::sqrt(2 * std::max(available - m.energies.gas, min_energy) / stiffness);
+      s.extent = std::max(s.extent, std::max({box.extent(0), box.extent(1), box.extent(2)}) / reach);
     }
   }
 

@@ -69,9 +69,6 @@ StabilityStart prepare(const StabilityScene& scene, double seconds);
 /// Fills in `reference` or `not_judged`. The reference takes at most `steps` steps.
 void find_reference(StabilityStart& start, std::uint64_t steps);
 
-/// Returns the energy (J) of gravity on one body whose particles are at x, 0 at the origin.
-double height_energy(const softbody::World& world, const std::vector<glm::dvec3>& x, softbody::BodyId body);
-
 /// Returns how a state of the body differs from the reference's.
 reference::ReferenceDeviation deviation(const softbody::BodyModel& model, const reference::BodyState& state,
                                         const reference::BodyState& reference);

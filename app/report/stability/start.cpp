@@ -73,12 +73,6 @@ reference::ReferenceDeviation deviation(const softbody::BodyModel& model, const 
   return r;
 }
 
-double height_energy(const World& world, const std::vector<dvec3>& x, BodyId body) {
-  double energy = 0;
-  for (const dvec3& p : x) energy -= world.model(body).particle_mass * glm::dot(world.scene().gravity, p);
-  return energy;
-}
-
 StabilityStart prepare(const StabilityScene& from, double seconds) {
   const World world = start_world(from.scene, {.integrator = one_step()}, from.start);
   StabilityStart s{.scene = from.scene, .particles = all_particles(world), .first_frame = from.first_frame};
@@ -89,9 +83,8 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
   }
   assert(!s.members.empty());
   const softbody::Measures measures = softbody::measure(world);
-  s.above_balance = measures.energy;
-  for (BodyId b = 0; b < s.particles.size(); ++b)
-    s.above_balance -= height_energy(world, reference::state_of(world, b).x, b) + s.members[b].balance();
+  s.above_balance = measures.energy - measures.energies.gravity;
+  for (BodyId b = 0; b < s.particles.size(); ++b) s.above_balance -= s.members[b].balance();
   if (!s.particles.empty()) s.balance_shape = world.model(0).start;
   s.limits = {.seconds = s.first_frame + seconds,
               .radius = std::ranges::min(s.members, {}, &StabilityStart::Member::radius).radius(),
