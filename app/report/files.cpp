@@ -8,6 +8,7 @@
 #include "app/base/streams.h"
 #include "app/files/inputs.h"
 #include "app/files/output_file.h"
+#include "collide/core/workers.h"
 
 namespace app::report {
 namespace {
@@ -35,8 +36,10 @@ void say(const std::string& what, double progress) {
   show_progress(fmt::format("{:<50} {:3.0f} %", what, 100 * progress));
 }
 
-void run_in_parallel(collide::Workers& workers, std::size_t count, const std::function<std::string(std::size_t)>& what,
+void run_in_parallel(const ReportOptions& options, std::size_t count,
+                     const std::function<std::string(std::size_t)>& what,
                      const std::function<void(std::size_t)>& task) {
+  collide::Workers workers(options.threads.value_or(options.cores));
   workers.share(workers.threads(), count, [&](int thread, std::size_t i) {
     if (thread == 0) say(what(i), double(i) / double(count));
     task(i);

@@ -8,7 +8,6 @@
 
 #include "app/report/page.h"
 #include "app/report/report.h"
-#include "collide/core/workers.h"
 #include "softbody/scene/scene.h"
 
 namespace app::report {
@@ -16,9 +15,9 @@ namespace app::report {
 /// Shows what is going on, and how much of it is done. `progress`: from 0 to 1.
 void say(const std::string& what, double progress);
 
-/// Calls `task(i)` for each i below `count`, on all workers side by side, and shows `what(i)` meanwhile.
-void run_in_parallel(collide::Workers& workers, std::size_t count, const std::function<std::string(std::size_t)>& what,
-                     const std::function<void(std::size_t)>& task);
+/// Calls `task(i)` for each i below `count`, side by side on the threads of the options, and shows `what(i)` meanwhile.
+void run_in_parallel(const ReportOptions& options, std::size_t count,
+                     const std::function<std::string(std::size_t)>& what, const std::function<void(std::size_t)>& task);
 
 /// Returns the scene that is asked for, or all. Throws SceneError.
 std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options);

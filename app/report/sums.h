@@ -25,8 +25,9 @@ double max_of(const Rows& rows, const Figure& figure) {
 }
 
 /// Returns the groups of rows that follow each other and have the same key.
-template <class Row, class Key>
-std::vector<std::span<const Row>> groups_of(const std::vector<Row>& rows, const Key& key) {
+template <class Rows, class Key>
+auto groups_of(const Rows& rows, const Key& key) {
+  using Row = typename Rows::value_type;
   std::vector<std::span<const Row>> groups;
   for (auto begin = rows.begin(), end = begin; begin != rows.end(); begin = end) {
     end =

@@ -52,8 +52,7 @@ void report_contact(const ReportOptions& options) {
   const auto what = [&](std::size_t i) {
     return r.cases[i / choices].scene.key + ", " + choice_name(r.choices[i % choices]);
   };
-  collide::Workers workers(options.threads.value_or(options.cores));
-  run_in_parallel(workers, r.cases.size() * choices, what, [&](std::size_t i) {
+  run_in_parallel(options, r.cases.size() * choices, what, [&](std::size_t i) {
     ContactCase& c = r.cases[i / choices];
     ContactTrial& trial = c.trials[i % choices];
     if (vertex_count(c.scene) * std::uint64_t(c.limits.frames) > r.vertex_frames)

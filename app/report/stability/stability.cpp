@@ -46,10 +46,9 @@ StabilityResults planned(const ReportOptions& options) {
 void report_stability(const ReportOptions& options) {
   StabilityResults r = planned(options);
   files::prepare_folder(options.out);
-  collide::Workers workers(options.threads.value_or(options.cores));
   const auto for_each = [&](const std::string& what, std::size_t count, const std::function<void(std::size_t)>& task) {
     run_in_parallel(
-        workers, count, [&](std::size_t i) { return what + " " + std::to_string(i + 1); }, task);
+        options, count, [&](std::size_t i) { return what + " " + std::to_string(i + 1); }, task);
   };
   for_each("reference", r.rows.size(), [&](std::size_t i) {
     StabilityRow& row = r.rows[i];

@@ -59,11 +59,7 @@ void long_run(TheoryRun& run, const std::function<void(softbody::Particle&)>& ch
     const double half = run.took->staggered ? run.substep : 0;
     return softbody::measure(world, 0).conserved(half) - at_rest;
   };
-  const auto spin = [&] {
-    dvec3 sum(0.0);
-    for (const softbody::Particle& p : particles_of(world, 0)) sum += glm::cross(p.position, p.velocity) / 42.0;
-    return sum;
-  };
+  const auto spin = [&] { return motion_of(world).momentum; };   // of 1 kg
   const double first = energy(), scale = std::max(first, 0.01);  // J
   const dvec3 spin_first = spin();
   double band = 0, last = 0;

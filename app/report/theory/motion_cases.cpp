@@ -28,12 +28,12 @@ Scene falling_ball(double speed) {
 
 void free_fall(TheoryRun& run) {
   World world = run.begin(falling_ball(5));
-  const double start = mean(world).position.y;
+  const double start = motion_of(world).centre.y;
   run.step(world, 120);
   const std::string_view by = run.took->key;
   const double late = run.took->order > 1 ? 0 : by == "explicit-euler" ? -run.substep : run.substep;
   const double theory = 5 * 2 - g * 2 * (2 + late) / 2;
-  run.comparisons = {{.theory = theory, .measured = mean(world).position.y - start, .bound = run.rounding()}};
+  run.comparisons = {{.theory = theory, .measured = motion_of(world).centre.y - start, .bound = run.rounding()}};
 }
 
 void air(TheoryRun& run) {
@@ -43,10 +43,10 @@ void air(TheoryRun& run) {
   World world = run.begin(scene);
   run.step(world, 30);
   const double theory = g / drag * (std::exp(-drag * 0.5) - 1);
-  run.comparisons = {{.what = "after 0.5 s", .theory = theory, .measured = mean(world).velocity.y}};
+  run.comparisons = {{.what = "after 0.5 s", .theory = theory, .measured = motion_of(world).velocity.y}};
   run.step(world, 450);
   run.comparisons.push_back(
-      {.what = "after 8 s", .theory = -g / drag, .measured = mean(world).velocity.y, .bound = 1e-4});
+      {.what = "after 8 s", .theory = -g / drag, .measured = motion_of(world).velocity.y, .bound = 1e-4});
 }
 
 constexpr double pulled = 0.1, omega = 20;  // m, 1/s
@@ -112,7 +112,7 @@ void bounce(TheoryRun& run) {
   scene.bodies[0].velocity = {0, -3, 0};
   World world = run.begin(scene);
   run.step(world, 60);
-  run.comparisons = {{.theory = 3 * e, .measured = mean(world).velocity.y, .bound = 1e-4}};
+  run.comparisons = {{.theory = 3 * e, .measured = motion_of(world).velocity.y, .bound = 1e-4}};
 }
 
 void swap_speeds(TheoryRun& run) {
@@ -125,7 +125,7 @@ void swap_speeds(TheoryRun& run) {
   scene.contact_surface = softbody::ContactSurface::surfaces;
   World world = run.begin(scene);
   run.step(world, 60);
-  run.comparisons = {{.theory = 3, .measured = mean(world, 1).velocity.x, .bound = 0.01}};
+  run.comparisons = {{.theory = 3, .measured = motion_of(world, 1).velocity.x, .bound = 0.01}};
 }
 
 constexpr double mu = 0.5;
@@ -136,7 +136,7 @@ void slope(TheoryRun& run) {
     const double lean = (holds + slides) / 2;
     World world = run.begin(sheet(0, mu, 0, lean));
     run.step(world, 20);
-    (mean(world).position.x < 1e-6 ? holds : slides) = lean;
+    (motion_of(world).centre.x < 1e-6 ? holds : slides) = lean;
   }
   const double degrees = 180 / pi;
   run.comparisons = {{.what = "slides from, degrees",
@@ -147,7 +147,7 @@ void slope(TheoryRun& run) {
   run.step(world, 60);
   run.comparisons.push_back({.what = "acceleration, m/s²",
                              .theory = g * (1 - mu) / std::sqrt(2.0),
-                             .measured = mean(world).velocity.x,
+                             .measured = motion_of(world).velocity.x,
                              .bound = run.rounding()});
 }
 
@@ -156,7 +156,7 @@ void way_to_rest(TheoryRun& run) {
   scene.bodies[0].velocity.x = 2;
   World world = run.begin(scene);
   run.step(world, 60);
-  run.comparisons = {{.theory = 2 * 2 / (2 * mu * g), .measured = mean(world).position.x}};
+  run.comparisons = {{.theory = 2 * 2 / (2 * mu * g), .measured = motion_of(world).centre.x}};
 }
 
 void rolling(TheoryRun& run) {
@@ -170,7 +170,7 @@ void rolling(TheoryRun& run) {
   run.step(world, 120);
   const double moment = 2.0 / 3 * std::pow(radius / (radius + gap), 2);  // over m r^2
   const double theory = g * lean / std::sqrt(1 + lean * lean) / (1 + moment);
-  run.comparisons = {{.theory = theory, .measured = mean(world).velocity.x / 2, .bound = 0.01}};
+  run.comparisons = {{.theory = theory, .measured = motion_of(world).velocity.x / 2, .bound = 0.01}};
 }
 
 }  // namespace

@@ -91,8 +91,7 @@ Plot plot_of(const Page& page, std::span<const TheoryRow> rows) {
     variants.push_back(fmt::format("{}: {}", marks.at(v).second, of.variants[v]));
   Plot plot = page.plot_of("plot", "theory-" + of.key, fmt::arg("case", with_what(of.name, rows.front())),
                            fmt::arg("marks", variants.empty() ? "" : " (" + joined(variants, ", ") + ")"));
-  const std::vector<TheoryRow> all(rows.begin(), rows.end());
-  for (const auto& runs : groups_of(all, [](const TheoryRow& r) { return std::pair(r.integrator, r.variant); })) {
+  for (const auto& runs : groups_of(rows, [](const TheoryRow& r) { return std::pair(r.integrator, r.variant); })) {
     const TheoryRow& first = runs.front();
     Series series{first.variant == 0 ? std::string(first.integrator->name) : "",
                   series_colour(std::size_t(first.integrator - softbody::integrators().data())),

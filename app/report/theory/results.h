@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/reference/body_shape.h"
 #include "app/report/page.h"
 #include "app/report/worlds.h"
 
@@ -65,8 +66,10 @@ std::vector<TheoryCase> shell_cases();
 std::vector<TheoryCase> held_cases();
 std::vector<TheoryCase> long_cases();
 
-/// Returns the mean of a body's particles.
-softbody::Particle mean(const softbody::World& world, softbody::BodyId body = 0);
+/// Returns how a body moves as a whole.
+inline reference::RigidMotion motion_of(const softbody::World& world, softbody::BodyId body = 0) {
+  return reference::rigid_motion(reference::state_of(world, body));
+}
 
 struct TheoryRow : Comparison {
   const TheoryCase* of;

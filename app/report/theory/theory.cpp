@@ -8,13 +8,6 @@
 
 namespace app::report {
 
-softbody::Particle mean(const softbody::World& world, softbody::BodyId body) {
-  const Particles all = particles_of(world, body);
-  softbody::Particle sum{};
-  for (const softbody::Particle& p : all) sum.position += p.position, sum.velocity += p.velocity;
-  return {sum.position / double(all.size()), sum.velocity / double(all.size())};
-}
-
 softbody::World TheoryRun::begin(const softbody::Scene& scene,
                                  const std::function<void(softbody::Particle&)>& change) const {
   return start_world(scene, {.integrator = with_steps(by, substeps)},
@@ -115,9 +108,8 @@ void report_theory(const ReportOptions& options) {
       for (int v = 0; v < int(c.variants.size()); ++v)
         if (v == 0 || !c.refines || (!options.quick && (i.automatic || i.key == "semi-implicit-euler")))
           tasks.push_back({c, i, v});
-  collide::Workers workers(options.threads.value_or(options.cores));
   run_in_parallel(
-      workers, tasks.size(), [&](std::size_t i) { return tasks[i].of.key; },
+      options, tasks.size(), [&](std::size_t i) { return tasks[i].of.key; },
       [&](std::size_t i) {
         tasks[i].rows = measure(tasks[i].of, tasks[i].variant, tasks[i].integrator, options.quick);
       });
