@@ -36,34 +36,15 @@ std::vector<Index> sorted_by(const std::vector<double>& keys) {
   return order;
 }
 
-/// Draws the bodies apart about the middle of all, or together, and scales each about its own middle. sizes: by body.
-MeasuredState placed(MeasuredState state, double apart, const std::vector<double>& sizes, std::string change) {
-  const dvec3 centre = middle(state);
-  for (Index b = 0; b < state.bodies.count(); ++b) {
-    const dvec3 from = middle_of(state.view(), b), to = centre + apart * (from - centre);
-    for (Index v = state.bodies.first[b]; v < state.bodies.first[b + 1]; ++v) {
-      const dvec3 at = to + sizes[b] * (dvec3(position(state.view(), v)) - from);
-      state.at.x[v] = float(at.x), state.at.y[v] = float(at.y), state.at.z[v] = float(at.z);
-    }
-  }
-  state.change = std::move(change);
-  return state;
-}
-
-MeasuredState drawn_apart(const MeasuredState& state, double apart) {
-  return placed(state, apart, std::vector<double>(state.bodies.count(), 1.0), fmt::format("x {:g}", apart));
-}
-
-/// Returns bodies of eight sizes, up to `ratio` times their own. Their distances grow with the mean size.
-MeasuredState of_unlike_sizes(MeasuredState state, double ratio) {
+/// Gives the bodies eight sizes, by chance, up to `ratio` times their own, and draws them apart about the middle of
+/// all: as the mean size grows, and `apart` times.
+MeasuredState placed(MeasuredState state, double apart, double ratio) {
   state.largest = ratio;
   std::mt19937 random(1);
   std::vector<double> sizes;
   std::map<std::pair<const collide::Shape*, double>, std::shared_ptr<const collide::Shape>> scaled;
-  double mean = 0;
   for (auto& shape : state.bodies.shape) {
     const double size = sizes.emplace_back(std::pow(ratio, double(random() % 8) / 7));
-    mean += size / double(state.bodies.count());
     auto& made = scaled[{shape.get(), size}];
     if (!made) {
       std::vector<glm::vec3> rest = shape->rest();
@@ -72,7 +53,17 @@ MeasuredState of_unlike_sizes(MeasuredState state, double ratio) {
     }
     shape = made;
   }
-  return placed(std::move(state), mean, sizes, fmt::format("1 to {:g}", ratio));
+  apart *= std::accumulate(sizes.begin(), sizes.end(), 0.0) / double(sizes.size());
+  const dvec3 centre = middle(state);
+  for (Index b = 0; b < state.bodies.count(); ++b) {
+    const dvec3 from = middle_of(state.view(), b), to = centre + apart * (from - centre);
+    for (Index v = state.bodies.first[b]; v < state.bodies.first[b + 1]; ++v) {
+      const dvec3 at = to + sizes[b] * (dvec3(position(state.view(), v)) - from);
+      state.at.x[v] = float(at.x), state.at.y[v] = float(at.y), state.at.z[v] = float(at.z);
+    }
+  }
+  state.change = fmt::format("x {:g}", ratio > 1 ? ratio : apart);
+  return state;
 }
 
 enum Order { as_in_the_scene, along_x, shuffled };
@@ -102,8 +93,8 @@ MeasuredState middle_bodies(const MeasuredState& state, double count) {
 
 std::vector<CostStudy> cost_studies() {
   return {{"growth", {3, 16, 47, 200, 800, HUGE_VAL}, middle_bodies},
-          {"density", {0.7, 0.85, 1, 1.5, 3}, drawn_apart},
-          {"sizes", {1, 2, 5, 10, 20}, [](const auto& state, double ratio) { return of_unlike_sizes(state, ratio); }},
+          {"density", {0.7, 0.85, 1, 1.5, 3}, [](const auto& state, double apart) { return placed(state, apart, 1); }},
+          {"sizes", {1, 2, 5, 10, 20}, [](const auto& state, double ratio) { return placed(state, 1, ratio); }},
           {"order", {as_in_the_scene, along_x, shuffled}, in_order}};
 }
 
