@@ -13,7 +13,7 @@ for part in '' -security; do
 done >/etc/apt/sources.list.d/sources.list
 apt-get update -qq
 DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends emscripten cmake ninja-build gcc libc6-dev make m4 dpkg-dev \
-  chromium chromium-driver python3-pil fonts-inter libglm-dev libeigen3-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev >apt.log
+  chromium fonts-inter libglm-dev libeigen3-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev >apt.log
 
 # unpack NAME[/SUITE]: into the folder NAME. Some mirrors lack Debian's changes to a source, then as its authors wrote it.
 unpack() {

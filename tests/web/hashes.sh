@@ -2,16 +2,15 @@
 # The program of the page, run by node: it comes to the states of tests/hashes, bit for bit.
 # Usage: hashes.sh SBCOLLIDE.JS
 set -euo pipefail
-program=$(realpath "$1")
-cd "$(dirname "${BASH_SOURCE[0]}")/../hashes"
+hashes=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../hashes/hashes.txt")
+cd "$(dirname "$1")"  # where it finds its data
 
 # compare SCENE CONTACT-SURFACE INTEGRATOR FRAMES HASH
 compare() {
   local hash
-  hash=$(node "$program" simulate --scene "$1" --contact-surface "$2" --integrator "$3" --frames "$4" --json |
+  hash=$(node sbcollide.js simulate --scene "$1" --contact-surface "$2" --integrator "$3" --frames "$4" --json |
     grep -oP '"state_hash": *"\K[0-9a-f]*') || true
   [ "$hash" = "$5" ] || { echo "hashes: $1 $2 $3: $hash, not $5" >&2; return 1; }
 }
-export program
 export -f compare
-tail -n +2 hashes.txt | xargs --max-lines=1 --max-procs="$(nproc)" bash -c 'compare "$@"' _
+tail -n +2 "$hashes" | xargs --max-lines=1 --max-procs="$(nproc)" bash -c 'compare "$@"' _
