@@ -193,21 +193,15 @@ bundle() {
   fi
 }
 
-# make_web_root FOLDER: with the libraries of the page, and with what tries it. It is kept as long as the script is the
-# same.
-make_web_root() {
-  local script=$root/app/web/libraries.sh
-  cmp -s "$script" "$1/libraries/made-by" && return
-  make_root trixie "$1"
-  in_root "$1" /sbcollide/app/web/libraries.sh >>"$1.log" 2>&1 || fail "libraries.sh failed; the whole log is $1.log"
-  cp "$script" "$1/libraries/made-by"
+make_libraries() {
+  in_root "$1" /sbcollide/app/web/libraries.sh >"$1.log" 2>&1 || fail "libraries.sh failed; the whole log is $1.log"
+  cp "$root/app/web/libraries.sh" "$1/libraries/made-by"
 }
 
 make_page() {
   copy_sources "$1"
-  in_root "$1" bash -c '. /sbcollide/app/setup.sh && build web sbcollide'
-  rm -rf "$root/build/web"
-  mkdir "$root/build/web"
+  in_root "$1" bash -c '. /sbcollide/app/setup.sh && build web sbcollide' || return
+  rm -rf "$root/build/web" && mkdir "$root/build/web"
   find "$1/sbcollide/build/web/bin" -maxdepth 1 -type f -exec cp -t "$root/build/web" {} +
 }
 
@@ -215,18 +209,22 @@ make_page() {
 try_page() {
   local there=$1/desktop program=$root/build/release/bin/sbcollide
   rm -rf "$there" && mkdir "$there"
-  "$program" simulate --scene drop --frames 310 --capture 290,300,310 --size 1280x720 --obj-every 300 --out "$there"
-  "$program" simulate --scene drop --frames 300 --oracle --json >"$there/simulate.json"
-  "$program" simulate --scene D --frames 300 --threads 1 --json >"$there/D.json"
-  "$program" detect --method all --tolerance 0.1 --json "$there/frame_0300.obj" >"$there/detect.json"
-  in_root "$1" /sbcollide/tests/web/page.mjs /sbcollide/build/web/bin /desktop /sbcollide/build/web
+  "$program" simulate --scene drop --frames 310 --capture 290,300,310 --size 1280x720 --obj-every 300 --out "$there" &&
+    "$program" simulate --scene drop --frames 300 --oracle --json >"$there/simulate.json" &&
+    "$program" simulate --scene D --frames 300 --threads 1 --json >"$there/D.json" &&
+    "$program" detect --method all --tolerance 0.1 --json "$there/frame_0300.obj" >"$there/detect.json" &&
+    in_root "$1" /sbcollide/tests/web/page.mjs /sbcollide/build/web/bin /desktop /sbcollide/build/web
 }
 
+# The system and its libraries are kept as long as the script that made them is the same.
 web() {
   local folder=$root/build/web-root
-  [ "$(id -u)" -eq 0 ] || { leave_out "web" "only root can make a root folder" && return; }
-  step "web: root" make_web_root "$folder" && step "web: build" make_page "$folder" &&
-    step "web: hashes" in_root "$folder" /sbcollide/tests/web/hashes.sh /sbcollide/build/web/bin/sbcollide.js
+  if ! cmp -s "$root/app/web/libraries.sh" "$folder/libraries/made-by"; then
+    (make_root trixie "$folder") || { leave_out "web" "no system of Debian 13 can be made here" && return; }
+    step "web: libraries" make_libraries "$folder" || return
+  fi
+  step "web: build" make_page "$folder" || return
+  step "web: hashes" in_root "$folder" /sbcollide/tests/web/hashes.sh /sbcollide/build/web/bin/sbcollide.js || true
   step "web: release" build release sbcollide && step "web: page" try_page "$folder"
 }
 
