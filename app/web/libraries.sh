@@ -8,12 +8,12 @@ mkdir -p "$prefix"/{include,lib/cmake,sources}
 cd "$prefix/sources"
 
 # The coarse meshes of Debian 12's meshoptimizer are those of tests/hashes.
-for part in '' -security; do
-  for suite in bookworm trixie; do echo "deb-src http://deb.debian.org/debian$part $suite$part main"; done
-done >/etc/apt/sources.list.d/sources.list
+mirror=$(awk '$1 == "deb" {print $2; exit}' /etc/apt/sources.list)
+printf 'deb-src %s %s main\n' "$mirror" bookworm "$mirror" trixie >/etc/apt/sources.list.d/sources.list
 apt-get update -qq
-DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends emscripten cmake ninja-build gcc libc6-dev make m4 dpkg-dev \
-  chromium fonts-inter libglm-dev libeigen3-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev >apt.log
+DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends emscripten chromium cmake ninja-build \
+  gcc libc6-dev make m4 dpkg-dev fonts-inter libglm-dev libeigen3-dev libfmt-dev libtomlplusplus-dev libcli11-dev \
+  nlohmann-json3-dev >apt.log
 
 # unpack NAME[/SUITE]: into the folder NAME. Some mirrors lack Debian's changes to a source, then as its authors wrote it.
 unpack() {
