@@ -2,6 +2,8 @@
 
 #include <GL/glew.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -38,7 +40,8 @@ const char* glsl_version() { return is_opengl_es() ? "#version 300 es" : "#versi
 
 bool uses_software_renderer() {
   const std::string_view name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  return name.find("llvmpipe") != name.npos || name.find("softpipe") != name.npos;
+  constexpr std::array renderers{"llvmpipe", "softpipe", "SwiftShader"};
+  return std::ranges::any_of(renderers, [name](const char* renderer) { return name.find(renderer) != name.npos; });
 }
 
 }  // namespace engine

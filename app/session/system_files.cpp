@@ -40,10 +40,12 @@ std::string command(const std::vector<std::string>& words) {
   return text;
 }
 
-constexpr System desktop{.start = "Command",
-                         .no_start = "The scene was changed: save it, so that a command can name it.",
-                         .start_text = &command,
-                         .choose_files = nullptr};
+constexpr System desktop{
+    .how_to = "Drag a body to pull it. Drag the background to orbit. B throws a body. G: tour. F1: help.",
+    .start = "Command",
+    .no_start = "The scene was changed: save it, so that a command can name it.",
+    .start_text = &command,
+    .choose_files = nullptr};
 
 }  // namespace
 

@@ -20,6 +20,7 @@ std::filesystem::path preferences_path();
 
 /// How a user starts the program and gets at files.
 struct System {
+  const char* how_to;         // what the user can do, in a line
   std::string_view start;     // what start_text() returns, for the user: "Command"
   std::string_view no_start;  // why there is none for a scene
   /// Returns what starts the program with these words of its command line; empty if nothing does.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/session/system_files.h"
 #include "app/ui/views/views.h"
 
 namespace app::ui {
@@ -25,7 +26,7 @@ void draw_sentences(Widgets& w, const Session& session, bool panel) {
   w.wrapped_text("Scene sentence", caption.empty() || opens ? session.world().scene().look_at : caption);
   if (panel) return;
   w.pale_text(session.simulated()
-                  ? "Drag a body to pull it. Drag the background to orbit. B throws a body. G: tour. F1: help."
+                  ? session::this_system().how_to
                   : "Drag to orbit. Click a body to select it. V: compare the methods. G: tour. F1: help.");
 }
 

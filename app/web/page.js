@@ -29,7 +29,7 @@ function keepPreferences() {
   try { localStorage.setItem(stored, FS.readFile(preferences, {encoding: 'utf8'})); } catch {}
 }
 function restorePreferences() {
-  try { FS.writeFile(preferences, localStorage.getItem(stored)); } catch {}
+  try { if (localStorage.getItem(stored)) FS.writeFile(preferences, localStorage.getItem(stored)); } catch {}
 }
 
 /// Makes the canvas as large as its place, in pixels of the screen.
@@ -66,6 +66,13 @@ globalThis.Module = {
   chooseFiles: () => element('files').click(),
 };
 window.addEventListener('error', event => refuse(`The program has stopped: ${event.message}. Reload the page to begin anew.`));
+
+// WebGL has the renderer's name, by which the program knows a slow one, in an extension.
+const parameter = globalThis.WebGL2RenderingContext?.prototype.getParameter;
+if (parameter) WebGL2RenderingContext.prototype.getParameter = function(name) {
+  const names = name === this.RENDERER && this.getExtension('WEBGL_debug_renderer_info');
+  return parameter.call(this, names ? names.UNMASKED_RENDERER_WEBGL : name);
+};
 
 /// Returns a file's bytes. tell(part): how much of it has come.
 async function fetchBytes(name, tell) {
@@ -143,12 +150,12 @@ for (const kind of ['mousemove', 'mouseup'])
     if (event.target !== canvas) mouse(kind, {x: event.clientX, y: event.clientY}, event.button);
   });
 
-// What fingers do. One that rests becomes the left button, which drags a body. One that moves is the middle button, which
-// orbits; over the interface it scrolls (up and down), or is the left button. Two are the right button, which pans, and
-// turn the wheel when they move apart.
+// What fingers do. One that moves at once is the middle button, which orbits; over the interface it scrolls (up and down),
+// or is the left button. One that rests before it moves is the left button, which drags a body. Two are the right button,
+// which pans, and turn the wheel when they move apart. Times are of the events: the page may be late.
 const left = 0, middle = 1, right = 2;
 const slop = 8, scrollStep = 75, hold = 350, zoomStep = 0.9;  // CSS pixels; ms; of Camera::zoom()
-let timer, start = null, last, button, scrolls;
+let start = null, last, began, waits, scrolls, button;
 const overInterface = at => Module._page_over_interface(at.x, at.y);
 function middleOf(touches) {
   const [a, b = a] = touches;
@@ -156,32 +163,31 @@ function middleOf(touches) {
           width: Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY)};
 }
 function press(which) {
-  clearTimeout(timer);
-  timer = undefined;
   button = which;
   mouse('mousedown', start, button);
 }
 function lift() {
-  clearTimeout(timer);
   if (button !== undefined) mouse('mouseup', last, button);
-  button = timer = undefined;
+  button = undefined;
 }
-function begin(touches) {
+function begin({targetTouches, timeStamp}) {
   lift();
-  start = last = middleOf(touches);
-  scrolls = touches.length > 1 && overInterface(start);
+  start = last = middleOf(targetTouches);
+  began = timeStamp;
+  waits = targetTouches.length === 1;
+  scrolls = !waits && overInterface(start);
   mouse('mouseenter', start);
   mouse('mousemove', start);
-  if (touches.length === 1) timer = setTimeout(press, hold, left);
-  else if (!scrolls) press(right);
+  if (!waits && !scrolls) press(right);
 }
-function move(touches) {
-  const at = middleOf(touches), across = Math.abs(at.x - start.x), along = Math.abs(at.y - start.y);
-  if (timer) {
+function move({targetTouches, timeStamp}) {
+  const at = middleOf(targetTouches), across = Math.abs(at.x - start.x), along = Math.abs(at.y - start.y);
+  if (waits) {
     if (Math.max(across, along) < slop) return;
-    scrolls = overInterface(start) && along > across;
-    if (scrolls) timer = clearTimeout(timer);
-    else press(overInterface(start) ? left : middle);
+    waits = false;
+    const held = timeStamp - began >= hold, over = overInterface(start);
+    scrolls = over && !held && along > across;
+    if (!scrolls) press(over || held ? left : middle);
   }
   if (scrolls) turnWheel((at.y - last.y) / scrollStep);
   else mouse('mousemove', at);
@@ -189,7 +195,7 @@ function move(touches) {
   last = at;
 }
 function end() {  // of two fingers, the other one does nothing more
-  if (timer) press(left);  // a tap
+  if (waits) press(left);  // a tap
   lift();
   mouse('mouseleave', last);
   start = null;
@@ -198,7 +204,7 @@ for (const [kind, act] of Object.entries({touchstart: begin, touchmove: move, to
   canvas.addEventListener(kind, event => {
     event.preventDefault();
     event.stopImmediatePropagation();
-    if (start || kind === 'touchstart') act(event.targetTouches);
+    if (start || kind === 'touchstart') act(event);
   }, {capture: true, passive: false});
 
 load().catch(error => refuse(error instanceof URIError ? 'The address is not well formed: write %25 for %.' : error.message));

@@ -40,15 +40,25 @@ std::string link(const std::vector<std::string>& words) {
   return text;
 }
 
-constexpr System page{
+constexpr System with_mouse{
+    .how_to = "Drag a body to pull it. Drag the background to orbit. B throws a body. G: tour. ?: help.",
     .start = "Link",
     .no_start = "No link makes this scene: save it, and hand out its file, which can be dropped here.",
     .start_text = &link,
     .choose_files = [] { emscripten_run_script("Module.chooseFiles()"); }};
 
+constexpr System with_fingers = [] {
+  System page = with_mouse;
+  page.how_to = "One finger orbits; if it rests before it moves, it drags a body. Two pan and zoom.";
+  return page;
+}();
+
 }  // namespace
 
-const System& this_system() { return page; }
+const System& this_system() {
+  static const bool fingers = emscripten_run_script_int("matchMedia('(pointer: coarse)').matches");
+  return fingers ? with_fingers : with_mouse;
+}
 
 std::span<const RecordingKind> recording_kinds() { return {}; }
 
