@@ -1,6 +1,7 @@
 #include "app/base/process.h"
 
 #include <stdexcept>
+#include <system_error>
 
 #include "app/base/usage_error.h"
 
@@ -12,6 +13,7 @@
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <poll.h>
+#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -22,13 +24,34 @@
 #include <unistd.h>
 
 #include <array>
+#include <cassert>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstddef>
 #include <cstring>
 #include <fstream>
 #include <new>
+#include <thread>
+#include <utility>
 
 namespace app {
+
+namespace {
+
+constexpr int timeout_seconds = 30;  // until the program has read what is sent, and for its end
+
+[[noreturn]] void refuse(int error) { throw std::system_error(error, std::generic_category()); }
+
+/// Returns how a process has ended; 0 while it runs. It stays a zombie until its Process ends: no other process can get
+/// its number before.
+siginfo_t look_at(int id) {
+  siginfo_t found{};
+  if (::waitid(P_PID, static_cast<id_t>(id), &found, WEXITED | WNOHANG | WNOWAIT) != 0) found = {};
+  return found;
+}
+
+}  // namespace
 
 SharedMemory::SharedMemory(std::size_t size) : handle_(::memfd_create("sbcollide", MFD_CLOEXEC | MFD_ALLOW_SEALING)) {
   // Sealed: who reads beyond the end of a file that has become smaller is ended.
@@ -56,46 +79,88 @@ std::span<std::byte> take_memory(int handle, std::size_t writable) {
   return {begin, size};
 }
 
-Process::Process(std::vector<std::string> words, const std::vector<int>& handles, const std::filesystem::path& output) {
+Process::Process(std::vector<std::string> words, int output, const std::vector<int>& handles) : Process() {
+  assert(!words.empty());
+  const bool by_messages = !handles.empty();
+  std::array<int, 2> ends{-1, -1};
+  // Not a pipe: when the program dies, sending fails, and no signal ends this one.
+  if (::socketpair(AF_UNIX, (by_messages ? SOCK_SEQPACKET : SOCK_STREAM) | SOCK_CLOEXEC, 0, ends.data()) != 0)
+    refuse(errno);
+  channel_ = ends[0];
+  const timeval limit{timeout_seconds, 0};
+  ::setsockopt(channel_, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
+  errors_ = by_messages ? ::open("/dev/null", O_RDWR | O_CLOEXEC) : ::memfd_create("errors", MFD_CLOEXEC);
+  std::vector<int> inside{by_messages ? errors_ : ends[1], output >= 0 ? output : errors_, errors_};
+  if (by_messages) inside.push_back(ends[1]);
+  inside.insert(inside.end(), handles.begin(), handles.end());
+  const int count = static_cast<int>(inside.size());
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  for (int number = 0; int& handle : inside) {
+    handle = ::fcntl(handle, F_DUPFD_CLOEXEC, count);  // none is overwritten before it is copied
+    ::posix_spawn_file_actions_adddup2(&actions, handle, number++);
+  }
+  ::posix_spawn_file_actions_addclosefrom_np(&actions, count);
+  posix_spawnattr_t own_group;
+  ::posix_spawnattr_init(&own_group);
+  ::posix_spawnattr_setflags(&own_group, POSIX_SPAWN_SETPGROUP);
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  std::array<int, 2> channel{-1, -1};
-  ::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, channel.data());
-  channel_ = channel[0];
-  std::vector<int> passed{channel[1]};
-  passed.insert(passed.end(), handles.begin(), handles.end());
-  const int end = channel_inside + static_cast<int>(passed.size());
-  for (int& handle : passed) handle = ::fcntl(handle, F_DUPFD_CLOEXEC, end);  // none is overwritten before it is copied
-  ::close(channel[1]);
-  id_ = ::fork();
-  if (id_ == 0) {  // from here on only system calls, since other threads may have held any lock
-    ::setpgid(0, 0);
-    ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
-    ::dup2(::open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
-    ::dup2(STDOUT_FILENO, STDERR_FILENO);
-    for (int number = channel_inside; const int handle : passed) ::dup2(handle, number++);
-    ::close_range(static_cast<unsigned>(end), ~0u, 0);
-    ::execvp(arguments[0], arguments.data());
-    ::_exit(127);
-  }
-  for (const int handle : passed) ::close(handle);
-  if (id_ > 0) return;
-  ::close(channel_);
-  throw UsageError("no further process can be started: end others");
+  const int error = ::posix_spawnp(&id_, arguments[0], &actions, &own_group, arguments.data(), environ);
+  ::posix_spawnattr_destroy(&own_group);
+  ::posix_spawn_file_actions_destroy(&actions);
+  ::close(ends[1]);
+  for (const int handle : inside) ::close(handle);
+  if (error != 0) id_ = 0;
+  if (error == EAGAIN) throw UsageError("no further process can be started: end others");
+  if (error != 0) refuse(error);
 }
 
 Process::~Process() {
-  for (const int all : {id_, -id_}) ::kill(all, SIGKILL);  // it, and its group
-  ::waitpid(id_, nullptr, 0);
-  ::close(channel_);
+  if (id_ > 0) {
+    for (const int all : {id_, -id_}) ::kill(all, SIGKILL);  // it, and its group
+    ::waitpid(id_, nullptr, 0);
+  }
+  end_input();
+  if (errors_ >= 0) ::close(errors_);
+}
+
+bool Process::send(std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const auto sent = ::send(channel_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(sent));
+  }
+  return true;
+}
+
+void Process::end_input() {
+  if (channel_ >= 0) ::close(std::exchange(channel_, -1));
+}
+
+bool Process::finish() {
+  end_input();
+  const auto latest = std::chrono::steady_clock::now() + std::chrono::seconds(timeout_seconds);
+  for (; !end(); std::this_thread::sleep_for(std::chrono::milliseconds(10)))
+    if (std::chrono::steady_clock::now() > latest) return false;
+  const siginfo_t found = look_at(id_);
+  return found.si_code == CLD_EXITED && found.si_status == 0;
+}
+
+std::string Process::errors() const {
+  struct stat file {};
+  ::fstat(errors_, &file);
+  std::string text(static_cast<std::size_t>(file.st_size), '\0');
+  const auto length = ::pread(errors_, text.data(), text.size(), 0);
+  text.resize(length > 0 ? static_cast<std::size_t>(length) : 0);
+  return text;
 }
 
 std::optional<std::string> Process::end() const {
-  siginfo_t found{};
-  // It stays a zombie until the destructor: no other process can get its number before.
-  if (::waitid(P_PID, static_cast<id_t>(id_), &found, WEXITED | WNOHANG | WNOWAIT) != 0 || found.si_pid == 0)
-    return std::nullopt;
+  const siginfo_t found = look_at(id_);
+  if (found.si_pid == 0) return std::nullopt;
   if (found.si_code == CLD_EXITED) return "ended itself with status " + std::to_string(found.si_status);
   const char* name = ::sigabbrev_np(found.si_status);
   return std::string("ended by signal SIG") + (name ? name : "") + " (" + ::strsignal(found.si_status) + ")";
@@ -168,8 +233,14 @@ namespace app {
 
 SharedMemory::SharedMemory(std::size_t) { throw UsageError("methods of your own need Linux"); }
 SharedMemory::~SharedMemory() = default;
-Process::Process(std::vector<std::string>, const std::vector<int>&, const std::filesystem::path&) {}
+Process::Process(std::vector<std::string>, int, const std::vector<int>&) {
+  throw std::system_error(std::make_error_code(std::errc::no_such_file_or_directory));
+}
 Process::~Process() = default;
+bool Process::send(std::span<const std::byte>) { return false; }
+void Process::end_input() {}
+bool Process::finish() { return false; }
+std::string Process::errors() const { return {}; }
 std::optional<std::string> Process::end() const { return "not started"; }
 void send(int, std::span<const std::byte>) {}
 bool receive(int, std::span<std::byte>, int) { return false; }

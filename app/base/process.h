@@ -3,7 +3,6 @@
 // can be started.
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,20 +27,31 @@ class SharedMemory {
   std::span<std::byte> bytes_;
 };
 
-/// Another process, which reads no input and has no other handles than it is given.
+/// Another program that this one starts: ffmpeg, a compiler, a guest. It has no other handles than it is given.
 class Process {
  public:
   static constexpr int channel_inside = 3, first_handle = 4;
   static constexpr const char* this_program = "/proc/self/exe";
 
-  /// words: the program and its arguments. handles: have the numbers from first_handle on inside. output: the file for
-  /// what it prints. Throws UsageError.
-  Process(std::vector<std::string> words, const std::vector<int>& handles,
-          const std::filesystem::path& output = "/dev/null");
+  /// words: the program, which is found in $PATH, and its arguments. output: an open file for its standard output; -1:
+  /// that goes where its errors go. Throws UsageError, or std::system_error, with std::errc::no_such_file_or_directory
+  /// if there is no such program.
+  /// Without handles it reads what send() sends, and its errors are kept. With handles, which have the numbers from
+  /// first_handle on inside, it exchanges messages by a channel; it reads nothing, and its errors are lost.
+  Process(std::vector<std::string> words, int output, const std::vector<int>& handles = {});
   /// Ends it, and what it has started.
   ~Process();
   Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
 
+  /// Returns false if the program reads no more. No signal tells of it.
+  bool send(std::span<const std::byte> bytes);
+  /// Lets it read the end of its input.
+  void end_input();
+  /// Ends the input and waits for the program. Returns true if it reports success.
+  bool finish();
+  /// Returns what it has printed on its standard error.
+  std::string errors() const;
   /// The end of the channel whose other end is channel_inside.
   int channel() const { return channel_; }
   /// Returns how it ended: "ended by signal SIGSEGV (Segmentation fault)", "ended itself with status 0"; nothing while
@@ -49,7 +59,9 @@ class Process {
   std::optional<std::string> end() const;
 
  private:
-  int id_ = 0, channel_ = -1;
+  Process() = default;
+
+  int id_ = 0, channel_ = -1, errors_ = -1;
 };
 
 /// Sends a message, which is lost if nobody has the other end. Messages arrive whole and in order.

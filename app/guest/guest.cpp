@@ -11,6 +11,7 @@
 #include <random>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -78,13 +79,19 @@ std::string compile(const Language& language, const fs::path& source, const fs::
     words.emplace_back(word);
   const std::string library = folder / "guest.so";
   words.insert(words.end(), {"-I" + folder.string(), fs::absolute(source).string(), "-o", library, "-lm"});
-  Process process(words, {}, folder / "printed");
-  for (int waits = 0; !process.end(); ++waits) {
-    if (waits == 12'000 || guest.stopped()) return "compiling took more than a minute";
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  std::string printed;
+  try {
+    Process process(words, -1);
+    process.end_input();
+    for (int waits = 0; !process.end(); ++waits) {
+      if (waits == 12'000 || guest.stopped()) return "compiling took more than a minute";
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    printed = process.errors();
+  } catch (const std::system_error&) {  // there is no such program
   }
   if (fs::exists(library)) return {};
-  errors = contents(folder / "printed");
+  errors = printed;
   if (errors.empty()) return words.front() + ": cannot be started: install a compiler, or set $" + language.variable;
   return "does not compile: " + first_error(errors);
 }

@@ -111,7 +111,7 @@ void run_if_guest(int count, char** arguments) {
 GuestProcess::GuestProcess(const Guest& guest, const SharedMemory& library, std::size_t words)
     : guest_(guest),
       memory_(bytes_of_pairs + sizeof(std::uint32_t) * words),
-      process_({Process::this_program, std::string(guest_argument)}, {library.handle(), memory_.handle()}),
+      process_({Process::this_program, std::string(guest_argument)}, -1, {library.handle(), memory_.handle()}),
       introduction_(reply(max_loading)) {}
 
 std::span<std::uint32_t> GuestProcess::frame() const {

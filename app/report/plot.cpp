@@ -12,7 +12,7 @@
 
 #include <fmt/core.h>
 
-#include "app/base/piped_program.h"
+#include "app/base/process.h"
 
 namespace app::report {
 namespace {
@@ -27,7 +27,7 @@ std::string literal(std::string_view text) {
 /// Makes gnuplot write to the file what the script draws. Returns false if gnuplot reports an error.
 bool run_gnuplot(const std::string& script, std::FILE* out) {
   try {
-    PipedProgram gnuplot({"gnuplot", "-"}, ::fileno(out));
+    Process gnuplot({"gnuplot", "-"}, ::fileno(out));
     return gnuplot.send(std::as_bytes(std::span(script))) && gnuplot.finish();
   } catch (const std::system_error&) {
     throw std::runtime_error("gnuplot cannot be started; install gnuplot-nox");

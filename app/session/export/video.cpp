@@ -9,7 +9,7 @@
 
 #include <fmt/core.h>
 
-#include "app/base/piped_program.h"
+#include "app/base/process.h"
 #include "app/base/usage_error.h"
 #include "app/files/output_file.h"
 #include "app/session/export/frame_writers.h"
@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 namespace {
 
 /// video: the file to write. Throws UsageError if there is no ffmpeg.
-std::unique_ptr<PipedProgram> start_ffmpeg(std::vector<std::string> words, int video) {
+std::unique_ptr<Process> start_ffmpeg(std::vector<std::string> words, int video) {
   try {
-    return std::make_unique<PipedProgram>(std::move(words), video);
+    return std::make_unique<Process>(std::move(words), video);
   } catch (const std::system_error& error) {
     if (error.code() == std::errc::no_such_file_or_directory)
       throw UsageError(
@@ -73,14 +73,16 @@ class VideoWriter : public FrameWriter {
   }
 
   [[noreturn]] void fail() {
-    const std::string why = ffmpeg_->last_error_line();
+    std::string why = ffmpeg_->errors();
+    while (why.ends_with('\n')) why.pop_back();
+    why.erase(0, why.rfind('\n') + 1);
     throw UsageError(file_.string() + ": ffmpeg has failed: " + (why.empty() ? "it does not say why" : why));
   }
 
   fs::path file_;
   int width_ = 0, height_ = 0;
   std::optional<files::OutputFile> output_;
-  std::unique_ptr<PipedProgram> ffmpeg_;  // after output_, because it ends first
+  std::unique_ptr<Process> ffmpeg_;  // after output_, because it ends first
 };
 
 }  // namespace

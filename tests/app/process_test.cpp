@@ -1,4 +1,4 @@
-#include "app/base/piped_program.h"
+#include "app/base/process.h"
 
 #include <gtest/gtest.h>
 
@@ -24,22 +24,22 @@ class ProcessTest : public testing::Test {
 
 TEST_F(ProcessTest, ReadsAllThatItIsSent) {
   const std::string text(1 << 20, 'x');  // more than a socket holds
-  PipedProgram cat({"cat"}, descriptor);
+  Process cat({"cat"}, descriptor);
   EXPECT_TRUE(cat.send(std::as_bytes(std::span(text))));
   EXPECT_TRUE(cat.finish());
   EXPECT_TRUE(output() == text);
-  EXPECT_EQ(cat.last_error_line(), "");
+  EXPECT_EQ(cat.errors(), "");
 }
 
 TEST_F(ProcessTest, SaysThatItFailedAndItsLastErrorLine) {
-  PipedProgram shell({"sh", "-c", "echo first >&2; echo second line >&2; exit 1"}, descriptor);
+  Process shell({"sh", "-c", "echo first >&2; echo second line >&2; exit 1"}, descriptor);
   EXPECT_FALSE(shell.finish());
-  EXPECT_EQ(shell.last_error_line(), "second line");
+  EXPECT_EQ(shell.errors(), "first\nsecond line\n");
   EXPECT_FALSE(shell.finish());
 }
 
 TEST_F(ProcessTest, IsNoLongerSentToOnceItHasEnded) {
-  PipedProgram shell({"true"}, descriptor);
+  Process shell({"true"}, descriptor);
   const std::string text = "more";
   while (shell.send(std::as_bytes(std::span(text)))) continue;
   EXPECT_TRUE(shell.finish());
@@ -47,7 +47,7 @@ TEST_F(ProcessTest, IsNoLongerSentToOnceItHasEnded) {
 
 TEST_F(ProcessTest, RefusesAProgramThatIsNotThere) {
   try {
-    PipedProgram nothing({"no-such-program"}, descriptor);
+    Process nothing({"no-such-program"}, descriptor);
     ADD_FAILURE();
   } catch (const std::system_error& error) {
     EXPECT_EQ(error.code(), std::errc::no_such_file_or_directory);
