@@ -132,7 +132,8 @@ void Guest::load() {
       std::ranges::copy(std::as_bytes(std::span(bytes)), library->bytes().begin());
       const Reply guest = GuestProcess(*this, *library, 0).introduction();
       lock.lock();  // whoever finds the row waits for the build
-      if (!method_) add_row(guest);
+      build->name = guest.name.data(), build->summary = guest.summary.data();
+      if (!method_) add_row(guest.key.data(), *build);
       build->library = library;
     }
   } catch (const std::exception& error) {
@@ -144,8 +145,8 @@ void Guest::load() {
 }
 
 /// Throws std::runtime_error if the guest cannot have a row.
-void Guest::add_row(const Reply& guest) {
-  const std::string own_key = guest.key.data(), own_name = guest.name.data(), summary = guest.summary.data();
+void Guest::add_row(const std::string& own_key, const Build& build) {
+  const std::string& own_name = build.name;
   const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '-'; };
   if (own_key.empty() || own_name.empty() || !std::ranges::all_of(own_key, fits))
     throw std::runtime_error("has the key \"" + own_key + "\" and the name \"" + own_name +
@@ -158,12 +159,27 @@ void Guest::add_row(const Reply& guest) {
   }
   collide::add_method({.key = key,
                        .name = name,
-                       .summary = summary,
-                       .description = summary + " From " + file_.filename().string() + ".",
+                       .summary = build.summary,
+                       .description = description(build),
                        .group = collide::MethodGroup::guests,
                        .exact = false,
                        .make = [self = shared_from_this()] { return make_detector(self); }});
   method_ = collide::find_method(key);
+}
+
+std::string Guest::description(const Build& build) const {
+  return build.summary + " From " + file_.filename().string() + ".";
+}
+
+void Guest::rename() const {
+  const auto now = build();
+  if (!method_ || now->name.empty()) return;
+  auto& own = const_cast<collide::Method&>(*method_);  // what is made while the program runs is no constant
+  const auto is_taken = [&](const collide::Method& row) { return &row != &own && row.name == own.name; };
+  own.name = now->name;
+  for (int number = 2; std::ranges::any_of(collide::method_table(), is_taken); ++number)
+    own.name = now->name + " " + std::to_string(number);
+  own.summary = now->summary, own.description = description(*now);
 }
 
 std::shared_ptr<Guest> open(const fs::path& file) {

@@ -25,6 +25,7 @@ struct Build {
   std::shared_ptr<const SharedMemory> library;
   std::string problem;  // why there is no guest in it, in one line that names the file; else empty
   std::string errors;   // of the compiler, all lines; else empty
+  std::string name, summary;
 };
 
 /// A file with a method, in a shared_ptr. Its members may be called from any thread.
@@ -39,6 +40,8 @@ class Guest : public std::enable_shared_from_this<Guest> {
   /// Compiles the file if it is a source, and loads it. The first method that is found in it joins the table of
   /// methods, with the key "guest:KEY", and a number behind it if it is taken. Takes seconds. Throws nothing.
   void load();
+  /// Gives its row the name and the summary of the latest build. Nobody else may read the table's texts meanwhile.
+  void rename() const;
   /// Returns the latest build; null before the first load().
   std::shared_ptr<const Build> build() const;
   /// Returns its row in the table of methods; nullptr before it has one.
@@ -50,7 +53,8 @@ class Guest : public std::enable_shared_from_this<Guest> {
 
  private:
   std::int64_t stamp() const;
-  void add_row(const struct Reply& guest);
+  std::string description(const Build& build) const;
+  void add_row(const std::string& own_key, const Build& build);
 
   std::filesystem::path file_;
   std::atomic<const collide::Method*> method_ = nullptr;

@@ -9,7 +9,7 @@
 namespace app {
 namespace THIS_FILE {
 
-std::string loop(const std::string& condition) {
+std::string loop(const std::string& condition, const std::string& name = "Loop") {
   return "#include <sbcollide/method.h>\n"
          "static void find(void* self, const sbcollide_frame* f, float h, sbcollide_pairs* pairs) {\n"
          "  (void)self;\n"
@@ -21,8 +21,9 @@ std::string loop(const std::string& condition) {
          ") sbcollide_add(pairs, a, b);\n"
          "    }\n"
          "}\n"
-         "static const sbcollide_method m = {SBCOLLIDE_METHOD_VERSION, \"loop\", \"Loop\", \"All pairs.\", 0, find, "
-         "0};\n"
+         "static const sbcollide_method m = {SBCOLLIDE_METHOD_VERSION, \"loop\", \"" +
+         name + "\", \"All " + name +
+         ".\", 0, find, 0};\n"
          "SBCOLLIDE_GUEST const sbcollide_method* sbcollide_guest(void) { return &m; }\n";
 }
 const std::string right = "x * x + y * y + z * z < h * h", false_one = "x * x < h * h", endless = "(b = 0)";
@@ -68,8 +69,10 @@ TEST(Guests, AreAskedForShownMendedAndComparedButDriveNothing) {
   window::PreferencesFile read(kept);
   EXPECT_EQ(read.store(read.stored(), 0, true), "") << "the key of a guest would be no key of TOML";
 
-  write(false_one);
+  folder.write("loop.c", loop(false_one, "k-d tree"));
   ASSERT_TRUE(rig.frames_until([&] { return row() && row()->precision < 1; }));
+  EXPECT_EQ(collide::method_table()[before].name, "k-d tree 2");
+  EXPECT_EQ(collide::method_table()[before].summary, "All k-d tree.");
   write(endless);
   ASSERT_TRUE(rig.frames_until([&] { return !not_run().empty(); }));
   EXPECT_EQ(not_run(), "not run: loop.c: over its time: 2 s");

@@ -30,6 +30,7 @@ void Guests::answer(bool run) {
 std::optional<std::size_t> Guests::update() {
   if (loading_) {
     if (!loader_.take()) return std::nullopt;
+    loading_->rename();
     if (const collide::Method* method = std::exchange(loading_, nullptr)->method())
       return static_cast<std::size_t>(method - collide::method_table().data());
   }
