@@ -195,14 +195,20 @@ void print_heading(const SequenceTask& task, std::string_view method, const std:
   for (const std::string& note : notes) std::cout << "note: " << note << '\n';
 }
 
+/// Returns a count of a method; that of a guest is not known.
+std::string count_text(const collide::Method& method, std::uint64_t count) {
+  return method.can_drive() ? std::to_string(count) : "-";
+}
+
 void print_table(const SequenceTask& task, const MethodRun& run) {
   print_heading(task, run.method->name, notes_for(*run.method, task));
   std::cout << "  frame     ms min  ms median   contacts       self     pair tests       hashes      boxes\n";
   for (std::size_t f = 0; f < run.rows.size(); ++f) {
     const DetectRow& r = run.rows[f];
-    std::cout << fmt::format("{:7} {:10.3f} {:10.3f} {:10} {:10} {:14} {:12} {:10}\n", f, r.times.min(),
-                             r.times.median(), r.contacts, r.self_contacts, r.counters.pair_tests, r.counters.hashes,
-                             r.counters.boxes);
+    const auto counted = [&](std::uint64_t count) { return count_text(*run.method, count); };
+    std::cout << fmt::format("{:7} {:10.3f} {:10.3f} {:10} {:10} {:>14} {:>12} {:>10}\n", f, r.times.min(),
+                             r.times.median(), r.contacts, r.self_contacts, counted(r.counters.pair_tests),
+                             counted(r.counters.hashes), counted(r.counters.boxes));
   }
 }
 
@@ -227,9 +233,9 @@ void print_table(const SequenceTask& task, const MethodRuns& all) {
       continue;
     }
     const Totals sum = totals_of(task, run.rows);
-    std::cout << fmt::format("{:28} {:10} {:>8} {:>9} {:12.3f} {:15} {:14}\n", run.method->key, sum.contacts,
-                             share(sum.recall), share(sum.precision), sum.ms / double(run.rows.size()), sum.pair_tests,
-                             sum.hashes);
+    std::cout << fmt::format("{:28} {:10} {:>8} {:>9} {:12.3f} {:>15} {:>14}\n", run.method->key, sum.contacts,
+                             share(sum.recall), share(sum.precision), sum.ms / double(run.rows.size()),
+                             count_text(*run.method, sum.pair_tests), count_text(*run.method, sum.hashes));
     for (const auto& [kind, pair] : {std::pair("missed", sum.first_missed), std::pair("false", sum.first_false)})
       if (pair)
         std::cout << fmt::format("  first {}: vertices {} and {} in frame {}, {:.6g} m apart\n", kind, pair->vertex_a,
@@ -242,7 +248,11 @@ void print_table(const SequenceTask& task, const MethodRuns& all) {
 void detect(const Options& options) {
   if (options.detect.continuous) return detect_continuous(options);
   const bool compares = options.detection.method == all_methods;
-  const collide::Method* method = compares ? nullptr : &chosen_method(options.detection, collide::default_method);
+  if (options.guests.size() > 1 && !options.detection.method)
+    throw UsageError("--guest: is there more than once; name one by --method, or all with --method all");
+  const std::string_view otherwise =
+      options.guests.empty() ? collide::default_method : collide::method_table().back().key;
+  const collide::Method* method = compares ? nullptr : &chosen_method(options.detection, otherwise);
   if (compares && options.detect.contacts)
     throw UsageError("--contacts " + options.detect.contacts->string() +
                      ": has the contacts of one method; name it with --method");

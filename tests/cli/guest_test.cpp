@@ -31,6 +31,14 @@ TEST_F(DetectGuest, FindsTheContactsAndPrintsNothing) {
   EXPECT_GT(printing["frames"][0]["contacts"], 0);
 }
 
+TEST_F(DetectGuest, RunsAloneUnlessAMethodIsNamed) {
+  const Words one{"detect", mesh, "--tolerance", "0.07", "--guest", guest};
+  EXPECT_EQ(json::parse(run(with(one, {"--json"})).out)["method"], "guest:hostile");
+  const std::string table = run(one).out;
+  EXPECT_NE(table.find("  -            -          -\n"), std::string::npos) << "counts that nobody knows: " << table;
+  expect_refused(with(one, {"--guest", guest}), {"--guest: ", "name one by --method"});
+}
+
 TEST_F(DetectGuest, IsComparedWithAllOthers) {
   const json right = detect({mesh, "--guest", guest, "--guest", guest, "--tolerance", "0.07", "--method", "all"});
   for (const char* key : {"guest:hostile", "guest:hostile-2"}) {

@@ -187,8 +187,9 @@ void ask_for_pair(Widgets& w, const Row& row, WindowTask pair) {
 
 void draw_score(Widgets& w, const Session& session, const Grid& grid, const Row& row) {
   const compare::CompareRow& found = *row.measured;
-  grid.text(tests, grouped(found.counters.pair_tests));
-  grid.text(hashes, grouped(found.counters.hashes), found.counters.hashes == 0);
+  const bool counts = row.method.can_drive();
+  grid.text(tests, counts ? grouped(found.counters.pair_tests) : "-", !counts);
+  grid.text(hashes, counts ? grouped(found.counters.hashes) : "-", found.counters.hashes == 0);
   grid.text(contacts, grouped(found.contacts));
   const StatusLight light = status_light(found.coverage);
   ImGui::SetCursorScreenPos({grid.left[recall] + w.px(4), grid.text_top()});

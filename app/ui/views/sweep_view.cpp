@@ -26,14 +26,17 @@ std::string configuration_text(const compare::Configuration& c) {
 
 std::string point_tooltip(const compare::SweepRow& row) {
   const glm::vec3& cell = *row.configuration.settings.cell_size;
-  const bool hashes = collide::method_table()[row.configuration.method].uses_hash;
+  const collide::Method& method = collide::method_table()[row.configuration.method];
   return fmt::format(
       "{}{}\n{:.4g} ms: median of {}, smallest {:.4g}\nRecall {:.4f}, precision {:.4f}; {} contact{} missed\n"
-      "{} pair tests, {} hashes\nAbout {} KiB of memory\n{}\nClick to use these settings.",
+      "{}About {} KiB of memory\n{}\nClick to use these settings.",
       configuration_text(row.configuration),
-      hashes ? fmt::format("\nCells of {:.3g} x {:.3g} x {:.3g} m", cell.x, cell.y, cell.z) : "", row.times.median(),
-      row.times.ms.size(), row.times.min(), rounded_down(row.recall), rounded_down(row.precision), grouped(row.missed),
-      row.missed == 1 ? "" : "s", grouped(row.counters.pair_tests), grouped(row.counters.hashes),
+      method.uses_hash ? fmt::format("\nCells of {:.3g} x {:.3g} x {:.3g} m", cell.x, cell.y, cell.z) : "",
+      row.times.median(), row.times.ms.size(), row.times.min(), rounded_down(row.recall), rounded_down(row.precision),
+      grouped(row.missed), row.missed == 1 ? "" : "s",
+      method.can_drive()
+          ? fmt::format("{} pair tests, {} hashes\n", grouped(row.counters.pair_tests), grouped(row.counters.hashes))
+          : "",
       grouped(row.memory / 1024), status_light(row.coverage).sentence);
 }
 
