@@ -191,6 +191,7 @@ TEST_F(AddOverlaysTest, MarkOnlyTheDeepestVertexOfAPairByALine) {
 }
 
 TEST_F(AddOverlaysTest, MarkWhatIsHeldAsLongAsItIs) {
+  request_.shown = {};
   for (const std::size_t marks : {1u, 0u}) {
     world_.switch_hold(1, 5);
     frame_.points.clear();
