@@ -209,7 +209,6 @@ TEST_P(Holds, CarryBodiesByBothContacts) {
 
 /// The sphere lies between the vertices of a sheet of one quad that is held at all but a corner.
 TEST_P(Holds, BookWhatTheyDoAgainstSolids) {
-  if (std::string(GetParam()) == "implicit") return;  // its solids do not book it
   Scene s = sheet({edge(-0.5), {.where = SolidSphere{.centre = {0.5, 0, 0.5}, .radius = 0.1}}});
   for (Hold& hold : s.bodies[0].holds) hold.velocity = {0, -0.5, 0};
   s.bodies[0].mesh.columns = s.bodies[0].mesh.rows = 1;
@@ -240,7 +239,8 @@ TEST_P(Holds, GoOnFromASnapshotToTheBit) {
 
 TEST(HoldsOfAScene, ThatHoldNothingAreNamed) {
   Scene s = sheet({edge(-0.5), edge(5)});
-  expect_error("hold[1] of the body at [0, 0, 0] holds no vertex", [&] { World(s, {}); });
+  expect_error("hold[1] of the body at [0, 0, 0] holds no vertex; put it where the body, and each copy of a lattice,",
+               [&] { World(s, {}); });
   s.bodies[0].appear = 9;
   expect_error("hold[1]", [&] { World(s, {}); });
   World w(sheet({}), {});

@@ -7,6 +7,7 @@
 
 #include "softbody/contact/law.h"
 #include "softbody/integrate/implicit/attempts.h"
+#include "softbody/integrate/implicit/planes.h"
 #include "softbody/integrate/implicit/step_contacts.h"
 
 namespace softbody {
@@ -65,7 +66,11 @@ void add_solid_impulses(const ImplicitStep& step, const ImplicitBodies& bodies, 
     const double before = glm::dot(whole + step.axes.leave(own, of_point(bodies.v) - whole), c.normal);
     const double after = glm::dot(of_point(bodies.end_v), c.normal);
     result.solids.returned[lane] += float(law::bounce_energy(step.h * push, before, after, c.restitution));
-    result.solids.energy[lane] += float(push * c.out());
+    double work = push * c.out();  // J, with that of who holds corners of a face or an edge
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const std::size_t at = c.point.at[k]; is_held(bodies, at))
+        work -= c.point.weight[k] * glm::dot(c.force, read(bodies.end_x, at) - read(bodies.x, at));
+    result.solids.energy[lane] += float(work);
   }
 }
 

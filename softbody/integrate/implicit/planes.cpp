@@ -1,5 +1,7 @@
 #include "softbody/integrate/implicit/planes.h"
 
+#include <algorithm>
+
 #include <glm/geometric.hpp>
 
 namespace softbody {
@@ -12,6 +14,10 @@ double missing(const ImplicitBodies& bodies, const PlaneContact& c) {
 }
 
 }  // namespace
+
+bool is_held(const ImplicitBodies& bodies, std::size_t at) {
+  return bodies.holds[at % implicit_lanes] && std::ranges::count(bodies.held, at, &HeldEnd::at) > 0;
+}
 
 LaneMask behind_planes(const ImplicitBodies& bodies) {
   LaneMask behind;
@@ -28,9 +34,12 @@ void clear_planes(ImplicitBodies& bodies, LaneMask which, double h) {
       const double by = missing(bodies, c);
       if (!which[c.point.lane()] || !(by > 0)) continue;
       any = true;
-      const glm::dvec3 move = by / c.point.square_of_weights() * c.normal;
-      c.point.add_to(bodies.end_x, move);
-      c.point.add_to(bodies.end_v, move / h);
+      BodyPoint free = c.point;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (is_held(bodies, free.at[k])) free.weight[k] = 0;
+      const glm::dvec3 move = by / free.square_of_weights() * c.normal;
+      free.add_to(bodies.end_x, move);
+      free.add_to(bodies.end_v, move / h);
     }
   }
 }

@@ -36,6 +36,9 @@ glm::dvec3 stop_at(std::span<const PlaneContact> planes, std::size_t lane, doubl
   return shift;
 }
 
+/// Returns true if something holds a particle. at: particle * implicit_lanes + lane
+bool is_held(const ImplicitBodies& bodies, std::size_t at);
+
 /// Returns the lanes in which a point ends behind one of its planes.
 LaneMask behind_planes(const ImplicitBodies& bodies);
 

@@ -8,6 +8,7 @@
 
 #include "softbody/contact/law.h"
 #include "softbody/contact/solid_shapes.h"
+#include "softbody/integrate/implicit/planes.h"
 
 namespace softbody {
 namespace {
@@ -50,6 +51,7 @@ LaneMask find_planes(const ImplicitBatch& b, const MovingAxes& axes, ImplicitBod
   LaneMask in_contact;
   bodies.planes.clear();
   const auto add_plane = [&](const PlaneContact& c) {
+    if (c.point.mean([&](std::size_t at) { return is_held(bodies, at) ? 0.0 : 1.0; }) == 0) return;
     const glm::dvec3 meant = c.point.mean(
         [&](std::size_t at) { return axes.free_displacement(c.point.lane(), read(bodies.x, at), read(bodies.v, at)); });
     if (glm::dot(meant, c.normal) < c.min_displacement) in_contact.set(c.point.lane());
@@ -61,7 +63,6 @@ LaneMask find_planes(const ImplicitBatch& b, const MovingAxes& axes, ImplicitBod
     for (const SolidArguments& s : b.near_solids) {
       if (!(s.near >> own & 1u)) continue;
       for (std::size_t at = lane; at < bodies.x.size() / 3; at += implicit_lanes) {
-        if (bodies.holds[lane] && std::ranges::count(bodies.held, at, &HeldEnd::at) > 0) continue;
         const SurfaceAt<double> surface = surface_from(s, own, read(bodies.x, at));
         const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
         add_plane(
