@@ -35,14 +35,12 @@ class FeatureBatch {
   void clear() { size_ = 0; }
   Index size() const { return size_; }
   bool full() const { return size_ == capacity; }
-  /// Adds a pair. tag: any number by which the caller identifies it. counts: else it is left out, without a branch.
-  /// Precondition: not full().
-  void add(const std::array<glm::vec3, 4>& corners, Index tag, bool counts = true) {
+  /// Adds a pair. tag: any number by which the caller identifies it. Precondition: not full().
+  void add(const std::array<glm::vec3, 4>& corners, Index tag) {
     assert(!full());
     for (std::size_t k = 0; k < 4; ++k)
       for (int axis = 0; axis < 3; ++axis) corner_[k][static_cast<std::size_t>(axis)][size_] = corners[k][axis];
-    tag_[size_] = tag;
-    size_ += counts;
+    tag_[size_++] = tag;
   }
 
   /// Find the closest points of all pairs, as vertices and faces or as edges.

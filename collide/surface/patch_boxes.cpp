@@ -69,19 +69,20 @@ HWY_INLINE Index list_patches(const Reach& reach, const PatchBoxes& boxes, Index
 }
 
 void FindOverlaps(const PatchBoxes& a, Index group, const glm::vec3& move_lo, const glm::vec3& move_hi,
-                  const PatchBoxes& b, OverlapSearch& own) {
-  const bool within = &a == &b;
+                  const PatchBoxes& b, const JoinedPairs* joined, OverlapSearch& own) {
+  static constexpr std::array<std::uint64_t, 4> none{};
+  const bool one_list = &a == &b;
   own.groups.resize(b.groups() + lanes);
   ListWriter list(own.groups.data());
   const Reach of_group(a.group, group, move_lo, move_hi);
-  for (Index first = within ? group : 0; first < b.groups(); first += lanes)
+  for (Index first = one_list ? group : 0; first < b.groups(); first += lanes)
     list.add(of_group.meets(b.group, first), first, 0);
   own.groups.resize(list.size());
   own.patches.resize(list.size() * size + 1);
   own.rows.resize(list.size() * size);
   for (Index patch = group * size; patch < std::min(a.patches(), (group + 1) * size); ++patch) {
     const Reach of_patch(a.patch, patch, move_lo, move_hi);
-    const Index count = list_patches(of_patch, b, within ? patch : 0, own);
+    const Index count = list_patches(of_patch, b, one_list ? patch : 0, own);
     for (Index k = 0; k < size && count != 0; ++k) {
       const Reach of_feature(a.feature, patch * size + k, move_lo, move_hi);
       for (Index n = 0; n < count; ++n) {
@@ -94,15 +95,15 @@ void FindOverlaps(const PatchBoxes& a, Index group, const glm::vec3& move_lo, co
     if (own.overlaps.size() <= own.used + count * std::size_t{4})
       own.overlaps.resize(2 * own.used + count * std::size_t{4} + 1);
     OverlapSearch::Overlaps* to = &own.overlaps[own.used];
+    Index at = joined ? joined->first[patch] : 0;
+    const Index end = joined ? joined->first[patch + std::size_t{1}] : 0;
     for (Index n = 0; n < count; ++n) {
       const Index other = own.patches[n];
+      while (at < end && joined->patches[at].other < other) ++at;
+      const auto& left_out = at < end && joined->patches[at].other == other ? joined->patches[at].pairs : none;
       for (Index k = 0; k < size; k += 4) {
-        const auto row = [&](Index i) {
-          const std::uint64_t later =
-              within && other == patch ? ~((std::uint64_t{2} << (k + i)) - 1) : ~std::uint64_t{0};
-          return (own.rows[n][k + i] & later & 0xffff) << (i * size);
-        };
-        const std::uint64_t bits = row(0) | row(1) | row(2) | row(3);
+        const auto row = [&](Index i) { return std::uint64_t{own.rows[n][k + i]} << (i * size); };
+        const std::uint64_t bits = (row(0) | row(1) | row(2) | row(3)) & ~left_out[k / 4];
         *to = {patch * size + k, other * size, bits};
         to += bits != 0;  // without a branch
         own.found += hwy::PopCount(bits);
@@ -140,11 +141,21 @@ void PatchBoxes::fill(const FeaturePatches& patches_of_features, const Columns& 
   HWY_DYNAMIC_DISPATCH(JoinBoxes)(*this);
 }
 
+void OverlapSearch::find_between(const PatchBoxes& a, const glm::vec3& move_lo, const glm::vec3& move_hi,
+                                 const PatchBoxes& b, std::size_t max_pairs) {
+  find(a, move_lo, move_hi, b, nullptr, max_pairs);
+}
+
+void OverlapSearch::find_within(const PatchBoxes& a, const PatchBoxes& b, const JoinedPairs& joined,
+                                std::size_t max_pairs) {
+  find(a, glm::vec3(0.0f), glm::vec3(0.0f), b, &joined, max_pairs);
+}
+
 void OverlapSearch::find(const PatchBoxes& a, const glm::vec3& move_lo, const glm::vec3& move_hi, const PatchBoxes& b,
-                         std::size_t max_pairs) {
+                         const JoinedPairs* joined, std::size_t max_pairs) {
   used = found = 0;
   for (Index group = 0; group < a.groups(); ++group) {
-    HWY_DYNAMIC_DISPATCH(FindOverlaps)(a, group, move_lo, move_hi, b, *this);
+    HWY_DYNAMIC_DISPATCH(FindOverlaps)(a, group, move_lo, move_hi, b, joined, *this);
     if (found > max_pairs)
       throw std::length_error("more than " + std::to_string(max_pairs) +
                               " boxes of surface features overlap: move bodies apart or remove some");

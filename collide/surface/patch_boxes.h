@@ -28,11 +28,13 @@ struct PatchBoxes {
 /// Keeps its memory from call to call.
 class OverlapSearch {
  public:
-  /// Lists each pair of overlapping boxes once: a feature of a and one of b, or two of one list if a and b are the
-  /// same. Boxes are closed: two that only touch overlap. The pairs are in no particular order. move_lo, move_hi: m,
-  /// added to the corners of the boxes of a. Throws std::length_error if there are more than max_pairs.
-  void find(const PatchBoxes& a, const glm::vec3& move_lo, const glm::vec3& move_hi, const PatchBoxes& b,
-            std::size_t max_pairs);
+  /// Lists each pair of overlapping boxes once: a feature of a and one of b. Boxes are closed: two that only touch
+  /// overlap. The pairs are in no particular order. move_lo, move_hi: m, added to the corners of the boxes of a. Throws
+  /// std::length_error if there are more than max_pairs.
+  void find_between(const PatchBoxes& a, const glm::vec3& move_lo, const glm::vec3& move_hi, const PatchBoxes& b,
+                    std::size_t max_pairs);
+  /// Does the same within a surface, without joined pairs. a and b may be the same.
+  void find_within(const PatchBoxes& a, const PatchBoxes& b, const JoinedPairs& joined, std::size_t max_pairs);
   std::size_t size() const { return found; }
   /// Calls visit(place in a, place in b) for each pair that was found last.
   template <class Visit>
@@ -53,6 +55,10 @@ class OverlapSearch {
   std::size_t used = 0, found = 0;
   std::vector<Index> groups, patches;                              // that are near
   std::vector<std::array<std::uint16_t, trees::patch_size>> rows;  // of each such patch, by feature
+
+ private:
+  void find(const PatchBoxes& a, const glm::vec3& move_lo, const glm::vec3& move_hi, const PatchBoxes& b,
+            const JoinedPairs* joined, std::size_t max_pairs);
 };
 
 }  // namespace collide::surface

@@ -11,7 +11,8 @@ namespace collide::surface {
 
 namespace {
 
-constexpr Index no_triangle = std::numeric_limits<Index>::max();
+constexpr Index none = std::numeric_limits<Index>::max();
+constexpr std::size_t most_joined = std::size_t{1} << 26;
 
 }  // namespace
 
@@ -33,13 +34,13 @@ Surface::Surface(Index vertex_count, std::vector<Triangle> triangles)
   std::set_union(up.begin(), up.end(), down.begin(), down.end(), std::back_inserter(edges_));
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
 
-  edge_triangles_.assign(edges_.size(), {no_triangle, no_triangle});
+  edge_triangles_.assign(edges_.size(), {none, none});
   for (Index t = 0; t < triangles_.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = triangles_[t][k], b = triangles_[t][(k + 1) % 3];
       const auto edge = std::lower_bound(edges_.begin(), edges_.end(), Edge{std::min(a, b), std::max(a, b)});
       auto& at = edge_triangles_[static_cast<std::size_t>(edge - edges_.begin())];
-      at = {at[0] == no_triangle ? t : at[0], t};
+      at = {at[0] == none ? t : at[0], t};
     }
   }
 
@@ -51,8 +52,44 @@ Surface::Surface(Index vertex_count, std::vector<Triangle> triangles)
   }
 }
 
+JoinedPairs::JoinedPairs(const FeaturePatches& ones, const FeaturePatches& twos, Index vertices) {
+  constexpr Index size = trees::patch_size;
+  const auto for_corners = [](const std::array<Index, 3>& corners, const auto& visit) {
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      if (k == 0 || corners[k] != corners[k - 1]) visit(corners[k]);
+  };
+  std::vector<std::vector<Index>> at(vertices);  // places in the second list
+  for (Index j = 0; j < twos.size(); ++j) for_corners(twos.corners[j], [&](Index v) { at[v].push_back(j); });
+  std::size_t pairs = 0;
+  std::vector<Index> listed(twos.size() / size + std::size_t{1}, none);  // by its patch: which of `patches` it is
+  for (Index begin = 0; begin < ones.size(); begin += size) {
+    const auto add = [&](Index i, Index j) {
+      Index& where = listed[j / size];
+      if (where == none) {
+        where = static_cast<Index>(patches.size());
+        patches.push_back({j / size, {}});
+      }
+      patches[where].pairs[(i - begin) / 4] |= std::uint64_t{1} << ((i - begin) % 4 * size + j % size);
+    };
+    for (Index i = begin; i < std::min(begin + size, ones.size()); ++i) {
+      for_corners(ones.corners[i], [&](Index v) {
+        for (const Index j : at[v])
+          if (&ones != &twos || j > i) add(i, j);
+        pairs += at[v].size();
+      });
+      if (pairs > most_joined)
+        throw std::length_error("a vertex has too many faces for contact of a surface with itself");
+      for (Index j = begin; j <= i && &ones == &twos; ++j) add(i, j);
+    }
+    const auto run = patches.begin() + first.back();
+    for (auto it = run; it != patches.end(); ++it) listed[it->other] = none;
+    std::sort(run, patches.end(), [](const Patch& a, const Patch& b) { return a.other < b.other; });
+    first.push_back(static_cast<Index>(patches.size()));
+  }
+}
+
 const SurfacePatches& Surface::patches(const VertexRun& at) const {
-  const auto cut = [&](std::size_t count, const auto& corners_of, FeaturePatches& patches) {
+  const auto cut = [&](FeaturePatches& patches, std::size_t count, const auto& corners_of) {
     std::vector<trees::Item> items;
     for (Index i = 0; i < count; ++i) {
       const Triangle c = corners_of(i);
@@ -65,24 +102,21 @@ const SurfacePatches& Surface::patches(const VertexRun& at) const {
       patches.corners.push_back(corners_of(item.number));
     }
   };
-  std::call_once(cut_->once, [&] {
+  std::call_once(cut_->patched, [&] {
     auto& [vertices, faces, edges] = cut_->patches;
-    cut(
-        vertex_count_,
-        [](Index v) {
-          return Triangle{v, v, v};
-        },
-        vertices);
-    cut(
-        triangles_.size(), [&](Index t) { return triangles_[t]; }, faces);
-    cut(
-        edges_.size(),
-        [&](Index e) {
-          return Triangle{edges_[e][0], edges_[e][1], edges_[e][1]};
-        },
-        edges);
+    cut(vertices, vertex_count_, [](Index v) { return Triangle{v, v, v}; });
+    cut(faces, triangles_.size(), [&](Index t) { return triangles_[t]; });
+    cut(edges, edges_.size(), [&](Index e) { return Triangle{edges_[e][0], edges_[e][1], edges_[e][1]}; });
   });
   return cut_->patches;
+}
+
+const SurfaceJoints& Surface::joints(const VertexRun& at) const {
+  std::call_once(cut_->joined, [&] {
+    const auto& [vertices, faces, edges] = patches(at);
+    cut_->joints = {{vertices, faces, vertex_count_}, {edges, edges, vertex_count_}};
+  });
+  return cut_->joints;
 }
 
 }  // namespace collide::surface

@@ -18,8 +18,28 @@ struct FeaturePatches {
 
   Index size() const { return static_cast<Index>(feature.size()); }
 };
+/// The pairs of a feature of one list and a feature of another, or of one list, that can never meet: those that share a
+/// vertex and, in one list, those of which the second one has the earlier place.
+class JoinedPairs {
+ public:
+  struct Patch {
+    Index other;                         // patch of the second list
+    std::array<std::uint64_t, 4> pairs;  // bit 16 i + j: feature i of the patch, feature j of the other one
+  };
+  JoinedPairs() = default;
+  /// Lists the pairs of two lists of a surface with so many vertices, or within one. Throws std::length_error if there
+  /// are more than 67 million.
+  JoinedPairs(const FeaturePatches& ones, const FeaturePatches& twos, Index vertices);
+
+  std::vector<Patch> patches;
+  std::vector<Index> first{0};  // by patch of the first list, and one more: of its run in `patches`, others ascending
+};
+
 struct SurfacePatches {
   FeaturePatches vertices, faces, edges;
+};
+struct SurfaceJoints {
+  JoinedPairs vertex_faces, edge_edges;
 };
 
 /// The triangles of a mesh. All bodies that are copies of one mesh share it. Immutable.
@@ -46,6 +66,8 @@ class Surface {
   bool closed() const { return closed_; }
   /// Returns the patches, which are cut where the vertices are when this is called first. Several threads may call it.
   const SurfacePatches& patches(const VertexRun& at) const;
+  /// Returns the joined pairs of these patches, for the same callers. Throws as JoinedPairs does.
+  const SurfaceJoints& joints(const VertexRun& at) const;
 
  private:
   Index vertex_count_;
@@ -55,8 +77,9 @@ class Surface {
   std::vector<Index> first_, triangles_at_;  // vertex_count + 1 offsets into triangles_at_
   bool closed_;
   struct Cut {
-    std::once_flag once;
+    std::once_flag patched, joined;
     SurfacePatches patches;
+    SurfaceJoints joints;
   };
   std::shared_ptr<Cut> cut_ = std::make_shared<Cut>();
 };

@@ -226,7 +226,7 @@ void SurfaceSearch::find_between(Thread& own, Index first, const PatchBoxes& box
   const SweptBody &a = swept_[first], &b = swept_[later];
   const float end = std::min(a.end(), b.end());
   const glm::vec3 now = a.drift(time_) - b.drift(time_), then = a.drift(end) - b.drift(end);
-  own.search.find(boxes, glm::min(now, then), glm::max(now, then), others, max_box_pairs);
+  own.search.find_between(boxes, glm::min(now, then), glm::max(now, then), others, max_box_pairs);
   own.work += own.search.size();
 }
 
@@ -235,14 +235,16 @@ void SurfaceSearch::find_within(Thread& own, Index index, const FeaturePatches& 
                                 const FeaturePatches& twos) const {
   const SweptBody& body = swept_[index];
   assert(body.begin() == time_);
+  const bool one_list = &ones == &twos;  // of edges
   const glm::vec3 far = glm::max(glm::abs(body.local_box().lo), glm::abs(body.local_box().hi));
   const float half = 0.5f * reach(index, index) + rounding_share * (far.x + far.y + far.z);
   own.rooms.clear();
   for (const MovingPoint& p : body.deforming_points())
     own.rooms.push_back(half + (body.end() - time_) * glm::length(p.velocity));
   own.ones.fill(ones, body.start(), body.start(), own.rooms);
-  if (&ones != &twos) own.twos.fill(twos, body.start(), body.start(), own.rooms);
-  own.search.find(own.ones, glm::vec3(0.0f), glm::vec3(0.0f), &ones == &twos ? own.ones : own.twos, max_box_pairs);
+  if (!one_list) own.twos.fill(twos, body.start(), body.start(), own.rooms);
+  const auto& [vertex_faces, edge_edges] = body.surface().joints(body.run());
+  own.search.find_within(own.ones, one_list ? own.ones : own.twos, one_list ? edge_edges : vertex_faces, max_box_pairs);
 }
 
 /// Returns the distance (m) within which features may be within 1.1 times their contact distance, as predicted.
@@ -307,15 +309,11 @@ void SurfaceSearch::add_reachable(Thread& own, Index a, Index b) const {
     const bool turn = a == b ? edges && twos.feature[second] < ones.feature[first] : b < a;
     const Index turned = (first ^ second) & (Index{0} - Index{turn}), i = first ^ turned, j = second ^ turned;
     const std::array<Index, 3>&c = ones.corners[i], &d = twos.corners[j];
-    bool apart = true;
     std::array<glm::vec3, 4> at;
-    for (std::size_t u = 0; u < corners_of_one; ++u) {
-      at[u] = p[c[u]].at;
-      for (std::size_t v = 0; v < corners_of_two; ++v) apart &= c[u] != d[v];
-    }
+    for (std::size_t u = 0; u < corners_of_one; ++u) at[u] = p[c[u]].at;
     for (std::size_t v = 0; v < corners_of_two; ++v) at[corners_of_one + v] = q[d[v]].at;
     places[own.batch.size()] = {i, j};
-    own.batch.add(at, 0, apart | (a != b));
+    own.batch.add(at, 0);
     if (own.batch.full()) add_batch();
   });
   add_batch();

@@ -8,6 +8,7 @@
 #include "collide/core/aabb.h"
 #include "collide/surface/pair_sort.h"
 #include "every_target.h"
+#include "surface_meshes.h"
 
 namespace collide::test {
 
@@ -15,6 +16,7 @@ using namespace collide::surface;
 namespace THIS_FILE {
 
 using Boxes = std::vector<Aabb>;
+constexpr std::size_t unlimited = ~std::size_t{0};
 
 /// A list of boxes, whose places have another order than their numbers. Each is grown by its room.
 struct List {
@@ -69,7 +71,10 @@ class OverlapSearchTest : public OnEveryTarget {
  protected:
   /// Returns the pairs of two lists, or within one if both are the same.
   std::vector<ItemPair> found(const List& a, const glm::vec3& move_lo, const glm::vec3& move_hi, const List& b) {
-    search_.find(a.boxes, move_lo, move_hi, b.boxes, ~std::size_t{0});
+    if (&a == &b)
+      search_.find_within(a.boxes, b.boxes, {a.features, a.features, a.features.size()}, unlimited);
+    else
+      search_.find_between(a.boxes, move_lo, move_hi, b.boxes, unlimited);
     std::vector<ItemPair> pairs;
     search_.for_each([&](Index one, Index two) {
       const Index i = a.features.feature[one], j = b.features.feature[two];
@@ -132,12 +137,43 @@ TEST_P(OverlapSearchTest, FindsThePairsOfTheLargestCoordinates) {
   }
 }
 
+/// All boxes overlap. The fan has a vertex of many patches of faces, and a body may be smaller than a patch.
+TEST_P(OverlapSearchTest, LeavesOutPairsWithinASurfaceThatShareAVertex) {
+  SurfaceMesh fan, face{random_points(random_, 3, 0, 1), {{0, 1, 2}}};
+  fan.vertices = random_points(random_, 101, 0, 1);
+  for (Index v = 1; v < 101; ++v) fan.triangles.push_back({0, v, v % 100 + 1});
+  for (const SurfaceMesh& mesh : {ball(1), sheet(7, 1), fan, face}) {
+    const Surface surface(static_cast<Index>(mesh.vertices.size()), mesh.triangles);
+    const Points3 at(mesh.vertices);
+    const SurfacePatches& patches = surface.patches(at.run());
+    const SurfaceJoints& joints = surface.joints(at.run());
+    const std::vector<float> room(mesh.vertices.size(), 10.0f);
+    const auto expect = [&](const FeaturePatches& ones, const FeaturePatches& twos, const JoinedPairs& joined) {
+      PatchBoxes a, b;
+      a.fill(ones, {at.x, at.y, at.z}, {at.x, at.y, at.z}, room);
+      b.fill(twos, {at.x, at.y, at.z}, {at.x, at.y, at.z}, room);
+      std::vector<ItemPair> found, expected;
+      search_.find_within(a, &ones == &twos ? a : b, joined, unlimited);
+      search_.for_each([&](Index i, Index j) { found.push_back({i, j}); });
+      for (Index i = 0; i < ones.size(); ++i)
+        for (Index j = &ones == &twos ? i + 1 : 0; j < twos.size(); ++j) {
+          const auto &c = ones.corners[i], &d = twos.corners[j];
+          if (std::ranges::find_first_of(c, d) == c.end()) expected.push_back({i, j});
+        }
+      std::ranges::sort(found);
+      EXPECT_EQ(found, expected);
+    };
+    expect(patches.vertices, patches.faces, joints.vertex_faces);
+    expect(patches.edges, patches.edges, joints.edge_edges);
+  }
+}
+
 TEST_P(OverlapSearchTest, ThrowsAboveMaxPairs) {
   const Boxes boxes(300, Aabb{glm::vec3(0), glm::vec3(1)});
-  const List list(boxes, random_);
+  const List list(boxes, random_), other(boxes, random_);
   const glm::vec3 none(0.0f);
-  EXPECT_NO_THROW(search_.find(list.boxes, none, none, list.boxes, 300 * 299 / 2));
-  EXPECT_THROW(search_.find(list.boxes, none, none, list.boxes, 300 * 299 / 2 - 1), std::length_error);
+  EXPECT_NO_THROW(search_.find_between(list.boxes, none, none, other.boxes, 300 * 300));
+  EXPECT_THROW(search_.find_between(list.boxes, none, none, other.boxes, 300 * 300 - 1), std::length_error);
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, OverlapSearchTest, testing::ValuesIn(targets()), target_name);

@@ -184,6 +184,22 @@ TEST(SurfaceSearch, FindsAllCandidatesWithinAFoldingSheet) {
   }
 }
 
+/// Contact distances of 0.02 and 2 mean edges, and positions that are rounded to 0.06 mm.
+TEST(SurfaceSearch, FindsAllCandidatesWithinACrumpledSheetFarFromTheOrigin) {
+  std::mt19937 random(74);
+  for (const float distance : {0.0f, 1000.0f})
+    for (const float contact_offset : {0.001f, 0.1f}) {
+      MovingScene m;
+      SurfaceMesh mesh = sheet(12, 1);
+      for (glm::vec3& v : mesh.vertices) v = 0.4f * v + random_points(random, 1, -0.06f, 0.06f)[0];
+      m.add(mesh, glm::vec3(distance, -distance, 0), contact_offset, 0.002f,
+            [&](const glm::vec3&) { return random_points(random, 1, -1, 1)[0]; });
+      m.seconds = 0.01f;
+      const SearchRun run(m, true);
+      EXPECT_GT(expect_complete(m, run.search, true, random), 100u) << distance << ' ' << contact_offset;
+    }
+}
+
 /// If the features were swept over all of `seconds`, every box would overlap every other.
 TEST(SurfaceSearch, PredictsFastDeformationForAShortTimeUnlessMinSecondsIsLonger) {
   std::mt19937 random(69);
