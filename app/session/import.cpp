@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
+#include <limits>
 
 #include <fmt/core.h>
 #include <glm/vec3.hpp>
@@ -61,11 +62,8 @@ std::string text_about(const softbody::MeshSource& mesh, const softbody::BodyMod
   return text;
 }
 
-/// Returns a mesh without its model, or what a window can show.
-FileReader::Answer read_file(const FileReader::Question& question,
-                             const std::function<void(std::string_view)>& begin_stage) {
-  if (const auto* file = std::get_if<softbody::MeshFile>(&question.file))
-    return FileReader::Mesh{softbody::MeshSource::from_file(*file, begin_stage), nullptr};
+/// Returns what a window can show.
+FileReader::Answer read_file(const FileReader::Question& question) {
   if (const auto* frames = std::get_if<FileReader::FramesToRead>(&question.file)) {
     files::Opened opened = files::open_recording(*frames);
     for (const int number : {1, opened.recording->frame_count() - 1}) opened.recording->frame(number);
@@ -97,15 +95,34 @@ std::optional<FileReader::Answer> FileReader::advance(const Question& question, 
     background.publish(Stage{std::string(name)});
   };
   try {
+    if (const auto* file = std::get_if<softbody::MeshFile>(&question.file); file && !read_) {
+      if (!fine_) {
+        softbody::MeshFile as_it_is = *file;
+        as_it_is.resolution = std::numeric_limits<std::size_t>::max();
+        fine_ = softbody::import_mesh(as_it_is, begin_stage);
+        return std::nullopt;
+      }
+      softbody::ImportedMesh imported = *std::exchange(fine_, std::nullopt);
+      softbody::add_coarse_mesh(imported, file->resolution);
+      softbody::MeshSource mesh{.kind = "file", .file = *file};
+      mesh.imported = std::make_shared<const softbody::ImportedMesh>(std::move(imported));
+      read_ = Mesh{std::move(mesh), nullptr};
+      return std::nullopt;
+    }
     if (!read_) {
-      read_ = read_file(question, begin_stage);
+      read_ = read_file(question);
       return std::nullopt;
     }
     Answer answer = *std::exchange(read_, std::nullopt);
     if (auto* mesh = std::get_if<Mesh>(&answer)) {
-      begin_stage("preparing the body");
-      mesh->model = softbody::shared_body_model(mesh->mesh, imported_material(mesh->mesh.imported->findings.extent));
-      if (!question.lone || background.cancelled()) return answer;
+      if (!mesh->model) {
+        begin_stage("preparing the body");
+        mesh->model = softbody::shared_body_model(mesh->mesh, imported_material(mesh->mesh.imported->findings.extent));
+        if (!question.lone) return answer;
+        read_ = std::move(answer);
+        return std::nullopt;
+      }
+      if (background.cancelled()) return answer;
       softbody::Scene scene = lone_scene(mesh->mesh);
       question.lone(scene);
       auto shown = make_window_world(scene, question.integrator, question.threads);

@@ -17,7 +17,7 @@
 
 namespace app::session {
 
-/// Reads a file, and makes its body or world with the last part. A task for Background.
+/// Reads a file, and makes its body or world, in parts. A task for Background.
 class FileReader {
  public:
   struct SceneToRead {
@@ -48,7 +48,8 @@ class FileReader {
   std::optional<Answer> advance(const Question& question, Background<FileReader>& background);
 
  private:
-  std::optional<Answer> read_;  // a mesh without its model, or what has not been shown
+  std::optional<softbody::ImportedMesh> fine_;  // a mesh without its coarse mesh
+  std::optional<Answer> read_;                  // a mesh, perhaps without its model; or what has not been shown
 };
 
 /// Returns a body of this mesh, which must be imported, placed above the middle of the scene, clear of solids and

@@ -286,7 +286,8 @@ TEST_F(ImportTest, MakesTheBodyBesideTheWindow) {
   reader.offer({softbody::MeshFile{.path = folder.write("ball.obj", obj_of({})), .size = 1}});
   const auto stage = reader.take({});
   ASSERT_TRUE(stage);
-  EXPECT_TRUE(std::holds_alternative<session::FileReader::Stage>(*stage)) << "the body is made in the next part";
+  EXPECT_TRUE(std::holds_alternative<session::FileReader::Stage>(*stage)) << "the body is made in a later part";
+  EXPECT_FALSE(reader.take({})) << "the coarse mesh is a part of its own";
   const session::FileReader::Answer answer = *reader.take({});
   const auto& mesh = std::get<session::FileReader::Mesh>(answer);
   EXPECT_EQ(softbody::shared_body_model(mesh.mesh, session::imported_material(mesh.mesh.imported->findings.extent)),
