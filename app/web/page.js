@@ -21,7 +21,7 @@ const place = element('scene');  // of the canvas
 /// Returns the words of the command line: ?scene=D&self is --scene=D --self.
 function words() {
   const given = location.search.slice(1).split('&').filter(part => part).map(part => '--' + decodeURIComponent(part));
-  return [`--size=${place.clientWidth}x${place.clientHeight}`, ...given];
+  return [`--size=${place.clientWidth}x${place.clientHeight}`, '--threads=1', ...given];
 }
 
 // Where storage is forbidden, nothing is remembered.
@@ -42,7 +42,8 @@ globalThis.Module = {
   print: line => printed += line + '\n',
   printErr: line => {
     console.error(line);
-    if (line.startsWith('sbcollide: ')) refuse(line.slice('sbcollide: '.length));
+    const [, why] = line.match(/(?:^|\r)sbcollide: (.*)$/) ?? [];  // a line of progress may stand before it
+    if (why) refuse(why);
   },
   preRun: [restorePreferences],
   postRun: [() => {
