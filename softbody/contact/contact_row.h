@@ -46,8 +46,7 @@ inline constexpr float least_mobility = 1e6f * held_mobility;
 /// set out with.
 inline glm::vec3 relative_velocity(const ContactRow& row, Field<const float> v) {
   glm::vec3 velocity(0.0f);
-  for (std::size_t k = 0; k < 4; ++k)
-    if (row.mobility[k] != 0) velocity += row.weight[k] * read(v, row.slot[k]);
+  for (std::size_t k = 0; k < 4; ++k) velocity += (row.mobility[k] != 0 ? row.weight[k] : 0) * read(v, row.slot[k]);
   return velocity;
 }
 

@@ -198,6 +198,7 @@ void SolidContact::add_rows(const Batch& b, const NearCore& core, collide::surfa
     if (!surface) continue;
 
     ContactRow row{};
+    row.slot.fill(std::uint32_t(f.vertices[0] * std::size_t(b.width) + lane));
     float mobility = 0;
     for (std::size_t k = 0; k < core.corners(); ++k) {
       row.slot[k] = std::uint32_t(f.vertices[k] * std::size_t(b.width) + lane);

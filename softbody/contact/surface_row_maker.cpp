@@ -129,6 +129,8 @@ void SurfaceRowMaker::vertex_on_faces(Pair& pair, const Side& vertex_side, const
   for (std::size_t k = 0; k < near_faces.size(); ++k) {
     const NearFace& n = near_faces[k];
     CachedContact& cached = candidates_.cached(n.feature);
+    const bool needless = stays_apart(pair, n.feature, std::sqrt(n.distance2));
+    if (needless && !oriented) continue;
     const bool twice = !n.closest.inner &&
                        std::any_of(near_faces.begin(), near_faces.begin() + std::ptrdiff_t(k), [&](const NearFace& m) {
                          const glm::vec3 d = m.closest.separation - n.closest.separation;
@@ -140,6 +142,7 @@ void SurfaceRowMaker::vertex_on_faces(Pair& pair, const Side& vertex_side, const
     }
     glm::vec3 normal = unit(n.closest.separation, oriented ? cached.normal : n.face_normal);
     const bool crossed = oriented && orient(cached, n.closest.inner, normal);
+    if (needless && !crossed) continue;
     add_row(pair, corners(n), normal, std::sqrt(n.distance2) * (crossed ? -1.0f : 1.0f), cached);
   }
 }
@@ -180,13 +183,8 @@ void SurfaceRowMaker::edges_on_edges(Pair& pair) {
     const FeaturePair& f = features[i];
     const collide::surface::Edge &e1 = one.surface->edges()[f.a], &e2 = two.surface->edges()[f.b];
     CachedContact& cached = candidates_.cached(i);
-    ContactRow row{};
-    for (std::size_t k = 0; k < 2; ++k) {
-      set_corner(row, k, one, e1[k], c.weight[k]);
-      set_corner(row, k + 2, two, e2[k], -c.weight[k + 2]);
-    }
-    row.feature = i;
     const float distance = std::sqrt(distance2);
+    const bool needless = stays_apart(pair, i, distance);
     glm::vec3 normal = unit(c.separation, cached.normal);
     bool crossed = false;
     if (!closed) {
@@ -203,6 +201,13 @@ void SurfaceRowMaker::edges_on_edges(Pair& pair) {
       cached.normal = crossed ? glm::vec3(0.0f) : normal;
       if (crossed) normal = -normal;
     }
+    if (needless && !crossed) return;
+    ContactRow row{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      set_corner(row, k, one, e1[k], c.weight[k]);
+      set_corner(row, k + 2, two, e2[k], -c.weight[k + 2]);
+    }
+    row.feature = i;
     add_row(pair, row, normal, crossed ? -distance : distance, cached);
   };
   collide::surface::FeatureBatch& meeting = scratch_.meeting;
@@ -222,6 +227,13 @@ void SurfaceRowMaker::edges_on_edges(Pair& pair) {
         candidates_.cached(meeting.tag(k)) = {};
     }
   }
+}
+
+/// Returns true if a candidate needs no row: nothing that is as fast as was foreseen uses half of the distance up.
+bool SurfaceRowMaker::stays_apart(const Pair& pair, std::uint32_t feature, float apart) {
+  const float distance = candidates_.max_gap(pair, feature);
+  return apart > std::max(distance, 0.5f * distance + step_.h * pair.speed) &&
+         candidates_.cached(feature).normal_impulse == 0;
 }
 
 /// Adds a row, unless nothing can move either side. apart: between the surfaces, negative where they overlap.

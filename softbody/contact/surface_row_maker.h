@@ -57,6 +57,7 @@ class SurfaceRowMaker {
   void vertex_on_faces(Pair& pair, const Side& vertex_side, const Side& face_side, bool oriented);
   void add_interior_vertices(Pair& pair);
   void edges_on_edges(Pair& pair);
+  bool stays_apart(const Pair& pair, std::uint32_t feature, float apart);
   void add_row(const Pair& pair, const ContactRow& corners, const glm::vec3& normal, float apart,
                CachedContact& cached);
   /// Returns where a vertex is at the start of the substep.
