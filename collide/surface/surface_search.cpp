@@ -15,10 +15,9 @@
 namespace collide::surface {
 namespace {
 
-// Of the mean edge:
-constexpr float max_self_deformation = 0.25f;  // of a body that may touch itself, within one prediction
-constexpr float rounding_share = 16 * std::numeric_limits<float>::epsilon();
-constexpr std::size_t max_box_pairs = std::size_t{1} << 26;  // of two bodies: 512 MiB for each thread
+constexpr float max_self_deformation = 0.25f;  // of the mean edge: of a body that may touch itself, in one prediction
+constexpr float rounding_share = 16 * std::numeric_limits<float>::epsilon();  // of the largest coordinates
+constexpr std::size_t max_box_pairs = std::size_t{1} << 26;  // of two bodies: up to 2 GiB for each thread
 
 [[maybe_unused]] bool has_all_vertices(const Motion& motion) {
   const std::size_t count = motion.positions.x.size();
@@ -284,7 +283,7 @@ void SurfaceSearch::add_reachable(Thread& own, Index a, Index b) const {
     std::size_t count = 0, size = own.features.size();
     for (Index k = 0; k < own.batch.size(); ++k) {
       near_ones[count] = k;
-      count += own.batch.distance2(k) <= max_distance2;
+      count += !(own.batch.distance2(k) > max_distance2);  // NaN, where products overflow, is near
     }
     own.features.resize(size + count);
     for (const Index k : std::span(near_ones).first(count)) {
@@ -298,7 +297,7 @@ void SurfaceSearch::add_reachable(Thread& own, Index a, Index b) const {
       const float distance2 = own.batch.distance2(k), travel = std::sqrt(distance2) - near;
       const float speed = std::sqrt(speed2), cutoff = near + seconds * speed;
       own.features[size] = {ones.feature[i], twos.feature[j], time_ + (travel > 0 ? travel / speed : 0.0f)};
-      size += distance2 <= cutoff * cutoff;
+      size += !(distance2 > cutoff * cutoff);
     }
     own.features.resize(size);
     check_feature_limit(size);

@@ -113,6 +113,14 @@ TEST(SurfaceSearch, LeavesOutBodiesThatAreNotFinite) {
   }
 }
 
+TEST(SurfaceSearch, KeepsPairsWhoseDistanceOverflows) {
+  constexpr float size = 1e11f;
+  const SurfaceMesh triangle{{{0, 0, 0}, {size, 0, 0}, {0, size, 0}}, {{0, 1, 2}}};
+  MovingScene m;
+  for (const float z : {0.0f, 0.5f}) m.add(triangle, {0, 0, size * z}, 2 * size, 0.1f, still);
+  EXPECT_EQ(SearchRun(m, false).search.features().size(), 15u);
+}
+
 class SurfaceSearchOnTargets : public OnEveryTarget {};
 
 TEST_P(SurfaceSearchOnTargets, CandidatesDoNotDependOnTargetOrThreads) {
