@@ -36,7 +36,8 @@ const char* needed(const Facts&) { return nullptr; }
 
 const char* arrivals(const Facts& f) {
   const bool late = f.any_source([](const BodySource& b) {
-    return b.appear > 0 || b.release > 0 || std::ranges::any_of(b.holds, [](const Hold& h) { return h.from > 0 || h.until > 0; });
+    return b.appear > 0 || b.release > 0 ||
+           std::ranges::any_of(b.holds, [](const Hold& h) { return h.from > 0 || h.until > 0; });
   });
   return late || f.added_bodies.holds ? nullptr : "all bodies are there and free from the start";
 }
