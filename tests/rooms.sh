@@ -38,7 +38,6 @@ app/reference: softbody
 app/session/stability: app/base app/compare softbody
 app/session/live: app/base app/compare app/guest app/session/stability collide softbody
 app/session: app/base app/files app/compare app/guest app/session/stability app/session/live collide softbody engine
-app/web: app/session
 app/render: app/base app/files app/compare collide softbody engine
 app/report: app/base app/files app/compare app/reference collide softbody engine
 app/cli: app/base app/files app/compare app/report app/render collide softbody
