@@ -45,17 +45,6 @@ inline int longest_axis(const glm::vec3& side) {
   return side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
 }
 
-/// A cut of the trees over an overlapped area: at the midpoint as in §2.1, but always across the widest side.
-struct MidpointCut {
-  int axis;
-  float mid;
-};
-
-inline MidpointCut cut_of(const Aabb& box) {
-  const int axis = longest_axis(box.hi - box.lo);
-  return {axis, box.lo[axis] * 0.5f + box.hi[axis] * 0.5f};
-}
-
 /// Sweep and prune: calls meet(a, b) once for every two different items of `order` whose boxes box_of(a), box_of(b) are
 /// near(). Sorts `order` along the axis on which the boxes are spread widest.
 template <class BoxOf, class Meet>
