@@ -328,7 +328,8 @@ std::vector<SurfaceContactPoint> World::surface_contacts() const {
 bool World::all_at_rest() const {
   const Parts& s = *parts_;
   if (std::find(s.arrived.begin(), s.arrived.end(), char(false)) != s.arrived.end()) return false;
-  const auto changes = [&](const HeldVertices& h) { return std::max(h.from, h.until) > s.frame; };
+  // The holds of the frame at hand begin and end in the next step.
+  const auto changes = [&](const HeldVertices& h) { return std::max(h.from, h.until) >= s.frame; };
   for (BodyId b = 0; b < s.particles.bodies.count(); ++b) {
     const Body& body = s.solver.state().body(b);
     if (!body.asleep || std::ranges::any_of(body.memory.holds, changes)) return false;

@@ -281,9 +281,13 @@ TEST(HoldsOfAScene, ThatAreStillToEndLeaveNothingAtRest) {
   s.gravity = down;
   s.sleep = {.speed = 0.03, .frames = 5};
   World w(s, {});
-  run(w, 30);
-  EXPECT_TRUE(w.body(0).asleep);
-  EXPECT_FALSE(w.all_at_rest());
+  for (const int frames : {30, 10}) {
+    run(w, frames);
+    EXPECT_TRUE(w.body(0).asleep);
+    EXPECT_FALSE(w.all_at_rest()) << w.frame();
+  }
+  run(w, 1);
+  EXPECT_FALSE(w.body(0).asleep) << "it has been let go";
 }
 
 TEST(SwitchHold, HoldsAParticleAndLetsGoOfIt) {
