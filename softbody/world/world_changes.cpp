@@ -256,7 +256,9 @@ void World::copy_holds(const World& other) {
   const auto facts = [](const HeldVertices& h) { return std::tie(h.vertices, h.from, h.until); };
   for (BodyId b = 0; b < parts_->particles.bodies.count(); ++b) {
     const std::vector<HeldVertices>&own = state().body(b).memory.holds, &others = other.state().body(b).memory.holds;
-    if (!std::ranges::equal(own, others, {}, facts, facts)) parts_->hold(b, others);
+    if (std::ranges::equal(own, others, {}, facts, facts)) continue;
+    parts_->source_holds(b) = other.parts_->source_holds(b);
+    parts_->hold(b, others);
   }
 }
 

@@ -93,6 +93,23 @@ TEST(ChangedHolds, GoTheSameWayToTheBitFromTheSceneThatIsSaved) {
   }
 }
 
+TEST(ChangedHolds, AreSavedAndLetGoByAWorldThatHasCopiedThem) {
+  const Scene scene = find_scene("A", SBCOLLIDE_SCENES);
+  World first(scene, {}), second(scene, {});
+  for (World* world : {&first, &second}) {
+    test::run(*world, 3);
+    world->drop();
+  }
+  const BodyId added = first.added().front().body;
+  for (const BodyId body : {BodyId(0), added}) EXPECT_TRUE(first.switch_hold(body, 5));
+  second.copy_holds(first);
+  EXPECT_EQ(second.body_sources(), first.body_sources());
+  test::run(second, 5);
+  for (const BodyId body : {BodyId(0), added}) EXPECT_FALSE(second.switch_hold(body, 5));
+  test::run(second, 5);
+  EXPECT_EQ(hash_of_scene(second), second.state_hash());
+}
+
 TEST(AddedBodies, LeaveWithTheirBodiesAndComeBackWithTheirSnapshot) {
   World world(find_scene("A", SBCOLLIDE_SCENES), {});
   const auto ids = [&] {
