@@ -68,6 +68,17 @@ HWY_INLINE Index list_patches(const Reach& reach, const PatchBoxes& boxes, Index
   return count;
 }
 
+/// The boxes from `first` on that, moved, meet another box; one in each lane. As Reach, to the bit.
+HWY_INLINE M met_by(const BoxColumns& boxes, Index first, const glm::vec3& move_lo, const glm::vec3& move_hi,
+                    const BoxColumns& others, Index other) {
+  const auto on = [&](std::size_t axis) HWY_ATTR {
+    const auto k = static_cast<int>(axis);
+    return hn::And(hn::Le(hn::Add(load(&boxes.lo[axis][first]), all(move_lo[k])), all(others.hi[axis][other])),
+                   hn::Le(all(others.lo[axis][other]), hn::Add(load(&boxes.hi[axis][first]), all(move_hi[k]))));
+  };
+  return hn::And(hn::And(on(0), on(1)), on(2));
+}
+
 void FindOverlaps(const PatchBoxes& a, Index group, const glm::vec3& move_lo, const glm::vec3& move_hi,
                   const PatchBoxes& b, const JoinedPairs* joined, OverlapSearch& own) {
   static constexpr std::array<std::uint64_t, 4> none{};
@@ -79,19 +90,9 @@ void FindOverlaps(const PatchBoxes& a, Index group, const glm::vec3& move_lo, co
     list.add(of_group.meets(b.group, first), first, 0);
   own.groups.resize(list.size());
   own.patches.resize(list.size() * size + 1);
-  own.rows.resize(list.size() * size);
   for (Index patch = group * size; patch < std::min(a.patches(), (group + 1) * size); ++patch) {
     const Reach of_patch(a.patch, patch, move_lo, move_hi);
     const Index count = list_patches(of_patch, b, one_list ? patch : 0, own);
-    for (Index k = 0; k < size && count != 0; ++k) {
-      const Reach of_feature(a.feature, patch * size + k, move_lo, move_hi);
-      for (Index n = 0; n < count; ++n) {
-        std::uint64_t row = 0;
-        for (Index first = 0; first < size; first += lanes)
-          row |= bits_of(Floats(), of_feature.meets(b.feature, own.patches[n] * size + first)) << first;
-        own.rows[n][k] = static_cast<std::uint16_t>(row);
-      }
-    }
     if (own.overlaps.size() <= own.used + count * std::size_t{4})
       own.overlaps.resize(2 * own.used + count * std::size_t{4} + 1);
     OverlapSearch::Overlaps* to = &own.overlaps[own.used];
@@ -101,12 +102,22 @@ void FindOverlaps(const PatchBoxes& a, Index group, const glm::vec3& move_lo, co
       const Index other = own.patches[n];
       while (at < end && joined->patches[at].other < other) ++at;
       const auto& left_out = at < end && joined->patches[at].other == other ? joined->patches[at].pairs : none;
-      for (Index k = 0; k < size; k += 4) {
-        const auto row = [&](Index i) { return std::uint64_t{own.rows[n][k + i]} << (i * size); };
-        const std::uint64_t bits = (row(0) | row(1) | row(2) | row(3)) & ~left_out[k / 4];
-        *to = {patch * size + k, other * size, bits};
-        to += bits != 0;  // without a branch
-        own.found += hwy::PopCount(bits);
+      std::uint64_t rows = 0, bits[4]{};
+      for (Index k = 0; k < size; k += lanes)
+        rows |= bits_of(Floats(), met_by(a.feature, patch * size + k, move_lo, move_hi, b.patch, other)) << k;
+      for (; rows != 0; rows &= rows - 1) {
+        const auto k = static_cast<Index>(std::countr_zero(rows));
+        const Reach of_feature(a.feature, patch * size + k, move_lo, move_hi);
+        std::uint64_t row = 0;
+        for (Index first = 0; first < size; first += lanes)
+          row |= bits_of(Floats(), of_feature.meets(b.feature, other * size + first)) << first;
+        bits[k / 4] |= row << (k % 4 * size);
+      }
+      for (Index k = 0; k < 4; ++k) {
+        bits[k] &= ~left_out[k];
+        *to = {patch * size + 4 * k, other * size, bits[k]};
+        to += bits[k] != 0;  // without a branch
+        own.found += hwy::PopCount(bits[k]);
       }
     }
     own.used = static_cast<std::size_t>(to - own.overlaps.data());

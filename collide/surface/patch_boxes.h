@@ -53,8 +53,7 @@ class OverlapSearch {
   };
   std::vector<Overlaps> overlaps;
   std::size_t used = 0, found = 0;
-  std::vector<Index> groups, patches;                              // that are near
-  std::vector<std::array<std::uint16_t, trees::patch_size>> rows;  // of each such patch, by feature
+  std::vector<Index> groups, patches;  // that are near
 
  private:
   void find(const PatchBoxes& a, const glm::vec3& move_lo, const glm::vec3& move_hi, const PatchBoxes& b,
