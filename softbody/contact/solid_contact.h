@@ -21,6 +21,11 @@ struct SolidPush {
   double returned = 0;      // J, that restitution gives back when the body leaves them
 };
 
+struct SolidFeature {
+  std::array<std::uint32_t, 3> vertices{};
+  float free_until = 0;  // m, that its body goes in this frame at least before it can meet the core
+};
+
 /// A core of a solid, with the faces or edges of one body that may meet it in the coming frame.
 struct NearCore {
   int lane;                 // of the body in its batch
@@ -28,14 +33,9 @@ struct NearCore {
   glm::vec3 from, to, out;  // of the core, from the body's origin
   float distance;           // m, from it to where the body is kept
   float speed;              // m/s, with which the body may come
-  std::size_t begin, end;   // the features' places
-
-  std::size_t corners() const { return from == to ? 3 : 2; }  // of its features
-};
-
-struct SolidFeature {
-  std::array<std::uint32_t, 3> vertices{};
-  float free_until = 0;  // m, that its body goes in this frame at least before the two can meet
+  std::size_t corners;      // of its features: 3 for a point
+  std::vector<SolidFeature> features{};
+  float start = 0, end = 0;  // m, that the body may have gone in this frame before and after the substep at hand
 };
 
 class SolidContact {
@@ -67,7 +67,7 @@ class SolidContact {
   void apply(const Batch& batch, float h);
   /// True if solids may touch faces or edges of a batch in this frame; see set_parts().
   bool meets_features(const Batch& batch) const {
-    return batch.index < of_batch_.size() && !of_batch_[batch.index].features.empty();
+    return batch.index < of_batch_.size() && !of_batch_[batch.index].cores.empty();
   }
   /// Finds which of these faces and edges may meet a solid in a substep of h (s) from here on. speeds: m/s, that no
   /// particle of a lane exceeds; empty: what was foreseen. Returns a row for each, with slots that count from the
@@ -106,15 +106,13 @@ class SolidContact {
  private:
   struct OfBatch {
     std::vector<SolidArguments> near;
-    std::vector<NearCore> cores;
-    std::vector<SolidFeature> features;    // of the bodies, that may meet the solids between vertices
-    std::vector<ContactRow> rows;          // of these, in the substep at hand; each is of a core
-    std::array<float, lanes> travelled{};  // m, that a body has gone at most in this frame, up to the substep's end
-    LaneVector impulse{};                  // N s, along the normals
-    std::array<float, lanes> returned{};   // J, that restitution gives back
-    std::array<float, lanes> energy{};     // J, given by pushing out
-    std::array<bool, lanes> booked{};      // no bits: threads write to several at once
-    unsigned pushed = 0, eased = 0;        // bits: lanes
+    std::vector<NearCore> cores;          // that faces or edges of the bodies may meet between their vertices
+    std::vector<ContactRow> rows;         // of these, in the substep at hand; each is of a core
+    LaneVector impulse{};                 // N s, along the normals
+    std::array<float, lanes> returned{};  // J, that restitution gives back
+    std::array<float, lanes> energy{};    // J, given by pushing out
+    std::array<bool, lanes> booked{};     // no bits: threads write to several at once
+    unsigned pushed = 0, eased = 0;       // bits: lanes
 
     void book(const ContactRow& row, std::size_t lane) {
       softbody::add(field(impulse), lane, row.normal_impulse * row.normal);
@@ -131,7 +129,7 @@ class SolidContact {
   void find_features(const Batch& batch, const Extent& extent, int lane, const SolidInterior& interior, double travel,
                      double seconds);
   void apply_to_features(const Batch& batch, float h);
-  void add_rows(const Batch& batch, const NearCore& core, collide::surface::FeatureBatch& meeting, float h, float way);
+  void add_rows(const Batch& batch, NearCore& core, collide::surface::FeatureBatch& meeting, float h);
 
   State& state_;
   bool has_features_ = false, has_restitution_ = false;

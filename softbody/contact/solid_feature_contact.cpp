@@ -35,18 +35,17 @@ struct ClosestPoints {
 
 /// Returns those of pair i of `meeting`.
 ClosestPoints closest_points(const NearCore& core, const collide::surface::FeatureBatch& meeting, Index i) {
-  ClosestPoints m;
-  const bool face = core.corners() == 3;
+  const bool face = core.corners == 3;
+  const std::size_t first = face ? 1 : 0;
   const collide::surface::Closest c = face ? meeting.closest_vertex_face(i) : meeting.closest_edges(i);
+  ClosestPoints m{.apart = face ? -c.separation : c.separation, .across = {}, .inner = c.inner};
   std::array<glm::vec3, 3> x{};
-  for (std::size_t k = 0; k < core.corners(); ++k) {
-    x[k] = meeting.corner(face ? k + 1 : k, i);
-    m.weight[k] = c.weight[face ? k + 1 : k];
+  for (std::size_t k = 0; k < core.corners; ++k) {
+    x[k] = meeting.corner(first + k, i);
+    m.weight[k] = c.weight[first + k];
     m.point += m.weight[k] * x[k];
   }
-  m.apart = face ? -c.separation : c.separation;
   m.across = face ? normal_of(x[0], x[1], x[2]) : glm::cross(x[1] - x[0], core.to - core.from);
-  m.inner = c.inner;
   return m;
 }
 
@@ -100,15 +99,14 @@ void SolidContact::find_features(const Batch& b, const Extent& e, int lane, cons
   const std::array box{e.lo[std::size_t(lane)], e.hi[std::size_t(lane)]};
   const double distance = interior.core_radius + b.model->material[Material::thickness];
   for (const SolidCore& core : interior.cores) {
-    NearCore found{.lane = lane,
-                   .solid = own.near.size() - 1,
-                   .from = glm::vec3(core.from - origin),
-                   .to = glm::vec3(core.to - origin),
-                   .out = glm::vec3(core.out),
-                   .distance = float(distance),
-                   .speed = float(travel / seconds),
-                   .begin = own.features.size(),
-                   .end = 0};
+    NearCore found{lane,
+                   own.near.size() - 1,
+                   glm::vec3(core.from - origin),
+                   glm::vec3(core.to - origin),
+                   glm::vec3(core.out),
+                   float(distance),
+                   float(travel / seconds),
+                   core.point() ? std::size_t{3} : 2};
     if (!may_meet(box, found.from, found.to, float(distance + travel))) continue;
     const auto add = [&](const auto& features) {
       for (const auto& feature : features) {
@@ -116,12 +114,11 @@ void SolidContact::find_features(const Batch& b, const Extent& e, int lane, cons
         std::transform(feature.begin(), feature.end(), corners.begin(), position);
         if (!may_meet(std::span(corners).first(feature.size()), found.from, found.to, float(distance + travel)))
           continue;
-        std::copy(feature.begin(), feature.end(), own.features.emplace_back().vertices.begin());
+        std::copy(feature.begin(), feature.end(), found.features.emplace_back().vertices.begin());
       }
     };
     core.point() ? add(surface.triangles()) : add(surface.edges());
-    found.end = own.features.size();
-    own.cores.push_back(found);
+    if (!found.features.empty()) own.cores.push_back(std::move(found));
   }
 }
 
@@ -129,27 +126,23 @@ std::span<ContactRow> SolidContact::find_feature_rows(const Batch& b, float h, s
   if (!meets_features(b)) return {};
   OfBatch& own = of_batch_[b.index];
   own.rows.clear();
-  std::array<float, lanes> way{};
-  for (const NearCore& core : own.cores) {
-    const auto lane = std::size_t(core.lane);
-    way[lane] = 2 * h * (speeds.empty() ? core.speed : float(speeds[lane]));  // contacts may push one particle further
-  }
-  for (std::size_t l = 0; l < lanes; ++l) own.travelled[l] += way[l];
   const Field<const float> x = field(std::as_const(state_.x), b.base);
   collide::surface::FeatureBatch meeting;
-  for (const NearCore& core : own.cores) {
+  for (NearCore& core : own.cores) {
     const auto lane = std::size_t(core.lane);
     const auto at = [&](std::uint32_t v) { return read(x, v * std::size_t(b.width) + lane); };
-    for (std::size_t i = core.begin; i < core.end; ++i) {
-      const auto& [p, q, r] = own.features[i].vertices;
-      if (own.features[i].free_until > own.travelled[lane]) continue;
-      if (core.corners() == 3)
-        meeting.add({core.from, at(p), at(q), at(r)}, Index(i));
+    core.start = core.end;
+    core.end += 2 * h * (speeds.empty() ? core.speed : float(speeds[lane]));  // twice: contacts may push one particle
+    for (Index i = 0; i < core.features.size(); ++i) {
+      if (core.features[i].free_until > core.end) continue;
+      const auto& [p, q, r] = core.features[i].vertices;
+      if (core.corners == 3)
+        meeting.add({core.from, at(p), at(q), at(r)}, i);
       else
-        meeting.add({at(p), at(q), core.from, core.to}, Index(i));
-      if (meeting.full()) add_rows(b, core, meeting, h, way[lane]);
+        meeting.add({at(p), at(q), core.from, core.to}, i);
+      if (meeting.full()) add_rows(b, core, meeting, h);
     }
-    add_rows(b, core, meeting, h, way[lane]);
+    add_rows(b, core, meeting, h);
   }
   return own.rows;
 }
@@ -180,27 +173,26 @@ void SolidContact::apply_to_features(const Batch& b, float h) {
 }
 
 /// Adds the rows of features: by the law of the particles' contacts, for the closest points, whose corners share an
-/// impulse by their weights. Empties `meeting`. way: m, that the body goes in the substep at most.
-void SolidContact::add_rows(const Batch& b, const NearCore& core, collide::surface::FeatureBatch& meeting, float h,
-                            float way) {
+/// impulse by their weights. Empties `meeting`.
+void SolidContact::add_rows(const Batch& b, NearCore& core, collide::surface::FeatureBatch& meeting, float h) {
   OfBatch& own = of_batch_[b.index];
   constexpr float on_vertex = 0.999f;  // a weight from which on the vertex itself keeps off
   const auto lane = std::size_t(core.lane);
   const SolidArguments& s = own.near[core.solid];
   const std::span<const char> held = state_.held.of(b.body[lane]);
-  core.corners() == 3 ? meeting.find_closest_vertex_faces() : meeting.find_closest_edges();
+  core.corners == 3 ? meeting.find_closest_vertex_faces() : meeting.find_closest_edges();
   for (Index i = 0; i < meeting.size(); ++i) {
-    SolidFeature& f = own.features[meeting.tag(i)];
+    SolidFeature& f = core.features[meeting.tag(i)];
     const ClosestPoints m = closest_points(core, meeting, i);
-    f.free_until = own.travelled[lane] - way + (glm::length(m.apart) - core.distance);
-    if (f.free_until > own.travelled[lane] || *std::ranges::max_element(m.weight) > on_vertex) continue;
+    f.free_until = core.start + (glm::length(m.apart) - core.distance);
+    if (f.free_until > core.end || *std::ranges::max_element(m.weight) > on_vertex) continue;
     const auto surface = gap_of(core, m, s.shape, s.place[lane]);
     if (!surface) continue;
 
     ContactRow row{};
     row.slot.fill(std::uint32_t(f.vertices[0] * std::size_t(b.width) + lane));
     float mobility = 0;
-    for (std::size_t k = 0; k < core.corners(); ++k) {
+    for (std::size_t k = 0; k < core.corners; ++k) {
       row.slot[k] = std::uint32_t(f.vertices[k] * std::size_t(b.width) + lane);
       row.weight[k] = m.weight[k];
       row.mobility[k] = !held.empty() && held[f.vertices[k]] ? held_mobility : m.weight[k] / s.mass;

@@ -12,7 +12,9 @@ namespace softbody {
 namespace {
 
 using collide::surface::Closest;
+using collide::surface::FeatureBatch;
 using collide::surface::FeaturePair;
+using collide::surface::PairKind;
 
 constexpr float hair = 0.02f;      // of the distance, that may be used up unsolved
 constexpr float push_kept = 0.8f;  // of an impulse that pushes out is handed on to the next substep; by trial
@@ -23,12 +25,18 @@ void set_corner(ContactRow& row, std::size_t k, const SurfaceCandidates::Side& s
   row.mobility[k] = side.inverse_mass > 0 && side.holds(vertex) ? held_mobility : side.inverse_mass * weight;
 }
 
-ContactRow corners_of(const Closest& c, const SurfaceCandidates::Side& vertex_side, Index vertex,
-                      const SurfaceCandidates::Side& face_side, Index face) {
+/// Returns a row of which only the corners are set.
+template <PairKind kind>
+ContactRow row_between(const SurfaceCandidates::Side& one, Index feature_one, const SurfaceCandidates::Side& two,
+                       Index feature_two, const Closest& c, std::uint32_t candidate) {
   ContactRow row{};
-  set_corner(row, 0, vertex_side, vertex, 1);
-  for (std::size_t k = 1; k < 4; ++k)
-    set_corner(row, k, face_side, face_side.surface->triangles()[face][k - 1], -c.weight[k]);
+  const std::array<Index, 4> vertex =
+      collide::surface::corners_of<kind>(*one.surface, feature_one, *two.surface, feature_two);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const bool first = k < collide::surface::corners_of_first(kind);
+    set_corner(row, k, first ? one : two, vertex[k], first ? c.weight[k] : -c.weight[k]);
+  }
+  row.feature = candidate;
   return row;
 }
 
@@ -54,6 +62,25 @@ void SurfaceRowMaker::add_rows(Pair& p) {
   p.rows = std::uint32_t(rows_.size()) - p.first_row;
 }
 
+/// Finds the closest points of those candidates that may meet in this substep. Calls visit(batch, i) for each.
+template <PairKind kind, class Visit>
+void SurfaceRowMaker::meet(const Side& one, const Side& two, std::uint32_t begin, std::uint32_t end,
+                           const Visit& visit) {
+  const Side& second = collide::surface::corners_of_first(kind) == 2 ? one : two;  // of the four corners
+  FeatureBatch& meeting = scratch_.meeting;
+  for (std::uint32_t i = begin; i < end;) {
+    meeting.clear();
+    for (; i < end && !meeting.full(); ++i) {
+      const FeaturePair& f = candidates_.search().features()[i];
+      if (f.earliest > step_.until) continue;
+      const auto [p, q, r, s] = collide::surface::corners_of<kind>(*one.surface, f.a, *two.surface, f.b);
+      meeting.add({at(one, p), at(second, q), at(two, r), at(two, s)}, i);
+    }
+    meeting.find_closest<kind>();
+    for (Index k = 0; k < meeting.size(); ++k) visit(meeting, k);
+  }
+}
+
 void SurfaceRowMaker::vertices_on_faces(Pair& pair, std::uint32_t begin, std::uint32_t end, bool vertex_of_b) {
   const Side vertex_side = candidates_.side(pair, vertex_of_b), face_side = candidates_.side(pair, !vertex_of_b);
   const Side faces = pair.range.a == pair.range.b ? vertex_side : face_side;
@@ -65,32 +92,22 @@ void SurfaceRowMaker::vertices_on_faces(Pair& pair, std::uint32_t begin, std::ui
   };
   const auto& features = candidates_.search().features();
   const float max_distance2 = max_distance(pair) * max_distance(pair);
-  collide::surface::FeatureBatch& meeting = scratch_.meeting;
   scratch_.near_faces.clear();
   const auto flush = [&] {
     if (!scratch_.near_faces.empty() && !is_interior(features[scratch_.near_faces[0].feature].a))
       vertex_on_faces(pair, vertex_side, faces, oriented);
     scratch_.near_faces.clear();
   };
-  for (std::uint32_t i = begin; i < end;) {
-    meeting.clear();
-    for (; i < end && !meeting.full(); ++i) {
-      if (features[i].earliest > step_.until) continue;
-      const auto& [a, b, c] = faces.surface->triangles()[features[i].b];
-      meeting.add({at(vertex_side, features[i].a), at(faces, a), at(faces, b), at(faces, c)}, i);
-    }
-    meeting.find_closest_vertex_faces();
-    for (Index k = 0; k < meeting.size(); ++k) {
-      const std::uint32_t feature = meeting.tag(k);
-      if (!scratch_.near_faces.empty() && features[scratch_.near_faces[0].feature].a != features[feature].a) flush();
-      if (meeting.distance2(k) > max_distance2)
-        candidates_.cached(feature) = {};
-      else
-        scratch_.near_faces.push_back({meeting.closest_vertex_face(k),
-                                       normal_of(meeting.corner(1, k), meeting.corner(2, k), meeting.corner(3, k)),
-                                       meeting.distance2(k), feature});
-    }
-  }
+  meet<PairKind::vertex_face>(vertex_side, faces, begin, end, [&](const FeatureBatch& meeting, Index k) {
+    const std::uint32_t feature = meeting.tag(k);
+    if (!scratch_.near_faces.empty() && features[scratch_.near_faces[0].feature].a != features[feature].a) flush();
+    if (meeting.distance2(k) > max_distance2)
+      candidates_.cached(feature) = {};
+    else
+      scratch_.near_faces.push_back({meeting.closest_vertex_face(k),
+                                     normal_of(meeting.corner(1, k), meeting.corner(2, k), meeting.corner(3, k)),
+                                     meeting.distance2(k), feature});
+  });
   flush();
 }
 
@@ -100,9 +117,7 @@ void SurfaceRowMaker::vertex_on_faces(Pair& pair, const Side& vertex_side, const
   const std::vector<NearFace>& near_faces = scratch_.near_faces;
   const auto corners = [&](const NearFace& n) {
     const FeaturePair& f = features[n.feature];
-    ContactRow row = corners_of(n.closest, vertex_side, f.a, face_side, f.b);
-    row.feature = n.feature;
-    return row;
+    return row_between<PairKind::vertex_face>(vertex_side, f.a, face_side, f.b, n.closest, n.feature);
   };
   if (!oriented) {
     const auto facing =
@@ -157,8 +172,7 @@ void SurfaceRowMaker::add_interior_vertices(Pair& pair) {
     const glm::vec3 p = at(vertex_side, d.vertex);
     const Closest c = collide::surface::closest_vertex_face(p, corner[0], corner[1], corner[2]);
     const glm::vec3 normal = unit(normal_of(corner[0], corner[1], corner[2]), {});
-    ContactRow row = corners_of(c, vertex_side, d.vertex, face_side, d.face);
-    row.feature = uncached;
+    const ContactRow row = row_between<PairKind::vertex_face>(vertex_side, d.vertex, face_side, d.face, c, uncached);
     CachedContact unseen;
     add_row(pair, row, normal, glm::dot(p - corner[0], normal), unseen);
   }
@@ -181,7 +195,6 @@ void SurfaceRowMaker::edges_on_edges(Pair& pair) {
   };
   const auto meets = [&](std::uint32_t i, const Closest& c, float distance2) {
     const FeaturePair& f = features[i];
-    const collide::surface::Edge &e1 = one.surface->edges()[f.a], &e2 = two.surface->edges()[f.b];
     CachedContact& cached = candidates_.cached(i);
     const float distance = std::sqrt(distance2);
     const bool needless = stays_apart(pair, i, distance);
@@ -202,31 +215,15 @@ void SurfaceRowMaker::edges_on_edges(Pair& pair) {
       if (crossed) normal = -normal;
     }
     if (needless && !crossed) return;
-    ContactRow row{};
-    for (std::size_t k = 0; k < 2; ++k) {
-      set_corner(row, k, one, e1[k], c.weight[k]);
-      set_corner(row, k + 2, two, e2[k], -c.weight[k + 2]);
-    }
-    row.feature = i;
-    add_row(pair, row, normal, crossed ? -distance : distance, cached);
+    add_row(pair, row_between<PairKind::edge_edge>(one, f.a, two, f.b, c, i), normal, crossed ? -distance : distance,
+            cached);
   };
-  collide::surface::FeatureBatch& meeting = scratch_.meeting;
-  for (std::uint32_t i = range.edge_edge; i < range.end;) {
-    meeting.clear();
-    for (; i < range.end && !meeting.full(); ++i) {
-      const FeaturePair& f = features[i];
-      if (f.earliest > step_.until) continue;
-      const collide::surface::Edge &e1 = one.surface->edges()[f.a], &e2 = two.surface->edges()[f.b];
-      meeting.add({at(one, e1[0]), at(one, e1[1]), at(two, e2[0]), at(two, e2[1])}, i);
-    }
-    meeting.find_closest_edges();
-    for (Index k = 0; k < meeting.size(); ++k) {
-      if (meeting.inner(k) && meeting.distance2(k) <= max_distance2)
-        meets(meeting.tag(k), meeting.closest_edges(k), meeting.distance2(k));
-      else  // those that end on a corner are a vertex's
-        candidates_.cached(meeting.tag(k)) = {};
-    }
-  }
+  meet<PairKind::edge_edge>(one, two, range.edge_edge, range.end, [&](const FeatureBatch& meeting, Index k) {
+    if (meeting.inner(k) && meeting.distance2(k) <= max_distance2)
+      meets(meeting.tag(k), meeting.closest_edges(k), meeting.distance2(k));
+    else  // those that end on a corner are a vertex's
+      candidates_.cached(meeting.tag(k)) = {};
+  });
 }
 
 /// Returns true if a candidate needs no row: nothing that is as fast as was foreseen uses half of the distance up.

@@ -53,6 +53,8 @@ class SurfaceRowMaker {
   using Side = SurfaceCandidates::Side;
   using CachedContact = SurfaceCandidates::CachedContact;
 
+  template <collide::surface::PairKind kind, class Visit>
+  void meet(const Side& one, const Side& two, std::uint32_t begin, std::uint32_t end, const Visit& visit);
   void vertices_on_faces(Pair& pair, std::uint32_t begin, std::uint32_t end, bool vertex_of_b);
   void vertex_on_faces(Pair& pair, const Side& vertex_side, const Side& face_side, bool oriented);
   void add_interior_vertices(Pair& pair);
