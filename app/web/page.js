@@ -9,7 +9,7 @@ let printed = '';
 /// Shows a text in place of the program.
 function refuse(text) {
   element('text').textContent = text;
-  bar.hidden = cover.hidden = false;
+  cover.hidden = false;
   bar.remove();
   const plain = cover.querySelector('a');
   plain.hidden = !location.search;
@@ -66,7 +66,9 @@ globalThis.Module = {
   },
   chooseFiles: () => element('files').click(),
 };
-window.addEventListener('error', event => refuse(`The program has stopped: ${event.message}. Reload the page to begin anew.`));
+window.addEventListener('error', ({error, message}) => {
+  if (error instanceof WebAssembly.RuntimeError) refuse(`The program has stopped: ${message}. Reload the page.`);
+});
 
 // WebGL has the renderer's name, by which the program knows a slow one, in an extension.
 const parameter = globalThis.WebGL2RenderingContext?.prototype.getParameter;
@@ -91,7 +93,8 @@ async function fetchBytes(name, tell) {
 
 async function load() {
   if (!document.createElement('canvas').getContext('webgl2'))
-    throw new Error('This page draws with WebGL 2, which is missing here: use a current browser, and switch its hardware acceleration on.');
+    throw new Error('This page draws with WebGL 2, which is missing here: use a current browser, ' +
+                    'and switch its hardware acceleration on.');
   Module.arguments = words();
   let wasmPart = 0, dataPart = 0;
   const show = () => bar.value = 0.75 * wasmPart + 0.25 * dataPart;
@@ -151,9 +154,9 @@ for (const kind of ['mousemove', 'mouseup'])
     if (event.target !== canvas) mouse(kind, {x: event.clientX, y: event.clientY}, event.button);
   });
 
-// What fingers do. One that moves at once is the middle button, which orbits; over the interface it scrolls (up and down),
-// or is the left button. One that rests before it moves is the left button, which drags a body. Two are the right button,
-// which pans, and turn the wheel when they move apart. Times are of the events: the page may be late.
+// What fingers do. One that moves at once is the middle button, which orbits; over the interface it scrolls (up and
+// down), or is the left button. One that rests before it moves is the left button, which drags a body. Two are the
+// right button, which pans, and turn the wheel when they move apart. Times are of the events: the page may be late.
 const left = 0, middle = 1, right = 2;
 const slop = 8, scrollStep = 75, hold = 350, zoomStep = 0.9;  // CSS pixels; ms; of Camera::zoom()
 let start = null, last, began, waits, scrolls, button;
@@ -208,4 +211,5 @@ for (const [kind, act] of Object.entries({touchstart: begin, touchmove: move, to
     if (start || kind === 'touchstart') act(event);
   }, {capture: true, passive: false});
 
-load().catch(error => refuse(error instanceof URIError ? 'The address is not well formed: write %25 for %.' : error.message));
+load().catch(error =>
+  refuse(error instanceof URIError ? 'The address is not well formed: write %25 for %.' : error.message));
