@@ -51,7 +51,8 @@ LaneMask find_planes(const ImplicitBatch& b, const MovingAxes& axes, ImplicitBod
   LaneMask in_contact;
   bodies.planes.clear();
   const auto add_plane = [&](const PlaneContact& c) {
-    if (c.point.mean([&](std::size_t at) { return is_held(bodies, at) ? 0.0 : 1.0; }) == 0) return;
+    constexpr double least = 0.1;  // share of corners that are free; with less of it they would be moved far
+    if (c.point.mean([&](std::size_t at) { return is_held(bodies, at) ? 0.0 : 1.0; }) < least) return;
     const glm::dvec3 meant = c.point.mean(
         [&](std::size_t at) { return axes.free_displacement(c.point.lane(), read(bodies.x, at), read(bodies.v, at)); });
     if (glm::dot(meant, c.normal) < c.min_displacement) in_contact.set(c.point.lane());
