@@ -12,7 +12,7 @@ namespace collide::surface {
 namespace {
 
 constexpr Index none = std::numeric_limits<Index>::max();
-constexpr std::size_t most_joined = std::size_t{1} << 26;
+constexpr std::size_t most_joined = std::size_t{1} << 27;  // those in one list count twice
 
 }  // namespace
 

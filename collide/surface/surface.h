@@ -28,7 +28,7 @@ class JoinedPairs {
   };
   JoinedPairs() = default;
   /// Lists the pairs of two lists of a surface with so many vertices, or within one. Throws std::length_error if there
-  /// are more than 67 million.
+  /// are too many, as of a vertex of 12,000 edges.
   JoinedPairs(const FeaturePatches& ones, const FeaturePatches& twos, Index vertices);
 
   std::vector<Patch> patches;

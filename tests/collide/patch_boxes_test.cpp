@@ -168,6 +168,14 @@ TEST_P(OverlapSearchTest, LeavesOutPairsWithinASurfaceThatShareAVertex) {
   }
 }
 
+TEST(JoinedPairs, ThrowAtAVertexOfTooManyEdges) {
+  std::vector<Triangle> fan;
+  for (Index v = 1; v < 12'001; ++v) fan.push_back({0, v, v % 12'000 + 1});
+  const Surface surface(12'001, fan);
+  const Points3 at(std::vector<glm::vec3>(12'001, glm::vec3(0)));
+  EXPECT_THROW(surface.joints(at.run()), std::length_error);
+}
+
 TEST_P(OverlapSearchTest, ThrowsAboveMaxPairs) {
   const Boxes boxes(300, Aabb{glm::vec3(0), glm::vec3(1)});
   const List list(boxes, random_), other(boxes, random_);
