@@ -209,10 +209,10 @@ make_page() {
 try_page() {
   local there=$1/desktop program=$root/build/release/bin/sbcollide
   rm -rf "$there" && mkdir "$there"
-  "$program" simulate --scene drop --frames 310 --capture 290,300,310 --size 1280x720 --obj-every 300 --out "$there" &&
+  "$program" simulate --scene drop --frames 310 --capture 290,300,310 --size 1280x720 --obj-every 138 --out "$there" &&
     "$program" simulate --scene drop --frames 300 --oracle --json >"$there/simulate.json" &&
     "$program" simulate --scene D --frames 300 --threads 1 --json >"$there/D.json" &&
-    "$program" detect --method all --tolerance 0.1 --json "$there/frame_0300.obj" >"$there/detect.json" &&
+    "$program" detect --method all --tolerance 0.1 --cell-size 0.2 --json "$there/frame_0138.obj" >"$there/detect.json" &&
     in_root "$1" /sbcollide/tests/web/page.mjs /sbcollide/build/web/bin /desktop /sbcollide/build/web
 }
 
