@@ -6,8 +6,9 @@
 //   PICTURES  the folder for screenshots
 
 import {spawn} from 'node:child_process';
-import {readFileSync, writeFileSync} from 'node:fs';
+import {mkdtempSync, readFileSync, writeFileSync} from 'node:fs';
 import {createServer} from 'node:http';
+import {tmpdir} from 'node:os';
 import {extname, join} from 'node:path';
 
 const [page, desktop, pictures] = process.argv.slice(2);
@@ -34,7 +35,8 @@ const address = `http://127.0.0.1:${server.address().port}/`;
 
 // Chromium, by the DevTools protocol: messages of JSON, each with a zero byte at its end.
 const chromium = spawn('chromium', ['--headless=new', '--no-sandbox', '--disable-dev-shm-usage', '--remote-debugging-pipe',
-  '--use-angle=swiftshader', '--enable-unsafe-swiftshader', 'about:blank'], {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
+  '--use-angle=swiftshader', '--enable-unsafe-swiftshader', `--user-data-dir=${mkdtempSync(join(tmpdir(), 'chromium-'))}`,
+  'about:blank'], {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
 const [, , , toBrowser, fromBrowser] = chromium.stdio;
 const waiting = new Map();
 let session, lastId = 0, unread = [];
