@@ -143,37 +143,27 @@ TEST(Bounce, OnAHeldSheetReturnsToTheBallAloneAndGainsNothing) {
     double mass, stiffness;
     bool all_held;
   };
-  const auto bounce = [](ContactSurface by, const Sheet& sheet, double restitution) {
+  const auto bounce = [](const Sheet& sheet, double restitution) {
     Material ball = damped(gas_ball());
     ball[contact::restitution] = restitution;
     Scene scene = falling_ball(ball, {}, 4);
     Material& cloth = scene.materials.emplace_back(spring_ball());
     cloth[Material::mass] = sheet.mass;
     cloth.set(StructuralSprings::keys, {sheet.stiffness, 0.05});
-    for (Material& m : scene.materials) m[contact::stiffness] = 5000;
     BodySource& body = scene.bodies.emplace_back();
     body = {.mesh = {.kind = "grid", .columns = 12, .rows = 12, .width = 1.6, .depth = 1.6}, .material = 1};
     for (const double x : {-0.8, 0.8})
       body.holds.push_back({.where = SolidBox{.centre = {x, -0.1, 0}, .half_size = {0.1, 0.1, 1}}});
     if (sheet.all_held) body.holds = {{.where = SolidSphere{.centre = {0, -0.1, 0}, .radius = 2}}};
     body.position = {0, -0.1, 0};
-    scene.contact_surface = by;
-    scene.collision.tolerance = 0.2f;
+    scene.contact_surface = ContactSurface::surfaces;
     World world(std::move(scene), {});
     return rise(world, 120);
   };
-  for (const ContactSurface by : both) {
-    SCOPED_TRACE(int(by));
-    const Sheet light{0.25, 200, true}, heavy{250, 200, true};
-    EXPECT_NEAR(bounce(by, light, 0.8).height, bounce(by, heavy, 0.8).height, 5e-3) << "m: it does not move";
-    for (const Sheet& sheet : {light, Sheet{0.25, 2000, false}, Sheet{0.25, 200, false}}) {
-      const Rise with = bounce(by, sheet, 0.8), without = bounce(by, sheet, 0);
-      if (sheet.all_held) {
-        EXPECT_GT(with.height, without.height + 0.05) << "m";
-      }
-      EXPECT_LE(with.gain, without.gain + 1e-6) << "J, " << sheet.stiffness << " N/m";
-    }
-  }
+  const Sheet light{0.25, 200, true}, heavy{250, 200, true};
+  EXPECT_NEAR(bounce(light, 0.8).height, bounce(heavy, 0.8).height, 2e-3) << "m: it does not move";
+  EXPECT_GT(bounce(light, 0.8).height, bounce(light, 0).height + 0.1) << "m";
+  for (const double stiffness : {2000.0, 200.0}) EXPECT_LT(bounce({0.25, stiffness, false}, 0.8).gain, 1e-6) << "J";
 }
 
 /// Contact of surfaces acts after an implicit step, which must not press gas and springs together meanwhile.
