@@ -132,7 +132,9 @@ std::span<ContactRow> SolidContact::find_feature_rows(const Batch& b, float h, s
     const auto lane = std::size_t(core.lane);
     const auto at = [&](std::uint32_t v) { return read(x, v * std::size_t(b.width) + lane); };
     core.start = core.end;
-    core.end += 2 * h * (speeds.empty() ? core.speed : float(speeds[lane]));  // twice: contacts may push one particle
+    // Only of a sphere the core tells how near a feature is. Others are met, too, where they are far from one core.
+    const bool foreseen = speeds.empty() || !std::holds_alternative<SphereShape<float>>(own.near[core.solid].shape);
+    core.end += 2 * h * (foreseen ? core.speed : float(speeds[lane]));  // twice: contacts may push one particle further
     for (Index i = 0; i < core.features.size(); ++i) {
       if (core.features[i].free_until > core.end) continue;
       const auto& [p, q, r] = core.features[i].vertices;
