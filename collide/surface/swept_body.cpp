@@ -82,8 +82,8 @@ void SweptBody::bound_path() {
     hi = glm::max(hi, glm::max(x, x + seconds * relative));
   }
   local_box_ = {lo - traits_.skin, hi + traits_.skin};
-  const glm::vec3 none(0.0f), last = drift(end_);
-  world_box_ = {local_box_.lo + glm::min(last, none), local_box_.hi + glm::max(last, none)};
+  const glm::vec3 still(0.0f), last = drift(end_);
+  world_box_ = {local_box_.lo + glm::min(last, still), local_box_.hi + glm::max(last, still)};
   // The boxes alone do not show a NaN: min and max may drop it.
   const glm::vec3 all = centre_ + mean_velocity_ + (world_box_.hi - world_box_.lo);
   live_ = std::isfinite(all.x + all.y + all.z + velocity_spread_);
