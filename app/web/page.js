@@ -11,8 +11,9 @@ function refuse(text) {
   element('text').textContent = text;
   cover.hidden = false;
   bar.remove();
-  const plain = cover.querySelector('a');
-  plain.hidden = !location.search;
+  element('bar')?.remove();
+  const [plain, all] = cover.querySelectorAll('a');
+  plain.hidden = all.hidden = !location.search;
   plain.href = location.pathname;
 }
 
@@ -43,10 +44,11 @@ globalThis.Module = {
   printErr: line => {
     console.error(line);
     const [, why] = line.match(/(?:^|\r)sbcollide: (.*)$/) ?? [];  // a line of progress may stand before it
-    if (why) refuse(why);
+    if (why) refuse(why.replace(/;? [Ss]ee sbcollide (\w+ )?--help/, '').replace(/--(?=[a-z])/g, ''));
   },
   preRun: [restorePreferences],
   postRun: [() => {
+    element('text').classList.toggle('printed', printed);
     if (printed) refuse(printed);
     if (!bar.isConnected) return;
     new ResizeObserver(resize).observe(place);
