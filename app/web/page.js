@@ -44,6 +44,7 @@ globalThis.Module = {
   printErr: line => {
     console.error(line);
     const [, why] = line.match(/(?:^|\r)sbcollide: (.*)$/) ?? [];  // a line of progress may stand before it
+    // An address writes options without dashes, and a link leads to their list.
     if (why) refuse(why.replace(/;? [Ss]ee sbcollide (\w+ )?--help/, '').replace(/--(?=[a-z])/g, ''));
   },
   preRun: [restorePreferences],
