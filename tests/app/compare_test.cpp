@@ -188,7 +188,7 @@ TEST(Comparison, TimesOneMethodAPart) {
   EXPECT_EQ(parts, report->order.size() + 1) << "the last part scores";
 }
 
-TEST(MeanMs, PreparesEachRunAndRepeatsWhatTheClockCannotSee) {
+TEST(MeanMs, PreparesEachRunAndTakesTime) {
   int prepared = 0, runs = 0;
   const double ms = mean_ms([&] { ++prepared; }, [&] { ++runs; });
   EXPECT_EQ(prepared, runs);
